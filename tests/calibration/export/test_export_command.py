@@ -360,6 +360,8 @@ def test_the_result_has_a_schema(monkeypatch: pytest.MonkeyPatch, capsys: pytest
     ("arguments", "message"),
     [
         ("LEG ARM --to icub-matrix -o OUT", "--to icub-matrix: a file holds one matrix, got 2 calibrations"),
+        ("BOTH --to icub-matrix -o OUT", "--to icub-matrix: a file holds one matrix, got 2 calibrations"),
+        ("BOTH --to numpy -o OUT", "--to numpy: a file holds one matrix, got 2 calibrations"),
         ("LEG --to csv -o OUT --full-scale 1 1 1 1 1 1", "--full-scale: only files of --to icub-matrix"),
         ("LEG --to csv -o OUT --sensor-name x", "--sensor-name: expected --to wholebodydynamics and one calibration"),
         ("LEG ARM --to wholebodydynamics -o OUT --sensor-name x", "--sensor-name: expected --to wholebodydynamics"),
@@ -397,6 +399,9 @@ def test_wrong_requests_are_one_line_and_write_nothing(
     """The line says what to change; the exit code is 2, and no file changes."""
     seven = np.hstack([MOUNTED, np.ones((6, 1))])
     (tmp_path / "folder").mkdir()
+    (tmp_path / "both").mkdir()
+    for name in ("arm_ft", "leg_ft"):
+        _written(tmp_path / "both" / f"{name}.json", make_calibration(name=name))
     _written(tmp_path / "arm.json", make_calibration(name="arm_ft"))
     _written(tmp_path / "arm2.json", make_calibration(name="arm_ft", serial="SN002"))
     _written(tmp_path / "warm.json", make_calibration(variables=(make_variable(),)))
@@ -410,6 +415,7 @@ def test_wrong_requests_are_one_line_and_write_nothing(
         "OUT": tmp_path / "out.file",
         "LEG": leg,
         "FOLDER": tmp_path / "folder",
+        "BOTH": tmp_path / "both",
         "NOWHERE": tmp_path / "nowhere" / "x",
     }
     others = ("arm", "arm2", "leg2", "bare", "wide", "unranged", "warm", "volts", "none")

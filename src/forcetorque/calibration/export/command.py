@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
 
 def export(
-    calibration: Annotated[list[Path], typer.Argument(help="Calibration files; one for icub-matrix and numpy.")],
+    calibration: Annotated[
+        list[Path], typer.Argument(help="Calibration files or folders of them; one calibration for icub-matrix, numpy.")
+    ],
     to: Annotated[
         ExportFormat,
         typer.Option(
@@ -84,12 +86,12 @@ def export(
     from forcetorque.results.terminal.reading import read_calibrations
 
     log = start_logging()
-    _require_consistent(
-        calibration, to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream, frame_id=frame_id
-    )
     refuse_two_on_standard_output(output, output_format)
     declare_outputs(output, force=force)
     calibrations = read_calibrations(calibration)
+    _require_consistent(
+        len(calibrations), to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream, frame_id=frame_id
+    )
     made_with = None if stream is None else read_calibration(stream)
     writers: dict[ExportFormat, Callable[[], Export]] = {
         ExportFormat.ICUB_MATRIX: lambda: export_icub_matrix(
@@ -116,7 +118,7 @@ def export(
 
 
 def _require_consistent(
-    paths: list[Path],
+    count: int,
     *,
     to: ExportFormat,
     full_scale: Sequence[int] | None,
@@ -126,18 +128,15 @@ def _require_consistent(
 ) -> None:
     if frame_id and to is not ExportFormat.ROS2:
         raise ForceTorqueError(f"--frame-id: only files of --to {ExportFormat.ROS2} hold frames of tf, not {to}")
-    if to in (ExportFormat.ICUB_MATRIX, ExportFormat.NUMPY) and len(paths) != 1:
-        raise ForceTorqueError(
-            f"--to {to}: a file holds one matrix, got {len(paths)} calibrations; export each by itself"
-        )
+    if to in (ExportFormat.ICUB_MATRIX, ExportFormat.NUMPY) and count != 1:
+        raise ForceTorqueError(f"--to {to}: a file holds one matrix, got {count} calibrations; export each by itself")
     if full_scale is not None and to is not ExportFormat.ICUB_MATRIX:
         raise ForceTorqueError(
             f"--full-scale: only files of --to {ExportFormat.ICUB_MATRIX} hold full scales, not {to}"
         )
     for_one = "--stream" if stream is not None else None if sensor_name is None else "--sensor-name"
     named = to is ExportFormat.ROS2 and stream is None
-    if for_one is not None and not ((named or to is ExportFormat.WHOLEBODYDYNAMICS) and len(paths) == 1):
+    if for_one is not None and not ((named or to is ExportFormat.WHOLEBODYDYNAMICS) and count == 1):
         raise ForceTorqueError(
-            f"{for_one}: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, "
-            f"got --to {to} and {len(paths)}"
+            f"{for_one}: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, got --to {to} and {count}"
         )
