@@ -9,6 +9,7 @@ import pytest
 
 from forcetorque.results.answer import (
     EXPERIMENT,
+    FIRST_EXPERIMENT,
     MOST_LINES,
     Answer,
     Concern,
@@ -112,3 +113,13 @@ def test_an_amount_has_two_digits_that_count(value: float, text: str) -> None:
     """And no power of ten, however small it is."""
     assert amount(value, "N") == text
     assert "e" not in amount(1e-7, "N")
+
+
+def test_a_command_of_one_file_has_the_first_of_several() -> None:
+    """Where others have all; without files both have a word for any."""
+    one, all_ = (
+        Answer(subject="arm", verdict="USE", command=typed("inspect", name)) for name in (FIRST_EXPERIMENT, EXPERIMENT)
+    )
+    assert answer_text([one], 80, "a.toml b.toml", "a.toml").splitlines()[-1] == "  forcetorque inspect a.toml"
+    assert answer_text([all_], 80, "a.toml b.toml", "a.toml").splitlines()[-1] == "  forcetorque inspect a.toml b.toml"
+    assert answer_text([one], 80).splitlines()[-1] == "  forcetorque inspect EXPERIMENT.toml"

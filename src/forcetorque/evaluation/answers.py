@@ -19,7 +19,7 @@ from forcetorque.evaluation.load_cases.verdict import (
 )
 from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
@@ -136,7 +136,7 @@ def _step(use: LoadCaseVerdict) -> tuple[str, str]:
     if remedy is None:
         return to_export(use.calibration, use.sensor)
     if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
-        return remedy, typed("inspect", EXPERIMENT)
+        return remedy, typed("inspect", FIRST_EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
     return remedy, to_plan(use.calibration) if records else ""
 

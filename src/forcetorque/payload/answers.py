@@ -11,7 +11,7 @@ from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagr
 from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names
 
@@ -150,7 +150,7 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
         worst = _worst_session(weighed)
         which = "what disagrees, in --details" if worst is None else f"{worst!r}, which disagrees"
         words = f"look at {which}: contact is the likely cause; leave that out of the fit, and repeat"
-        return words, typed("inspect", EXPERIMENT)
+        return words, typed("inspect", FIRST_EXPERIMENT)
     if weighed.undetermined:
         return "record more postures, which turn the load about other axes", ""
     step = "write it to a file that the robot reads"
@@ -186,6 +186,6 @@ def tare_answers(tare: Tare) -> Iterator[Answer]:
                 f"{row.samples} samples of {row.interval!r}",
             ),
             step="state an interval at rest" if moves else "",
-            command=typed("inspect", EXPERIMENT) if moves else "",
+            command=typed("inspect", FIRST_EXPERIMENT) if moves else "",
             concern=Concern.UNCERTAIN if moves else Concern.NONE,
         )

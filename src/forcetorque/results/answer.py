@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Final
@@ -14,6 +14,8 @@ from forcetorque.results.table_rendering import shortened, wrapped
 
 EXPERIMENT: Final = "{experiment}"
 """Stands in a command for the experiment files that were typed."""
+FIRST_EXPERIMENT: Final = "{first experiment}"
+"""Stands in a command that takes one experiment file for the first of them."""
 _ANY = "EXPERIMENT.toml"
 MOST_LINES: Final = 12
 """Lines of the answer about one sensor or one thing at 80 characters, warnings included; a further one adds a line."""
@@ -43,12 +45,13 @@ def typed(*words: str) -> str:
     """Write a command as it is typed.
 
     Args:
-        words: Its words, without the name of the program; `EXPERIMENT` stands for the files that were typed.
+        words: Its words, without the name of the program; `EXPERIMENT` stands for the files that were typed, and
+            `FIRST_EXPERIMENT` for the first of them.
 
     Returns:
         The words, in quotes where a shell needs them.
     """
-    return " ".join(word if word == EXPERIMENT else shlex.quote(word) for word in words)
+    return " ".join(word if word in (EXPERIMENT, FIRST_EXPERIMENT) else shlex.quote(word) for word in words)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,13 +74,14 @@ class Answer:
     """How much it asks for attention."""
 
 
-def answer_text(answers: Sequence[Answer], width: int, experiment: str = "") -> str:
+def answer_text(answers: Sequence[Answer], width: int, experiment: str = "", first: str = "") -> str:
     """Write answers for people: a line for each, the worst first, and why and what next for the worst.
 
     Args:
         answers: The answers.
         width: Characters of a line.
         experiment: What stands for the experiment files in commands; a word for any if empty.
+        first: What stands for the first of them.
 
     Returns:
         Lines, each with its end; empty without answers.
@@ -85,10 +89,11 @@ def answer_text(answers: Sequence[Answer], width: int, experiment: str = "") -> 
     if not answers:
         return ""
     ordered = sorted(answers, key=lambda answer: -answer.concern)
-    return "".join(f"{line}\n" for line in _lines(ordered, width, experiment))
+    names = {EXPERIMENT: experiment or _ANY, FIRST_EXPERIMENT: first or experiment or _ANY}
+    return "".join(f"{line}\n" for line in _lines(ordered, width, names))
 
 
-def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[str]:
+def _lines(answers: Sequence[Answer], width: int, names: Mapping[str, str]) -> Iterator[str]:
     for answer in answers:
         yield _headline(answer, width)
         if answer is answers[0]:
@@ -101,7 +106,10 @@ def _lines(answers: Sequence[Answer], width: int, experiment: str) -> Iterator[s
     if worst.step:
         yield wrapped(f"next: {worst.step}", width)
     if worst.command:
-        yield _command(f"forcetorque {worst.command.replace(EXPERIMENT, experiment or _ANY)}", width)
+        command = worst.command
+        for placeholder, name in names.items():
+            command = command.replace(placeholder, name)
+        yield _command(f"forcetorque {command}", width)
 
 
 def _headline(answer: Answer, width: int) -> str:

@@ -8,7 +8,7 @@ import pytest
 from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
-from forcetorque.results.answer import EXPERIMENT, Concern
+from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Concern
 
 
 def _criterion(name: str, measured: float, limit: float, bound: Bound = Bound.AT_MOST, **given: str) -> Criterion:
@@ -81,7 +81,7 @@ def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:
 @pytest.mark.parametrize(
     ("name", "candidate", "command"),
     [
-        ("recording.lost_share", "leg.json", f"inspect {EXPERIMENT}"),
+        ("recording.lost_share", "leg.json", f"inspect {FIRST_EXPERIMENT}"),
         ("excitation.condition", "leg.json", f"plan {EXPERIMENT} -c leg.json --clearance-deg 10"),
         ("evaluate.rmse.fz", "leg.json", f"evaluate {EXPERIMENT} -c leg.json --details"),
         ("evaluate.rmse.fz", "prior", f"calibrate {EXPERIMENT} --sensor leg -o leg.json"),

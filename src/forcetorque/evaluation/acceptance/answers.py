@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
 from forcetorque.experiment.calibrations_under_test import PRIOR
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def _step(worst: Criterion) -> tuple[str, str]:
     """What may meet the criterion that is farthest from its limit."""
     table, calibration = worst.criterion.partition(".")[0], worst.calibration
     if table in _OF_RECORDINGS:
-        return "look for faults of the recording", typed("inspect", EXPERIMENT)
+        return "look for faults of the recording", typed("inspect", FIRST_EXPERIMENT)
     if calibration == PRIOR:
         return to_calibrate(worst.sensor)
     if table in _OF_INFORMATION:

@@ -111,7 +111,7 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    text = answer_text(answers, columns, files_text(experiments))
+    text = answer_text(answers, columns, files_text(experiments), files_text(experiments[:1]))
     sys.stdout.write(text)
     if details:
         sys.stdout.write("\n" + result.details(columns))
