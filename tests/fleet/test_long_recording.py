@@ -150,5 +150,5 @@ def test_a_segment_without_samples_is_left_out(recorded: Path, monkeypatch: pyte
     with monkeypatch.context() as lose:
         lose.setattr("forcetorque.experiment.sensor_run.SensorRun.interval_samples", lost)
         with pytest.raises(RecordingError, match="no sample in it to use"):
-            sensor_records(load_experiment(file), AddOptions(), "1")
+            list(sensor_records(load_experiment(file), AddOptions(), "1"))
     assert len(calls) > 1

@@ -163,9 +163,9 @@ def _added(
         with suppress(MissingFileError):  # another process replaced it meanwhile
             dataset.rows([one], ["code_version"])  # refuses one of a newer form, which this version cannot replace
     if not all(present.values()):
-        records = sensor_records(experiment, options, code_version, progress=progress)
-        _refuse_changing(experiment, source)
-        for record in records:
+        for number, record in enumerate(sensor_records(experiment, options, code_version, progress=progress)):
+            if not number:
+                _refuse_changing(experiment, source)
             if not present[record.identity.serial]:
                 dataset.write(record, options)
     for one in replaced:

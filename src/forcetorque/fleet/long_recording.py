@@ -11,6 +11,7 @@ from typing import Final
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, RecordingError
 from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages
 from forcetorque.calibration.moments import agreeing_moments, moments_of
@@ -121,7 +122,8 @@ class SegmentedSensor:
         self._run, self._block_s = run, block_s
         without = run.experiment.fit_options.with_variables is False
         self._variables: list[LinearVariable] = [] if without else [one.linear for one in run.sensor.variables]
-        self._moments: dict[str, list[IntervalMoments]] = {}
+        self._moments: dict[str, list[tuple[IntervalMoments, int]]] = {}
+        self._models = RowsOnDisk()  # derivatives by the robot model are most of what is kept
         self._pooled: list[Moments] = []
         self._doubts: list[dict[str, str]] = []
         self._left_out: list[str] = []
@@ -164,7 +166,10 @@ class SegmentedSensor:
         kept, left_out = agreeing_moments(run, intervals, variables=self._variables, block_s=self._block_s)
         self._left_out += left_out
         for block in kept:
-            self._moments.setdefault(block.interval.label, []).append(block)
+            own = self._moments.setdefault(block.interval.label, [])
+            own.append((block.model_copy(update={"model": None}), len(self._models)))
+            if block.model is not None:
+                self._models.append(block.model.ravel())
 
     def moments(self) -> RecordingMoments | None:
         """Put together what a calibration needs.
@@ -187,12 +192,14 @@ class SegmentedSensor:
                 )
             )
         require_moving_load(pooled(self._pooled))
-        recording = CampaignRecording.of(run)
+        recording, models = CampaignRecording.of(run), self._models.mapped()
         intervals = {interval.label: interval for interval in run.experiment.recording.intervals}
         blocks = [
             block
             for label, interval in intervals.items()
-            for block in _of_interval(self._moments.get(label, ()), interval.start_ns, interval.end_ns)
+            for block in _of_interval(
+                [_with_model(block, models[at:]) for block, at in self._moments.get(label, ())], interval
+            )
         ]
         said = [*_joined_doubts(self._doubts), *self._left_out]
         return moments_of(recording, _with_all_terms(blocks), variables=self._variables, doubts=said)
@@ -234,12 +241,20 @@ def _joined_doubts(doubts: Sequence[Mapping[str, str]]) -> Iterator[str]:
         yield f"{texts[0]}{_share(len(texts), len(doubts))}"
 
 
-def _of_interval(blocks: Sequence[IntervalMoments], start_ns: int, end_ns: int) -> Iterator[IntervalMoments]:
+def _with_model(block: IntervalMoments, values: FloatArray) -> IntervalMoments:
+    """A block with its derivatives, the first of some values."""
+    if not block.terms:
+        return block
+    shape = (len(block.time_s), 6 * len(block.terms))
+    return block.model_copy(update={"model": values[: shape[0] * shape[1]].reshape(shape)})
+
+
+def _of_interval(blocks: Sequence[IntervalMoments], interval: Interval) -> Iterator[IntervalMoments]:
     """Blocks of parts of an interval as those of the interval."""
     contents = [block.interval.content for block in blocks if block.interval.content is not None]
     content = _joined_content(contents)
     for block in blocks:
-        update = {"start_ns": start_ns, "end_ns": end_ns, "content": content}
+        update = {"start_ns": interval.start_ns, "end_ns": interval.end_ns, "content": content}
         yield block.model_copy(update={"interval": block.interval.model_copy(update=update)})
 
 

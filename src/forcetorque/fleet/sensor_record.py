@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -148,7 +148,7 @@ def recording_digest(experiment: Experiment) -> str:
 
 def sensor_records(
     experiment: Experiment, options: AddOptions, code_version: str, *, progress: Progress = lambda _: None
-) -> list[SensorRecord]:
+) -> Iterator[SensorRecord]:
     """Reduce a recording to what a dataset keeps of it; a long one segment by segment.
 
     Args:
@@ -157,15 +157,16 @@ def sensor_records(
         code_version: Version of this library.
         progress: Called with the time that is left, of a long recording.
 
-    Returns:
-        A record per sensor.
+    Yields:
+        A record per sensor; nothing of the log is read after the first.
     """
     segments = recorded_segments(experiment)
     runs = [SensorRun(experiment, sensor) for sensor in experiment.sensors]
     if len(segments) == 1:
         reduced = [_of_whole(run, options) for run in runs]
         found = _joined([own.findings for own in reduced])
-        return [_record(run, found, own, code_version) for run, own in zip(runs, reduced, strict=True)]
+        yield from (_record(run, found, own, code_version) for run, own in zip(runs, reduced, strict=True))
+        return
     sensors = [SegmentedSensor(run, block_s=options.block_s) for run in runs]
     findings: list[Sequence[Finding]] = []
     warnings: list[dict[str, None]] = [{} for _ in runs]
@@ -182,13 +183,12 @@ def sensor_records(
         findings.append(_joined(found_in))
         forget_recording(experiment)
     found_in_all = joined_findings(segments, findings)
-    records = []
-    for run, sensor, said in zip(runs, sensors, warnings, strict=True):
+    for run, said in zip(runs, warnings, strict=True):
+        sensor = sensors.pop(0)  # what is kept of it is let go with its record
         evaluated = sensor.evaluated()
         evaluation = None if evaluated is None else StoredEvaluation.of(run, evaluated)
         whole = _Reduced(moments=sensor.moments(), evaluation=evaluation, warnings=tuple(said), findings=())
-        records.append(_record(run, found_in_all, whole, code_version))
-    return records
+        yield _record(run, found_in_all, whole, code_version)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
