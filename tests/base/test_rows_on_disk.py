@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base import rows_on_disk
 from forcetorque.base.arrays import FloatArray, IntArray, is_frozen
 from forcetorque.base.errors import OutputError
-from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages
+from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated, forget_pages
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.int64])
@@ -46,3 +47,14 @@ def test_a_full_disk_names_the_folder(monkeypatch: pytest.MonkeyPatch) -> None:
     rows = RowsOnDisk()
     with pytest.raises(OutputError, match=r"No space left on device; name a folder .* TMPDIR"):
         rows.append(np.zeros(1_000_000))
+
+
+@pytest.mark.parametrize("in_memory", [0, 1000, 1 << 20])
+def test_arrays_behind_each_other(monkeypatch: pytest.MonkeyPatch, in_memory: int) -> None:
+    """In a file or in memory, of arrays in memory or in files, in any number of parts."""
+    monkeypatch.setattr(rows_on_disk, "IN_MEMORY", max(in_memory, 1))
+    arrays = np.array_split(np.random.default_rng(2).normal(size=(1000, 3)), 4)
+    first = concatenated(arrays[:2])
+    whole = concatenated([first, *arrays[2:]])
+    assert is_frozen(whole)
+    assert np.array_equal(whole, np.concatenate(arrays))

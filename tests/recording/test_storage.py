@@ -283,7 +283,7 @@ def test_a_long_stream_that_is_mapped_reads_back_bit_by_bit(
     counted = stream(even_stamps(20), signal("position", values), signal("wrench", np.eye(20, 6)), sequence=range(20))
     whole = recording(counted, stream([], name="empty"))
     write_recording(tmp_path / "log", whole)
-    monkeypatch.setattr(storage, "_IN_MEMORY", -1)
+    monkeypatch.setattr(storage, "IN_MEMORY", -1)
     monkeypatch.setattr(storage, "_BATCH", batch)
     again = read_recording(tmp_path / "log")
     assert described(again) == described(whole)

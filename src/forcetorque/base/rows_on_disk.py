@@ -1,19 +1,54 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers that are kept in a temporary file and mapped for reading, where they would fill the memory."""
+"""Numbers that are kept in a temporary file and mapped for reading, where they would fill the memory, else in it."""
 
 from __future__ import annotations
 
 import mmap
 import tempfile
 import weakref
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.errors import OutputError
+
+IN_MEMORY: Final = 1 << 26
+"""Bytes of a stream up to which it is held in memory."""
+
+
+class RowsInMemory:
+    """Rows that are written one after the other, in memory."""
+
+    def __init__(self, count: int, shape: tuple[int, ...] = (), dtype: npt.DTypeLike = np.float64) -> None:
+        """Take the memory.
+
+        Args:
+            count: How many rows there will be.
+            shape: Shape of a row.
+            dtype: Kind of the numbers.
+        """
+        self._rows, self._length = np.empty((count, *shape), dtype=dtype), 0
+
+    def append(self, rows: npt.NDArray[Any]) -> None:
+        """Write rows behind the others.
+
+        Args:
+            rows: Numbers; shape (n, *shape).
+        """
+        self._rows[self._length : self._length + len(rows)] = rows
+        self._length += len(rows)
+
+    def mapped(self) -> npt.NDArray[Any]:
+        """Give all rows; no more can be written.
+
+        Returns:
+            The rows, read-only; shape (count, *shape).
+        """
+        self._rows.setflags(write=False)
+        return self._rows
 
 
 class RowsOnDisk:
@@ -43,7 +78,8 @@ class RowsOnDisk:
             OutputError: If the disk is full.
         """
         with _named_folder():
-            self._file.write(np.ascontiguousarray(rows, dtype=self._dtype).tobytes())
+            for part in np.array_split(rows, max(rows.nbytes // IN_MEMORY, 1)):
+                self._file.write(np.ascontiguousarray(part, dtype=self._dtype).tobytes())
         self._rows += len(rows)
 
     def mapped(self) -> npt.NDArray[Any]:
@@ -65,6 +101,25 @@ class RowsOnDisk:
         pages = mmap.mmap(self._file.fileno(), 0, access=mmap.ACCESS_READ)
         self._close()
         return np.frombuffer(pages, dtype=self._dtype).reshape(-1, *self._shape)
+
+
+def concatenated(arrays: Sequence[npt.NDArray[Any]]) -> npt.NDArray[Any]:
+    """Put arrays behind each other, in a temporary file where they are large.
+
+    Args:
+        arrays: At least one, of rows of one shape and kind.
+
+    Returns:
+        All rows, read-only.
+    """
+    count, first = sum(map(len, arrays)), arrays[0]
+    is_long = sum(array.nbytes for array in arrays) > IN_MEMORY
+    shape = first.shape[1:]
+    rows = RowsOnDisk(shape, first.dtype) if is_long else RowsInMemory(count, shape, first.dtype)
+    for array in arrays:
+        rows.append(array)
+        forget_pages([array])
+    return rows.mapped()
 
 
 @contextmanager

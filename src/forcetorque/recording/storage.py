@@ -21,7 +21,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.arrow import arrow_array, arrow_numbers, require_small_parquet
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.base.output_file import real_path, temporary_beside
-from forcetorque.base.rows_on_disk import RowsOnDisk
+from forcetorque.base.rows_on_disk import IN_MEMORY, RowsOnDisk
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 
@@ -31,8 +31,6 @@ SCHEMA = "forcetorque/recording/1"
 """Name and version of the form."""
 
 _METADATA_KEY = b"forcetorque"
-_IN_MEMORY = 1 << 26
-"""Bytes of a stream up to which it is held in memory."""
 _BATCH, _BUFFER = 1 << 16, 1 << 20
 """Rows of a longer stream that are read at a time, and bytes of its file."""
 
@@ -249,7 +247,7 @@ def _columns(file: Any, widths: Mapping[str, int], counters: Sequence[str]) -> d
         numbers = {name: _integers(table, name) for name in counters}
         return numbers | {name: _samples(table, name, width=width) for name, width in widths.items()}
 
-    if 8 * file.metadata.num_rows * (sum(widths.values()) + len(counters)) <= _IN_MEMORY:
+    if 8 * file.metadata.num_rows * (sum(widths.values()) + len(counters)) <= IN_MEMORY:
         return of(file.read().combine_chunks())
     rows = {name: RowsOnDisk(dtype=np.int64) for name in counters}
     rows |= {name: RowsOnDisk((width,)) for name, width in widths.items()}
