@@ -263,3 +263,26 @@ def test_ten_million_rows_take_little_more_than_their_numbers(tmp_path: Path, ki
     result_mb = rows * (6 * 8 + 16) / 2**20
     assert peak_mb < result_mb + FIXED_MB
     print(f"{kind}: {path.stat().st_size / 2**20:.0f} MB, {peak_mb} MB of which {result_mb:.0f} MB are the result")  # noqa: T201
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_a_long_table_is_mapped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str) -> None:
+    """Text or Parquet, in several blocks: bit by bit what is read into memory, in SI units."""
+    rng = np.random.default_rng(3)
+    columns = {"t": np.arange(5000) * 0.01, "x": rng.normal(size=5000), "y": rng.normal(size=5000)}
+    file = tmp_path / f"log.{ending}"
+    table = pa.table(columns)
+    if ending == "csv":
+        pacsv.write_csv(table, file)
+    else:
+        pq.write_table(table, file, row_group_size=1000)
+    layout = TableLayout(
+        stamp=StampColumn(column="t", unit="s"),
+        signals=(TableSignal(quantity="position", columns=("x", "y"), units=("deg", "deg")),),
+    )
+    (expected,) = read_table(file, layout, stream="joints", clock="log").streams
+    monkeypatch.setattr("forcetorque.formats.tabular.table.IN_MEMORY", 1)
+    monkeypatch.setattr("forcetorque.formats.tabular.row_readers.BLOCK_SIZE", 10_000)
+    (mapped,) = read_table(file, layout, stream="joints", clock="log").streams
+    assert np.array_equal(mapped.stamp_ns, expected.stamp_ns)
+    assert np.array_equal(mapped.signals["position"].values, expected.signals["position"].values)
