@@ -35,7 +35,6 @@ from forcetorque.inspection.file_contents import (
     calibration_row,
     clock_rows,
     column_rows,
-    sketch_text,
     stream_rows,
     stream_table,
     times_text,
@@ -131,7 +130,6 @@ class Inspection(Result):
                 yield self.times
             if self.skipped_arrays:
                 yield not_read_message(self.skipped_arrays)
-            yield sketch_text(self.unread, self.source)
             if self.sensor is None:
                 return
         yield stream_table(self.streams, f"{self.source}: streams")
