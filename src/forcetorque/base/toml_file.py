@@ -182,7 +182,7 @@ def parsed_toml(file: Path, *, what: str) -> tuple[str, dict[str, Any]]:
         FormatError: If it is not TOML.
     """
     if not file.is_file():
-        raise MissingFileError(f"{file}: expected {what}, there is none")
+        raise MissingFileError(f"{file}: expected {what}, {'got a folder' if file.is_dir() else 'there is none'}")
     try:
         return toml_content(file)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds

@@ -13,6 +13,7 @@ from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
@@ -25,7 +26,7 @@ from forcetorque.experiment.core_tables import (
     TransformTable,
 )
 from forcetorque.experiment.section import Section, sections
-from forcetorque.formats.registry import AnyLog
+from forcetorque.formats.registry import AnyLog, format_name, recognised_format
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import ContactType
 
@@ -285,5 +286,15 @@ def parse_experiment(path: Path | str) -> ExperimentFile:
 
     Returns:
         Its content.
+
+    Raises:
+        FormatError: If it is a log.
     """
-    return read_toml(path, experiment_file(), what="an experiment file")
+    file = Path(path)
+    is_other = file.suffix.lower() != ".toml" and file.exists()
+    if is_other and (log := recognised_format(file)) is not None:
+        raise FormatError(
+            f"{file}: expected an experiment file, got a log of the format {format_name(log)}; `forcetorque init "
+            f"{file}` begins an experiment file"
+        )
+    return read_toml(file, experiment_file(), what="an experiment file")
