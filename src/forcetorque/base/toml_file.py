@@ -186,7 +186,8 @@ def parsed_toml(file: Path, *, what: str) -> tuple[str, dict[str, Any]]:
     try:
         return toml_content(file)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
-        raise FormatError(f"{file}: expected TOML, got {error}") from error
+        expected = "TOML" if file.suffix.lower() == ".toml" else f"{what} (TOML)"
+        raise FormatError(f"{file}: expected {expected}, got {error}") from error
 
 
 def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) -> _Content:
