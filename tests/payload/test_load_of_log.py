@@ -12,6 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.results.answer import MOST_LINES
 from forcetorque.simulation.robots import ARM_URDF
 from tests.app.outcome import Run
 from tests.formats.franka.states import CENTRE, MASS, states, write_states, write_table
@@ -38,6 +39,16 @@ def test_a_recording_is_enough(tmp_path: Path, run: Run) -> None:
     assert "assumed: actual_TCP_force is the force of the tool on the arm" in shown.out
     assert "--to ur" in shown.out
     assert run("payload", file).out.splitlines()[:4] == shown.out.splitlines()[:4]
+
+
+def test_a_file_that_was_written_is_named_and_not_the_next_step(tmp_path: Path, run: Run) -> None:
+    """It is what would come next; without it the command that writes it does. Twelve lines at 80 characters too."""
+    log, file = _written(tmp_path, _few(raw=True)), tmp_path / "load.script"
+    without, written = run("payload", log, columns=80), run("payload", log, "--to", "ur", "-o", file, columns=80)
+    assert "\nnext: write it to a file that the robot reads\n" in without.out
+    assert "next:" not in written.out
+    assert f"written: {file}" in " ".join(written.out.split())
+    assert max(len(shown.out.splitlines()) for shown in (without, written)) <= MOST_LINES
 
 
 def test_the_declared_payload_is_part_of_the_load(tmp_path: Path, run: Run) -> None:

@@ -13,6 +13,7 @@ from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
@@ -26,7 +27,7 @@ from forcetorque.experiment.core_tables import (
     TransformTable,
 )
 from forcetorque.experiment.section import Section, sections
-from forcetorque.formats.registry import AnyLog
+from forcetorque.formats.registry import AnyLog, format_name, recognised_format
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import ContactType
 
@@ -288,8 +289,17 @@ def parse_experiment(path: Path | str) -> ExperimentFile:
 
     Returns:
         Its content.
+
+    Raises:
+        FormatError: If it is a log.
     """
     file = Path(path)
+    is_other = file.suffix.lower() != ".toml" and file.exists()
+    if is_other and (log := recognised_format(file)) is not None:
+        raise FormatError(
+            f"{file}: expected an experiment file, got a log of the format {format_name(log)}; `forcetorque init "
+            f"{file}` begins an experiment file"
+        )
     content = b""
     if file.is_file():
         require_file(file, "an experiment file")  # also of a file that was parsed before: it is an input of this run

@@ -31,7 +31,8 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     """
     contradicted = any(row.severity == "contradiction" for row in weighed.hypotheses)
     contradicted |= any(arm.contradictions for arm in weighed.arms)
-    step, command = _payload_step(weighed)
+    written = weighed.robot_file is not None and not contradicted  # the file is what would come next
+    step, command = ("", "") if written else _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
         doubtful = bool(contradicted or weighed.undetermined or load.mass_kg is None or samples_disagree(weighed))
@@ -41,6 +42,7 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
             why=(*_reasons(weighed), *_assumed(weighed)),
             step=step,
             command=command,
+            written=(weighed.robot_file,),
             concern=Concern.BAD if contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
         )
 
@@ -63,7 +65,8 @@ def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
     if samples_disagree(weighed):
         first = reason_to_withhold(weighed.model_copy(update={"hypotheses": ()})) or ""
         return (first, *_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
-    return (*_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
+    samples = () if weighed.arms else (_samples(weighed),)  # what is assumed of a log takes their place
+    return (*_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), *samples)
 
 
 def _turned(weighed: WeighedLoad) -> Iterator[str]:
@@ -177,15 +180,14 @@ def tare_answers(tare: Tare) -> Iterator[Answer]:
         )
         weight = float((row.load[FORCE_AND_MOMENT[0]] ** 2).sum() ** 0.5)
         moves = row.load_moves_N > STILL * weight
+        weighs = "the load " if moves else f"the load weighs {amount(weight, 'N')} and "
         yield Answer(
             subject=f"{row.sensor} ({row.serial}), {name}",
             verdict="THE LOAD MOVES" if moves else f"force offset {force}",
             why=(
                 f"moment offset {moment}; {'force offset ' + force + '; ' if moves else ''}to be added to measurements",
-                f"the load weighs {amount(weight, 'N')} and moves by {amount(row.load_moves_N, 'N')} in "
-                f"{row.samples} samples of {row.interval!r}",
+                f"{weighs}moves by {amount(row.load_moves_N, 'N')} in {row.samples} samples of {row.interval!r}",
             ),
-            step="state an interval at rest" if moves else "",
-            command=typed("inspect", FIRST_EXPERIMENT) if moves else "",
+            step="add an [[interval]] in which nothing moves, and name it by --interval" if moves else "",
             concern=Concern.UNCERTAIN if moves else Concern.NONE,
         )

@@ -188,6 +188,7 @@ def payload(
             robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=load, override=override)
             log.info("the bias is that of %r, the last power-up; tare before use", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
+            load = load.model_copy(update={"robot_file": str(output)})
     if STANDARD_OUTPUT in (output, save_experiment):  # the file itself went there
         show_warnings(load)
     else:
