@@ -13,7 +13,6 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.results.answer import MOST_LINES
-from forcetorque.simulation.robots import ARM_URDF
 from tests.app.outcome import Run
 from tests.formats.franka.states import CENTRE, MASS, states, write_states, write_table
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
@@ -164,27 +163,12 @@ def test_what_lacks_is_named(tmp_path: Path, run: Run) -> None:
     table = tmp_path / "table.csv"
     table.write_text("t,fx\n" + "".join(f"{k},{k}\n" for k in range(20)), encoding="utf-8")
     other = run("payload", table).error()
-    assert "a log whose format fixes frame and sign of a wrench (ur_rtde or franka), got a log of the format" in other
+    expected = "a log whose format fixes frame and sign of a wrench (ros or ur_rtde or franka), got a log of the format"
+    assert expected in other
     file = tmp_path / "wrist.toml"
     assert run("payload", log, "--recording", "moment_about=tcp", "--save-experiment", file).code == 0
     assert "expected a log, got experiment files" in run("payload", file, "--recording", "gravity=9.8").error()
     assert "expected one log, got 0" in run("payload", file, "--save-experiment", tmp_path / "x.toml").error()
-
-
-def test_what_a_bag_lacks_is_named(tmp_path: Path, run: Run) -> None:
-    """Sign, vertical and, of several, the topic: ROS fixes none of them."""
-    bags = pytest.importorskip("tests.formats.ros.bags")
-    types, kind = bags.Types("mcap"), "geometry_msgs/msg/WrenchStamped"
-    wrenches = (kind, [types.wrench(k, np.arange(6.0) + k) for k in range(9)])
-    one = bags.write_bag(tmp_path / "one", "mcap", {"/ft": wrenches})
-    refused = run("payload", one).error()
-    assert "does not say who acts on whom in /ft (measure_direction); which frame has z up (world)" in refused
-    assert f"`forcetorque init {one}` begins an experiment file" in refused
-    text = ("std_msgs/msg/String", [types.text(ARM_URDF.read_text(encoding="utf-8"))])
-    topics = {"/ft": wrenches, "/other": wrenches, "/robot_description": text}
-    several = run("payload", bags.write_bag(tmp_path / "several", "mcap", topics)).error()
-    assert "does not say which of /ft, /other is the sensor's; who acts on whom in it" in several
-    assert "which link is the support, and where down is" in several
 
 
 @pytest.mark.real_data

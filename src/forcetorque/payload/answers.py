@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.formats.logged_wrist import BAG
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree
 from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
@@ -157,9 +158,9 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.undetermined:
         return "record more postures, which turn the load about other axes", ""
     step = "write it to a file that the robot reads"
-    if not weighed.arms:
-        return step, typed("payload", EXPERIMENT, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
-    specified = [word for entry in weighed.arms[-1].specified for word in ("--recording", entry)]
+    specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
+    if not weighed.arms or weighed.arms[-1].controller == BAG:
+        return step, typed("payload", EXPERIMENT, *specified, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
     return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")
 
 

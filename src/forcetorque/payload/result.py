@@ -337,7 +337,7 @@ class ArmLog(Row):
     """A log of an arm that was read without an experiment file."""
 
     controller: Annotated[str, Shown("controller")]
-    """Kind of the controller, `ur` or `franka`."""
+    """Kind of the controller, `ur` or `franka`; `ros` of a bag."""
     specified: tuple[str, ...]
     """Keys of `[recording]` with the values that were given beside the log, as `moment_about="flange"`."""
     assumed: tuple[str, ...]

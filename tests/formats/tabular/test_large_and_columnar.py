@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
@@ -14,11 +15,13 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pyarrow.csv as pacsv
+import pyarrow.feather as feather
 import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.tabular import row_readers as text
 from forcetorque.formats.tabular.log_format import sketch_table
 from forcetorque.formats.tabular.table import read_frame, read_table
@@ -157,6 +160,64 @@ def test_lists_of_several_lengths_are_refused_by_their_row(tmp_path: Path) -> No
     beyond = replace(OF_LIST.signals[0], columns=(*OF_LIST.signals[0].columns[:5], "wrench[6]"))
     with pytest.raises(FormatError, match=r"expected one column 'wrench\[6\]'"):
         _stream(path, replace(OF_LIST, signals=(beyond,)))
+
+
+def _write_file(path: Path, table: pa.Table) -> None:
+    with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_file(sink, table.schema) as writer:
+        writer.write_table(table, max_chunksize=70)
+
+
+def _write_stream(path: Path, table: pa.Table) -> None:
+    with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_stream(sink, table.schema) as writer:
+        writer.write_table(table, max_chunksize=70)
+
+
+def _write_feather(path: Path, table: pa.Table) -> None:
+    feather.write_feather(table, path, compression="zstd", chunksize=70)
+
+
+ARROW: dict[str, Callable[[Path, pa.Table], None]] = {
+    "log.arrow": _write_file,
+    "stream.arrow": _write_stream,
+    "log.feather": _write_feather,
+}
+
+
+@pytest.mark.parametrize("name", ARROW)
+def test_arrow_is_read_as_parquet_is(tmp_path: Path, name: str) -> None:
+    """Columns, lists, extents and missing values, of files, streams and packed batches."""
+    columns, path = _columns(ROWS), tmp_path / name
+    ARROW[name](path, pa.table(columns))
+    _same(_stream(path))
+    assert recognised_format(path) is not None
+    sketch = sketch_table(path)
+    assert [column.name for column in sketch.columns] == list(columns)
+    assert (sketch.columns[3].largest, sketch.columns[3].rows) == (columns["fz"].max(), ROWS)
+    rows = np.column_stack([columns[name] for name in WRENCH_COMPONENTS]).tolist()
+    ARROW[name](path, pa.table({"wrench": pa.array([None, *rows[1:]]), "t": columns["t"]}))
+    values = _stream(path, OF_LIST).signal("wrench").values
+    assert np.isnan(values[0]).all()
+    np.testing.assert_array_equal(values[1:, :3], np.array(rows)[1:, :3])
+    with pytest.raises(FormatError, match="expected one column 'fx'"):
+        _stream(path)
+
+
+@pytest.mark.parametrize("name", ARROW)
+def test_damaged_arrow_is_refused(tmp_path: Path, name: str) -> None:
+    """Cut files, and none without rows; a file of another kind is not taken for a stream."""
+    path = tmp_path / name
+    ARROW[name](path, pa.table(_columns(ROWS)))
+    whole = path.read_bytes()
+    for size in (8, 300, len(whole) // 2):
+        path.write_bytes(whole[:size])
+        with pytest.raises(FormatError, match="expected a whole table"):
+            _stream(path)
+    ARROW[name](path, pa.table(_columns(0)))
+    with pytest.raises(FormatError, match="expected rows, got none"):
+        _stream(path)
+    other = tmp_path / "log.bin"
+    other.write_bytes(b"\xff" * 64)
+    assert recognised_format(other) is None
 
 
 def _replaced_in_footer(path: Path, old: bytes, new: bytes) -> None:

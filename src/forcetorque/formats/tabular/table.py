@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading a table whose columns are declared: text, Parquet, or a data frame of pandas.
+"""Reading a table whose columns are declared: text, Parquet, Arrow, or a data frame of pandas.
 
 A block of the table is in memory at a time, and besides the result, 8 bytes for each number and 16 for each stamp;
 that of a long table is mapped from a temporary file.
@@ -21,10 +21,10 @@ from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.signals import even_stamps, specified_quantity, units_in_si
 from forcetorque.formats.tabular.numbers import column_floats, column_stamps
 from forcetorque.formats.tabular.row_readers import (
+    columnar_columns,
+    columnar_rows,
     frame_rows,
-    is_parquet_file,
-    parquet_columns,
-    parquet_rows,
+    is_columnar_file,
     text_columns,
     text_rows,
 )
@@ -44,7 +44,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     finite number. Columns that the layout does not name are not looked at.
 
     Args:
-        path: Text file, or a Parquet file, whose columns have their own names.
+        path: Text file, or a file of Parquet or Arrow, whose columns have their own names.
         layout: What its columns mean.
         stream: Name for the stream.
         clock: Name of the clock of its stamps; a table without times has the clock `row`.
@@ -59,7 +59,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a table, there is no such file")
-    rows = parquet_rows(file, layout) if is_parquet_file(file) else text_rows(file, layout)
+    rows = columnar_rows(file, layout) if is_columnar_file(file) else text_rows(file, layout)
     return read_rows(rows, layout, stream=stream, clock=clock)
 
 
@@ -67,12 +67,12 @@ def table_columns(path: Path) -> list[str]:
     """Name the columns of a table.
 
     Args:
-        path: Text file whose first line has headings between commas, or a Parquet file.
+        path: Text file whose first line has headings between commas, or a file of Parquet or Arrow.
 
     Returns:
         Their names.
     """
-    return parquet_columns(path) if is_parquet_file(path) else text_columns(path)
+    return columnar_columns(path) if is_columnar_file(path) else text_columns(path)
 
 
 def read_frame(frame: Any, layout: TableLayout, *, stream: str, clock: str) -> LogReading:
