@@ -19,7 +19,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.formats.ros.log_format import topic_stream
+from forcetorque.formats.ros.topic_stream import topic_stream
 from tests.formats.ros.bags import FORMS, Types, write_bag
 
 MESSAGES = 50_000

@@ -93,7 +93,7 @@ def _cluster(folder: Path) -> Iterator[str | None]:
 def main() -> None:
     """Measure, and write figures and ratios."""
     options = arguments(__doc__ or "")
-    lengths, numbers, jobs = ((20.0, 80.0), (4,), 20) if options.quick else ((20.0, 600.0, 3600.0), (10, 100), 500)
+    lengths, numbers, jobs = ((20.0, 80.0), (4,), 20) if options.quick else ((20.0, 600.0, 3600.0), (10, 200), 500)
     figures: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Long recordings and many: CPU time and peak memory of `inspect` and of a fit, against length and number.
+"""Long recordings and many: CPU time and peak memory of `inspect`, `fleet add` and of a fit, against length and number.
 
 Ratios compare a recording with one of a quarter of its length, and a fit of some recordings with one of a quarter of
 them, so above 4 where the effort grows faster than the data. Every task is a process of its own, whose peak memory is
@@ -48,6 +48,8 @@ def main() -> None:
         for name, file in zip(lengths, simulated_recordings(folder, "biped", "biped", lengths), strict=True):
             cpu, memory = command_cost("inspect", file, "--format", "json")
             figures |= {f"inspect {name} cpu_s": cpu, f"inspect {name} peak_MB": memory}
+            cpu, memory = command_cost("fleet", "add", file, "--into", folder / "dataset")
+            figures |= {f"fleet add {name} cpu_s": cpu, f"fleet add {name} peak_MB": memory}
         files = simulated_recordings(folder, "arm", "arm", {f"r{k:03d}": 20.0 for k in range(number)})
         for name, some in (("quarter", files[: number // 4]), ("whole", files)):
             cpu, memory = command_cost("calibrate", *some, "-o", folder / f"fit_{name}")
@@ -57,10 +59,12 @@ def main() -> None:
         options.json,
         ratios={
             "filter around rows, whole stream": median_ratio(seconds["around rows"], seconds["whole stream"]),
-            "inspect cpu, a quarter of the length": figures["inspect whole cpu_s"] / figures["inspect quarter cpu_s"],
-            "inspect memory, a quarter": figures["inspect whole peak_MB"] / figures["inspect quarter peak_MB"],
-            "fit cpu, a quarter of the recordings": figures["fit whole cpu_s"] / figures["fit quarter cpu_s"],
-            "fit memory, a quarter": figures["fit whole peak_MB"] / figures["fit quarter peak_MB"],
+            **{
+                f"{task} {what}, a quarter of the {of}": figures[f"{task} whole {unit}"]
+                / figures[f"{task} quarter {unit}"]
+                for task, of in (("inspect", "length"), ("fleet add", "length"), ("fit", "recordings"))
+                for what, unit in (("cpu", "cpu_s"), ("memory", "peak_MB"))
+            },
         },
         seconds=seconds,
         accuracy={"filters equal": equal},

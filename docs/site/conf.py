@@ -46,6 +46,11 @@ def leave_types_to_annotations(app: Sphinx, what: str, name: str, obj: Any, opti
             lines[k + 1] = re.sub(r"^ +", r"\g<0>: ", lines[k + 1])
 
 
+def show_commands_as_code(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Have the star of a file name in an example not be taken for emphasis."""
+    lines[:] = [re.sub(r"^Example: (forcetorque .*)$", r"Example: ``\1``", line) for line in lines]
+
+
 def leave_out_empty_arguments(*event: Any) -> tuple[str, None] | None:
     """Show no arguments of pydantic's models where they only say that there are some: the fields follow."""
     *_, arguments, _ = event
@@ -67,5 +72,6 @@ def leave_builtins_alone(app: Sphinx, doctree: nodes.document) -> None:
 def setup(app: Sphinx) -> None:
     """Change docstrings before napoleon reads them, signatures, and references before they are resolved."""
     app.connect("autodoc-process-docstring", leave_types_to_annotations, priority=400)
+    app.connect("autodoc-process-docstring", show_commands_as_code, priority=400)
     app.connect("autodoc-process-signature", leave_out_empty_arguments)
     app.connect("doctree-read", leave_builtins_alone)

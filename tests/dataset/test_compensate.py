@@ -14,7 +14,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from forcetorque.base.errors import FitError, FormatError, OutputError, UnitError
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError, ForceTorqueError, FormatError, OutputError, UnitError
 from forcetorque.dataset import added_features, check_dataset, compensate, compensate_dataset
 from forcetorque.dataset.compensate import Measurement
 from forcetorque.dataset.force_fields import orientation_field, wrench_field
@@ -22,6 +23,7 @@ from forcetorque.dataset.tool import Tool
 from forcetorque.formats.lerobot.dataset import read_dataset
 from tests.dataset.loader import require_loadable
 from tests.formats.lerobot.datasets import FPS, tool_episodes, write_dataset
+from tests.scenes.calibrations import make_calibration
 
 NOISE = np.repeat([0.05, 0.002], 3)
 STATED: dict[str, Any] = {
@@ -215,6 +217,74 @@ def test_units_of_names_are_taken(tmp_path: Path) -> None:
                 measurement.factors()
         else:
             np.testing.assert_allclose(measurement.factors(), 1e-3)
+
+
+RAW = "observation.raw"
+MATRIX = np.random.default_rng(5).normal(size=(6, 6)) + 4.0 * np.eye(6)
+"""Of the sensor; N/count, N m/count."""
+ERROR = np.eye(6) + np.outer([0.0, 0.0, 0.3, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+"""What a calibration makes of a wrench whose matrix has a wrong gain of fz."""
+COUNTS = {key: value for key, value in STATED.items() if "unit" not in key} | {"feature": RAW, "serial": "SN1"}
+
+
+def _counts(root: Path) -> Path:
+    """The dataset of `EPISODES` with counts in place of wrenches."""
+    episodes = [{key: value for key, value in one.items() if "wrench" not in key} for one in EPISODES]
+    for counts, one in zip(episodes, EPISODES, strict=True):
+        counts[RAW] = np.linalg.solve(MATRIX, np.asarray(one["observation.wrench"], dtype=float).T).T
+    return write_dataset(root, episodes, names={RAW: [f"channel_{k}" for k in range(6)]})
+
+
+def _calibration(file: Path, matrix: FloatArray) -> Path:
+    make_calibration(serial="SN1", matrix=matrix, prior=None, offset=np.zeros(6)).save(file)
+    return file
+
+
+def test_a_calibration_gives_the_wrenches_of_counts(tmp_path: Path, known: Tool) -> None:
+    """What is left is that of a dataset of wrenches, and differs by an error of the matrix times the wrench."""
+    compensate_dataset(write_dataset(tmp_path / "d", EPISODES), tmp_path / "direct", **STATED)
+    direct = require_loadable(tmp_path / "direct")
+    root = _counts(tmp_path / "counts")
+    true, wrong = _calibration(tmp_path / "a.json", MATRIX), _calibration(tmp_path / "b.json", ERROR @ MATRIX)
+    assert compensate_dataset(root, tmp_path / "true", calibration=true, **COUNTS).calibrated_by == "SN1"
+    left = require_loadable(tmp_path / "true")["observation.wrench"]
+    np.testing.assert_allclose(left, direct[ADDED], atol=1e-5)
+    compensate_dataset(root, tmp_path / "wrong", calibration=wrong, **COUNTS)
+    other = require_loadable(tmp_path / "wrong")["observation.wrench"]
+    wrench = direct["observation.wrench"]
+    np.testing.assert_allclose(other - left, wrench @ (ERROR - np.eye(6)).T, atol=1e-5)
+    assert np.abs(other - left).max() > 0.5
+
+
+def test_a_calibration_is_not_contradicted(tmp_path: Path) -> None:
+    """Another sensor, none at all, another direction and a unit beside it are refused."""
+    root, file = _counts(tmp_path / "d"), _calibration(tmp_path / "a.json", MATRIX)
+    for changed, message in (
+        ({"serial": None}, "expected --serial, the serial number of the sensor of the dataset"),
+        ({"serial": "SN2"}, "SN2"),
+        ({"direction": "parent_to_child"}, "--direction: expected child_to_parent, in which the calibration of sensor"),
+        ({"force_unit": "N"}, "expected none beside --calibration, which gives N and N m, got 'N'"),
+    ):
+        with pytest.raises(ForceTorqueError, match=message):
+            compensate_dataset(root, tmp_path / "out", calibration=file, **(COUNTS | changed))
+
+
+@pytest.mark.long
+def test_an_error_of_the_matrix_is_seen(tmp_path: Path) -> None:
+    """With the right matrix the tool is that of the truth; a wrong gain is named with its size."""
+    root = _counts(tmp_path / "d")
+    true, wrong = (
+        compensate_dataset(root, tmp_path / name, calibration=_calibration(tmp_path / f"{name}.json", matrix), **COUNTS)
+        for name, matrix in (("true", MATRIX), ("wrong", ERROR @ MATRIX))
+    )
+    (load,) = true.loads
+    assert load.mass_kg is not None
+    assert load.mass_half_width_95_kg is not None
+    assert abs(load.mass_kg - 0.8) < 2.0 * load.mass_half_width_95_kg
+    assert (true.warnings, true.contradicted) == ((), False)
+    (warning,) = wrong.warnings
+    assert "gain of an axis: fz changes by 1.29" in warning or "gain of an axis: fz changes by 1.30" in warning
+    assert wrong.residual_rms[2] > 10.0 * true.residual_rms[2]
 
 
 def _stopping(original: Callable[..., None], after: int) -> Callable[..., None]:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.base.errors import FormatError, MissingFileError, OutputError
+from forcetorque.base.run_files import declare_output, files_of_one_run
 from forcetorque.experiment.core_tables import Smoothing
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.formats.registry import ParquetLog
@@ -408,8 +409,30 @@ def test_an_error_of_syntax_names_the_line(tmp_path: Path, old: str, new: str, m
         _parse(tmp_path, _changed(TEXTS[PARQUET], f"{old}\n", f"{new}\n"))
 
 
-@pytest.mark.parametrize("name", ["nowhere.toml", "."])
-def test_a_missing_file_is_named(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize(("name", "got"), [("nowhere.toml", "there is none"), (".", "got a folder")])
+def test_a_missing_file_is_named(tmp_path: Path, name: str, got: str) -> None:
     """Neither nothing nor a folder is an experiment file."""
-    with pytest.raises(MissingFileError, match="expected an experiment file, there is none"):
+    with pytest.raises(MissingFileError, match=f"expected an experiment file, {got}$"):
         parse_experiment(tmp_path / name)
+
+
+def test_a_file_that_changed_is_parsed_again(tmp_path: Path) -> None:
+    """One that did not is not; each time it is an input of the run, which no output may replace."""
+    first = _parse(tmp_path, TEXTS[PARQUET])
+    assert _parse(tmp_path, TEXTS[PARQUET]) is first
+    changed = _parse(tmp_path, TEXTS[PARQUET].replace(f'name = "{first.name}"', 'name = "another"', 1))
+    assert (changed.name, first.name == "another") == ("another", False)
+    file = tmp_path / "experiment.toml"
+    with files_of_one_run():
+        declare_output(file)
+        with pytest.raises(OutputError, match=r"experiment\.toml"):
+            parse_experiment(file)
+
+
+def test_a_log_is_not_taken_for_an_experiment_file(tmp_path: Path) -> None:
+    """The error names its format and the command that begins an experiment file of it."""
+    log = tmp_path / "log.csv"
+    log.write_text("time,fx\n0.0,1.0\n", encoding="utf-8")
+    message = rf"expected an experiment file, got a log of the format tabular; `forcetorque init {re.escape(str(log))}`"
+    with pytest.raises(FormatError, match=message):
+        parse_experiment(log)

@@ -88,10 +88,10 @@ def test_a_log_that_grows_while_it_is_read(days: Path, monkeypatch: pytest.Monke
     source, folder, log = RecordingSource(experiment=days / FILES[0]), days / "fleet", days / "day_1" / "arm_ft.parquet"
     reduce = add.sensor_records
 
-    def growing(*arguments: object) -> object:
+    def growing(*arguments: object, **options: object) -> object:
         with log.open("ab") as stream:
             stream.write(b"more")
-        return reduce(*arguments)  # type: ignore[arg-type]
+        return reduce(*arguments, **options)  # type: ignore[arg-type]
 
     whole = log.read_bytes()
     monkeypatch.setattr(add, "sensor_records", growing)

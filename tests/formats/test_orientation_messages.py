@@ -191,7 +191,12 @@ def test_inspecting_says_what_to_state(tmp_path: Path) -> None:
     ("kind", "entry", "message"),
     [
         (IMU, {"orientation": {}}, 'expected orientation = { sense = "sensor_to_world" } or "world_to_sensor": mess'),
-        (IMU, {"world": "base"}, "expected frame and world for poses and transforms of tf, and world for nothing else"),
+        (
+            IMU,
+            {"world": "base"},
+            "expected frame and world for poses, transforms of tf and links that joints move, and world for nothing "
+            "else but wrenches",
+        ),
         (QUATERNION, {}, "expected frame, whose orientations these are, and orientation"),
         (QUATERNION, {"frame": None, "orientation": SENSE}, "expected frame, whose orientations these are"),
         (UNNAMED[0], {}, "expected frame and world for poses"),

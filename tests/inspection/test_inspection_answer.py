@@ -11,7 +11,7 @@ import pytest
 from forcetorque.inspection.answers import events, faults, inspection_answer
 from forcetorque.inspection.inspect import FindingRow, Inspection
 from forcetorque.inspection.plausibility.hypotheses import FaultKind
-from forcetorque.results.answer import Concern
+from forcetorque.results.answer import MOST_LINES, Concern
 from tests.app.outcome import Run
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -82,12 +82,52 @@ def test_a_fault_comes_first(kind: str) -> None:
     assert answer.command == "inspect 'my walk.toml'"
 
 
+@pytest.mark.parametrize(
+    ("stream", "end_s", "command"),
+    [("leg", 40.0, "init --resume walk.toml"), ("leg", 12.0, "inspect walk.toml"), ("arm", 40.0, "inspect walk.toml")],
+    ids=["long contact", "short contact", "contact of another stream"],
+)
+def test_a_contact_that_explains_a_fault_is_named(stream: str, end_s: float, command: str) -> None:
+    """The next command then proposes intervals without it."""
+    answer = inspection_answer(_inspection(_row("implausible"), _row("contact", 10.0, end_s, stream=stream)))
+    assert answer.command == command
+    assert answer.verdict == "1 FAULT"
+    assert ("in an interval that is used: 10.0-40.0 s, leg: contact" in answer.why) == command.startswith("init")
+
+
+@pytest.mark.parametrize(
+    ("kind", "in_use_s", "command"),
+    [
+        ("contact", (16.0, 60.0), "run walk.toml -o results"),
+        ("gap", (0.0, 60.0), "run walk.toml -o results"),
+        ("contact", (14.0, 60.0), "init --resume walk.toml"),
+    ],
+    ids=["outside", "left out by every fit", "inside"],
+)
+def test_events_that_no_interval_uses_do_not_hold_up(kind: str, in_use_s: tuple[float, float], command: str) -> None:
+    """Nothing is to be left out of the intervals then, and `init --resume` would propose nothing."""
+    found = _inspection(_row(kind, 1.0, 15.0)).model_copy(update={"in_use_s": (in_use_s,)})
+    assert inspection_answer(found).command == command
+
+
 @pytest.mark.parametrize("kind", ["implausible_scale", "implausible_span", "implausible_delay"])
 def test_what_calibrate_only_warns_of_is_no_fault(kind: str) -> None:
     """It is a remark."""
     inspection = _inspection(_row(kind))
     assert faults(inspection.findings) == ()
     assert inspection_answer(inspection).verdict == "REMARKS"
+
+
+def test_columns_that_need_a_file_are_answered_in_few_lines(tmp_path: Path, run: Run) -> None:
+    """However many columns there are: what they look like, and the command that begins the file."""
+    log = tmp_path / "log.csv"
+    names = ["time", *(f"joint_{k}_position" for k in range(40))]
+    log.write_text(f"{','.join(names)}\n{','.join('1' for _ in names)}\n", encoding="utf-8")
+    shown = run("inspect", log, columns=80)
+    assert len(shown.out.splitlines()) <= MOST_LINES
+    assert f"forcetorque init {log}" in " ".join(shown.out.split()).replace("\\ ", "")
+    assert "joint_39_position" not in shown.out
+    assert "joint_39_position" in run("inspect", log, "--details", columns=200).out
 
 
 @pytest.mark.long

@@ -183,7 +183,7 @@ def test_a_log_of_a_robot_is_no_sensor_by_itself(tmp_path: Path) -> None:
     )
     assert inspection.sensor is None
     assert inspection.streams == {}
-    assert list(inspection.answers()) == []
+    assert [answer.verdict for answer in inspection.answers()] == ["NEEDS A FILE"]
 
 
 def test_a_table_that_is_too_long_to_be_read_at_once_is_listed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

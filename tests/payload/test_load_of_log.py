@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.simulation.robots import ARM_URDF
+from forcetorque.results.answer import MOST_LINES
 from tests.app.outcome import Run
 from tests.formats.franka.states import CENTRE, MASS, states, write_states, write_table
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
@@ -38,6 +38,16 @@ def test_a_recording_is_enough(tmp_path: Path, run: Run) -> None:
     assert "assumed: actual_TCP_force is the force of the tool on the arm" in shown.out
     assert "--to ur" in shown.out
     assert run("payload", file).out.splitlines()[:4] == shown.out.splitlines()[:4]
+
+
+def test_a_file_that_was_written_is_named_and_not_the_next_step(tmp_path: Path, run: Run) -> None:
+    """It is what would come next; without it the command that writes it does. Twelve lines at 80 characters too."""
+    log, file = _written(tmp_path, _few(raw=True)), tmp_path / "load.script"
+    without, written = run("payload", log, columns=80), run("payload", log, "--to", "ur", "-o", file, columns=80)
+    assert "\nnext: write it to a file that the robot reads\n" in without.out
+    assert "next:" not in written.out
+    assert f"written: {file}" in " ".join(written.out.split())
+    assert max(len(shown.out.splitlines()) for shown in (without, written)) <= MOST_LINES
 
 
 def test_the_declared_payload_is_part_of_the_load(tmp_path: Path, run: Run) -> None:
@@ -153,27 +163,12 @@ def test_what_lacks_is_named(tmp_path: Path, run: Run) -> None:
     table = tmp_path / "table.csv"
     table.write_text("t,fx\n" + "".join(f"{k},{k}\n" for k in range(20)), encoding="utf-8")
     other = run("payload", table).error()
-    assert "a log whose format fixes frame and sign of a wrench (ur_rtde or franka), got a log of the format" in other
+    expected = "a log whose format fixes frame and sign of a wrench (ros or ur_rtde or franka), got a log of the format"
+    assert expected in other
     file = tmp_path / "wrist.toml"
     assert run("payload", log, "--recording", "moment_about=tcp", "--save-experiment", file).code == 0
     assert "expected a log, got experiment files" in run("payload", file, "--recording", "gravity=9.8").error()
     assert "expected one log, got 0" in run("payload", file, "--save-experiment", tmp_path / "x.toml").error()
-
-
-def test_what_a_bag_lacks_is_named(tmp_path: Path, run: Run) -> None:
-    """Sign, vertical and, of several, the topic: ROS fixes none of them."""
-    bags = pytest.importorskip("tests.formats.ros.bags")
-    types, kind = bags.Types("mcap"), "geometry_msgs/msg/WrenchStamped"
-    wrenches = (kind, [types.wrench(k, np.arange(6.0) + k) for k in range(9)])
-    one = bags.write_bag(tmp_path / "one", "mcap", {"/ft": wrenches})
-    refused = run("payload", one).error()
-    assert "does not say who acts on whom in /ft (measure_direction); which frame has z up (world)" in refused
-    assert f"`forcetorque init {one}` begins an experiment file" in refused
-    text = ("std_msgs/msg/String", [types.text(ARM_URDF.read_text(encoding="utf-8"))])
-    topics = {"/ft": wrenches, "/other": wrenches, "/robot_description": text}
-    several = run("payload", bags.write_bag(tmp_path / "several", "mcap", topics)).error()
-    assert "does not say which of /ft, /other is the sensor's; who acts on whom in it" in several
-    assert "which link is the support, and where down is" in several
 
 
 @pytest.mark.real_data

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, FormatError
+from forcetorque.base.errors import ExperimentError, FitError, FormatError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
@@ -20,6 +20,7 @@ from forcetorque.plates.applied_loads import AppliedLoads, loads_of_pole, loads_
 from forcetorque.plates.calibration import calibrate_loads
 from forcetorque.plates.calibration_result import PlateCalibration, save_cal_matrix
 from forcetorque.plates.plate_file import PlateFile, read_plates
+from forcetorque.plates.plausibility import PLATE as PLATE_SETUP
 from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_trial
 from forcetorque.results.answer import MOST_LINES, Concern, answer_text
 from tests.app.outcome import typed
@@ -263,6 +264,25 @@ def test_weights_of_one_mass_leave_no_baseline_in_the_error_before(tmp_path: Pat
     result = _of_table(tmp_path, np.full(7, 20.0))
     assert any("all weights have one mass: gain and offset of Fz cannot be separated" in w for w in result.warnings)
     assert np.abs(result.centre_shift_mm).max() < 2.0  # mm: the baseline of 0.15 N m alone is 0.8 mm
+
+
+def test_loads_that_contradict_name_what_a_plate_has(tmp_path: Path) -> None:
+    """A load cell in other units is named by it and by the C3D file, not by tables of a sensor's file."""
+    path = tmp_path / "pole.c3d"
+    write_pole_trial(path, PLATE, np.random.default_rng(4), pushes=20)
+    plates, loads = read_plates(path), _loads(read_plates(path))
+    bench = loads.bench
+    other = replace(loads, bench=replace(bench, loads=replace(bench.loads, wrench=2.5 * bench.loads.wrench)))
+    with pytest.raises(
+        FitError, match="or the unit and the calibration of the load cell, and SCALE, GEN_SCALE"
+    ) as told:
+        calibrate_loads(
+            plates, plates.plate(None), other, measure_direction=DIRECTION, code_version="0", created="2026-01-01"
+        )
+    assert "sensor]" not in str(told.value)
+    texts = [value for key in PLATE_SETUP.__dataclass_fields__ if isinstance(value := getattr(PLATE_SETUP, key), str)]
+    assert len(texts) == 7
+    assert not any("[" in words or "prior" in words for words in texts)
 
 
 def test_a_gain_far_from_one_and_a_larger_error_of_the_wrench_are_no_success(fitted: PlateCalibration) -> None:

@@ -272,3 +272,21 @@ def test_the_folder_above_has_to_be_there(tmp_path: Path) -> None:
     with refused(MissingFileError, "expected an existing folder to write to, got none; create"):
         write_recording(tmp_path / "nowhere" / "log", _sample())
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("batch", [1, 3, 100])
+def test_a_long_stream_that_is_mapped_reads_back_bit_by_bit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, batch: int
+) -> None:
+    """Of any number of batches, with a counter, and without a sample; nothing of it can be changed."""
+    values = np.random.default_rng(1).normal(size=(20, 3))
+    counted = stream(even_stamps(20), signal("position", values), signal("wrench", np.eye(20, 6)), sequence=range(20))
+    whole = recording(counted, stream([], name="empty"))
+    write_recording(tmp_path / "log", whole)
+    monkeypatch.setattr(storage, "IN_MEMORY", -1)
+    monkeypatch.setattr(storage, "_BATCH", batch)
+    again = read_recording(tmp_path / "log")
+    assert described(again) == described(whole)
+    for read in again.streams.values():
+        assert not read.stamp_ns.flags.writeable
+        assert all(not signal.values.flags.writeable for signal in read.signals.values())

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from forcetorque.experiment.calibration.artefact import read_calibration
@@ -67,3 +69,22 @@ def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
     outcome = run("bench", "workbench", "SIM001.toml", "--spec", "limits.toml", "--details")
     assert outcome.code == 1
     assert "workbench.faults" in outcome.out
+
+
+def test_the_file_of_a_table_with_applied_wrenches_is_that_of_the_page(
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As docs/workbench.md has it, with a table of those columns; the table alone is refused by what it should be."""
+    monkeypatch.chdir(tmp_path)
+    page = (Path(__file__).parents[2] / "docs" / "workbench.md").read_text(encoding="utf-8")
+    file = re.search(r"```toml\n(# plate\.toml\n.*?)```", page, re.DOTALL)
+    assert file is not None
+    Path("plate.toml").write_text(file[1], encoding="utf-8")
+    rng = np.random.default_rng(1)
+    known = rng.uniform(-20.0, 20.0, (40, 6)) * [1, 1, 1, 0.1, 0.1, 0.1]
+    components = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+    head = ",".join([*components, *(f"known_{name}" for name in components)])
+    readings = 1.1 * known + 0.01 * rng.normal(size=known.shape)
+    np.savetxt("readings.csv", np.hstack([readings, known]), delimiter=",", header=head, comments="")
+    assert "FITTED, NO FAULT OF THE BENCH" in run("bench", "workbench", "plate.toml", "-o", "plate.json").out
+    assert "expected a workbench file (TOML), got " in run("bench", "workbench", "readings.csv", "-o", "x.json").error()

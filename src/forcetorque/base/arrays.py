@@ -39,7 +39,7 @@ def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> Float
     Raises:
         ShapeError: If the shape differs.
     """
-    array = values if _is_frozen(values) else np.array(values, dtype=np.float64, order="C")
+    array = values if is_frozen(values) else np.array(values, dtype=np.float64, order="C")
     require_shape(array, name=name, shape=shape)
     array.setflags(write=False)
     return array
@@ -180,9 +180,17 @@ def _read_only_flags(values: Any, *, name: str, shape: tuple[int | None, ...]) -
     return flags
 
 
-def _is_frozen(values: Any) -> bool:
-    """Whether it is a C-ordered float64 array without a writable view by accident."""
-    if not isinstance(values, np.ndarray) or values.dtype != np.float64 or not values.flags.c_contiguous:
+def is_frozen(values: Any, dtype: type = np.float64) -> bool:
+    """Whether values are a C-ordered array that is read-only, with all memory that it is a view of.
+
+    Args:
+        values: Anything.
+        dtype: Kind of numbers.
+
+    Returns:
+        Whether they need not be copied.
+    """
+    if not isinstance(values, np.ndarray) or values.dtype != dtype or not values.flags.c_contiguous:
         return False
     while isinstance(values, np.ndarray):
         if values.flags.writeable:

@@ -75,6 +75,8 @@ def _remove_leftovers(folder: Path) -> None:
 
 
 def _remove_unlocked(path: Path) -> None:
+    if sys.platform == "win32":
+        return
     descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     try:
         if _locked(descriptor):
@@ -95,14 +97,16 @@ def _can_lock() -> bool:
 
 
 def _locked(descriptor: int) -> bool | None:
-    """Take the lock; False if another run has it, None if the file system knows no locks."""
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        return None
-    return True
+    """Take the lock; False if another run has it, None if the file system or the platform knows no locks."""
+    if sys.platform != "win32":
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        except OSError:
+            return None
+        return True
+    return None
 
 
 @contextmanager

@@ -182,11 +182,12 @@ def parsed_toml(file: Path, *, what: str) -> tuple[str, dict[str, Any]]:
         FormatError: If it is not TOML.
     """
     if not file.is_file():
-        raise MissingFileError(f"{file}: expected {what}, there is none")
+        raise MissingFileError(f"{file}: expected {what}, {'got a folder' if file.is_dir() else 'there is none'}")
     try:
         return toml_content(file)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
-        raise FormatError(f"{file}: expected TOML, got {error}") from error
+        expected = "TOML" if file.suffix.lower() == ".toml" else f"{what} (TOML)"
+        raise FormatError(f"{file}: expected {expected}, got {error}") from error
 
 
 def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) -> _Content:

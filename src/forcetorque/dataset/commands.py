@@ -95,6 +95,20 @@ def _pose(text: str) -> tuple[float, ...]:
     return numbers
 
 
+def _refuse_contradiction(calibration: "Calibration", direction: str, unit: str | None) -> None:
+    """Refuse options that state otherwise than a calibration, whose wrenches are in N and N m."""
+    own = calibration.sensor.measure_direction.value
+    if direction != own:
+        raise ForceTorqueError(
+            f"--direction: expected {own}, in which the calibration of sensor {calibration.sensor.serial!r} gives "
+            f"wrenches, got {direction}"
+        )
+    if unit is not None:
+        raise ForceTorqueError(
+            f"--force-unit, --moment-unit: expected none beside --calibration, which gives N and N m, got {unit!r}"
+        )
+
+
 @command(None)
 def compensate_dataset(
     folder: Annotated["Path | str", Option("Folder of a LeRobot dataset, v2.1 or v3.0.")],
@@ -208,6 +222,8 @@ def compensate_dataset(
             "the world's, and --direction, child_to_parent if a hanging tool reads down: the format has neither"
         )
     read = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
+    if read is not None:
+        _refuse_contradiction(read, direction, force_unit or moment_unit)
     known = None if load is None else read_known_load(Path(load))
     options |= {"load": repr(known), "pose": pose}
     options["calibration"] = None if read is None else repr(read)

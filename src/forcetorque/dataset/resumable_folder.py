@@ -112,12 +112,13 @@ def resumable_folder(output: Path, plan: Mapping[str, Any]) -> Iterator[Resumabl
 
 
 def _require_lock(descriptor: int, part: Path) -> None:
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise OutputError(f"{part}: expected no other run that makes it, got one; wait for it") from None
-    except OSError:  # a file system without locks
-        pass
+    if sys.platform != "win32":
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise OutputError(f"{part}: expected no other run that makes it, got one; wait for it") from None
+        except OSError:  # a file system without locks
+            pass
 
 
 def link_or_copy(source: Path, target: Path, *, link: bool) -> None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeVar, cast
 
@@ -13,6 +13,8 @@ from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.errors import FormatError
+from forcetorque.base.input_file import require_file
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
@@ -25,7 +27,7 @@ from forcetorque.experiment.core_tables import (
     TransformTable,
 )
 from forcetorque.experiment.section import Section, sections
-from forcetorque.formats.registry import AnyLog
+from forcetorque.formats.registry import AnyLog, format_name, recognised_format
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import ContactType
 
@@ -280,10 +282,31 @@ def section_fields(*, of_plan: bool = False) -> dict[str, Any]:
 def parse_experiment(path: Path | str) -> ExperimentFile:
     """Read and check an experiment file, without opening what it points to.
 
+    A file that was parsed before is not parsed again as long as it has the same content.
+
     Args:
         path: TOML file.
 
     Returns:
         Its content.
+
+    Raises:
+        FormatError: If it is a log.
     """
-    return read_toml(path, experiment_file(), what="an experiment file")
+    file = Path(path)
+    is_other = file.suffix.lower() != ".toml" and file.exists()
+    if is_other and (log := recognised_format(file)) is not None:
+        raise FormatError(
+            f"{file}: expected an experiment file, got a log of the format {format_name(log)}; `forcetorque init "
+            f"{file}` begins an experiment file"
+        )
+    content = b""
+    if file.is_file():
+        require_file(file, "an experiment file")  # also of a file that was parsed before: it is an input of this run
+        content = file.read_bytes()
+    return _parsed(file, content)
+
+
+@lru_cache(maxsize=256)  # commands that take many files check all of them before they read the first log
+def _parsed(file: Path, _content: bytes) -> ExperimentFile:
+    return read_toml(file, experiment_file(), what="an experiment file")

@@ -105,13 +105,19 @@ def add_recordings(
     left = TimeLeft(progress, "adding", len(experiments))
     rows: list[AddedSensor] = []
     for number, file in enumerate(experiments):
-        rows += add_recording(RecordingSource(experiment=file), dataset, options, replace=replace)
+        source = RecordingSource(experiment=file)
+        rows += add_recording(source, dataset, options, replace=replace, progress=progress)
         left.at(number + 1)
     return Added(dataset=str(dataset), sensors=tuple(rows))
 
 
 def add_recording(
-    source: RecordingSource, folder: Path, options: AddOptions, *, replace: bool = False
+    source: RecordingSource,
+    folder: Path,
+    options: AddOptions,
+    *,
+    replace: bool = False,
+    progress: Progress = lambda _: None,
 ) -> list[AddedSensor]:
     """Add one recording to a dataset.
 
@@ -120,16 +126,19 @@ def add_recording(
         folder: As of `add_recordings`.
         options: As of `add_recordings`.
         replace: As of `add_recordings`.
+        progress: Called with the time that is left, of a long recording.
 
     Returns:
         A row per sensor.
     """
-    rows = _added(source, Dataset(folder), options, replace=replace)
+    rows = _added(source, Dataset(folder), options, replace=replace, progress=progress)
     forget_failures(folder, source)
     return rows
 
 
-def _added(source: RecordingSource, dataset: Dataset, options: AddOptions, *, replace: bool) -> list[AddedSensor]:
+def _added(
+    source: RecordingSource, dataset: Dataset, options: AddOptions, *, replace: bool, progress: Progress
+) -> list[AddedSensor]:
     code_version = version("forcetorque")
     if (unchanged := _unchanged(source, dataset, options.digest(code_version))) is not None:
         return unchanged
@@ -154,9 +163,9 @@ def _added(source: RecordingSource, dataset: Dataset, options: AddOptions, *, re
         with suppress(MissingFileError):  # another process replaced it meanwhile
             dataset.rows([one], ["code_version"])  # refuses one of a newer form, which this version cannot replace
     if not all(present.values()):
-        records = sensor_records(experiment, options, code_version)
-        _refuse_changing(experiment, source)
-        for record in records:
+        for number, record in enumerate(sensor_records(experiment, options, code_version, progress=progress)):
+            if not number:
+                _refuse_changing(experiment, source)
             if not present[record.identity.serial]:
                 dataset.write(record, options)
     for one in replaced:

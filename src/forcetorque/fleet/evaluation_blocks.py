@@ -9,15 +9,17 @@ however long the recording is.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
+from forcetorque.base.noise.means import means_of_parts
 from forcetorque.base.noise.paired_comparison import BLOCKS, MOST_SEGMENTS, part_ends
+from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.section import LoadCaseOffset
@@ -31,7 +33,7 @@ from forcetorque.experiment.sensor_samples import IntervalSamples, logged_conten
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.column import ScalarSource
-from forcetorque.recording.recording import Use
+from forcetorque.recording.recording import Interval, Use
 
 _Vector = Annotated[FloatArray, ArrayField((None,))]
 _Table = Annotated[FloatArray, ArrayField((None, None))]
@@ -194,6 +196,63 @@ class StoredSensor(StoredTable):
         )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class EvaluatedSamples:
+    """Samples of a validation interval, in the order of time, in one part or several."""
+
+    interval: Interval
+    """The interval."""
+    content: Content | None
+    """By what its samples are known again in another log; None where they hardly change."""
+    channels: int
+    """Number c of raw channels."""
+    stamp_ns: Sequence[IntArray]
+    """Instants of every part; shape (n,) each; ns."""
+    columns: Sequence[FloatArray]
+    """Raw channels, expected wrench and variables of every part; shape (n, c + 6 + v) each."""
+
+    @classmethod
+    def of(cls, run: SensorRun, part: IntervalSamples) -> EvaluatedSamples:
+        """Take the samples of an interval.
+
+        Args:
+            run: The sensor.
+            part: The samples.
+
+        Returns:
+            The same in one part.
+        """
+        return cls(
+            interval=part.interval,
+            content=logged_content(run.experiment, run.sensor, part.interval),
+            channels=part.raw.shape[1],
+            stamp_ns=(part.samples.stamp_ns,),
+            columns=(np.hstack([part.raw, part.samples.reference, part.samples.variables]),),
+        )
+
+    def __len__(self) -> int:
+        return sum(map(len, self.stamp_ns))
+
+    def moments(self, first: int, after: int) -> Moments:
+        """Reduce consecutive samples.
+
+        Args:
+            first: The first of them.
+            after: The first behind them.
+
+        Returns:
+            Their moments.
+        """
+        start, chosen = 0, []
+        for part in self.columns:
+            chosen.append(part[max(first - start, 0) : max(after - start, 0)])
+            start += len(part)
+        columns = np.concatenate(chosen)
+        forget_pages(self.columns)
+        raw, reference, variables = np.split(columns, [self.channels, self.channels + 6], axis=1)
+        return Moments.of(raw, reference, variables)
+
+
 class StoredEvaluation(StoredTable):
     """What an evaluation needs of one sensor in one recording."""
 
@@ -213,52 +272,66 @@ class StoredEvaluation(StoredTable):
     """Loads that the sensor itself weighed, as text."""
 
     @classmethod
-    def of(cls, run: SensorRun) -> StoredEvaluation:
+    def of(cls, run: SensorRun, intervals: Sequence[EvaluatedSamples] | None = None) -> StoredEvaluation:
         """Reduce the validation intervals of a recording.
 
         Args:
             run: The sensor.
+            intervals: Samples of the intervals in the order of time; computed here if None.
 
         Returns:
             What is kept of them.
         """
         sensor = StoredSensor.of(run)
-        variables = [variable.name for variable in sensor.variables]
-        parts = [run.interval_samples(one, variables=variables) for one in run.intervals(Use.VALIDATION)]
+        if intervals is None:
+            names = evaluated_variables(run)
+            parts = (run.interval_samples(one, variables=names) for one in run.intervals(Use.VALIDATION))
+            intervals = [EvaluatedSamples.of(run, part) for part in parts]
         return cls(
             sensor=sensor,
             log_sha256=tuple(sorted(run.experiment.log_sha256)),
-            intervals=tuple(_interval(run, part) for part in parts),
-            blocks=tuple(_blocks(parts)),
-            sessions=tuple(_session_means(run, parts)),
+            intervals=tuple(_interval(run, one) for one in intervals),
+            blocks=tuple(_blocks(intervals)),
+            sessions=tuple(_session_means(run, intervals)),
             load_cases=tuple(map(StoredLoadCase.of, operating_load_cases([run]))),
             circular=tuple(circular_loads(run)),
         )
 
 
-def _interval(run: SensorRun, part: IntervalSamples) -> EvaluatedInterval:
-    interval, experiment = part.interval, run.experiment
+def evaluated_variables(run: SensorRun) -> list[str]:
+    """Name the linear variables that an evaluation keeps.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        Their names.
+    """
+    return [variable.name for variable in StoredSensor.of(run).variables]
+
+
+def _interval(run: SensorRun, samples: EvaluatedSamples) -> EvaluatedInterval:
+    interval = samples.interval
     return EvaluatedInterval(
         label=interval.label,
         start_ns=interval.start_ns,
         end_ns=interval.end_ns,
-        session=experiment.roles[interval.label].session,
-        content=logged_content(experiment, run.sensor, interval),
+        session=run.experiment.roles[interval.label].session,
+        content=samples.content,
     )
 
 
-def _blocks(parts: list[IntervalSamples]) -> Iterable[EvaluationBlock]:
-    lengths = [len(part.samples.stamp_ns) for part in parts]
+def _blocks(intervals: Sequence[EvaluatedSamples]) -> Iterable[EvaluationBlock]:
+    lengths = [len(samples) for samples in intervals]
     total, start = sum(lengths), 0
     counts = (*range(1, MOST_SEGMENTS + 1), BLOCKS)
     ends = {end for count in counts for end in part_ends(total, count)} | set(np.cumsum(lengths).tolist())
-    for part, length in zip(parts, lengths, strict=True):
+    for samples, length in zip(intervals, lengths, strict=True):
         own = [start, *sorted(end for end in ends if start < end <= start + length)]
         for first, last in zip(own, own[1:], strict=False):
-            samples = slice(first - start, last - start)
-            moments = Moments.of(part.raw[samples], part.samples.reference[samples], part.samples.variables[samples])
+            moments = samples.moments(first - start, last - start)
             yield EvaluationBlock(
-                interval=part.interval.label,
+                interval=samples.interval.label,
                 samples=moments.count,
                 channels=moments.channels,
                 mean=moments.mean,
@@ -267,20 +340,26 @@ def _blocks(parts: list[IntervalSamples]) -> Iterable[EvaluationBlock]:
         start += length
 
 
-def _session_means(run: SensorRun, parts: list[IntervalSamples]) -> Iterable[SessionMeans]:
-    groups: dict[str | None, list[IntervalSamples]] = {}
-    for part in parts:
-        groups.setdefault(run.experiment.roles[part.interval.label].session, []).append(part)
+def _session_means(run: SensorRun, intervals: Sequence[EvaluatedSamples]) -> Iterable[SessionMeans]:
+    groups: dict[str | None, list[EvaluatedSamples]] = {}
+    for samples in intervals:
+        groups.setdefault(run.experiment.roles[samples.interval.label].session, []).append(samples)
     for session, own in groups.items():
-        stamps = np.concatenate([part.samples.stamp_ns for part in own])
-        channels, variables = own[0].raw.shape[1], own[0].samples.variables.shape[1]
-        columns = [np.hstack([part.raw, part.samples.reference, part.samples.variables]) for part in own]
-        time_s, means, _ = means_over(seconds_since(stamps, run.experiment.recording.start_ns), np.concatenate(columns))
+        channels = own[0].channels
+        time_s, means = means_of_parts(_timed_parts(own, run.experiment.recording.start_ns))
+        variables = means[:, channels + 6 :]
         yield SessionMeans(
             session=session,
             session_names=run.experiment.session_names(own[0].interval.label),
             time_s=time_s,
             raw=means[:, :channels],
             reference=means[:, channels : channels + 6],
-            variables=means[:, channels + 6 :] if variables else np.zeros((0, 0)),
+            variables=variables if variables.shape[1] else np.zeros((0, 0)),
         )
+
+
+def _timed_parts(intervals: Sequence[EvaluatedSamples], start_ns: int) -> Iterator[tuple[FloatArray, FloatArray]]:
+    for samples in intervals:
+        for stamps, columns in zip(samples.stamp_ns, samples.columns, strict=True):
+            yield seconds_since(stamps, start_ns), columns
+            forget_pages((stamps, columns))

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.output_file import real_path
+from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts
@@ -27,6 +28,7 @@ from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
+from forcetorque.fleet.long_recording import SegmentedSensor, forget_recording, joined_findings, recorded_segments
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
@@ -144,25 +146,84 @@ def recording_digest(experiment: Experiment) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def sensor_records(experiment: Experiment, options: AddOptions, code_version: str) -> list[SensorRecord]:
-    """Reduce a recording to what a dataset keeps of it.
+def sensor_records(
+    experiment: Experiment, options: AddOptions, code_version: str, *, progress: Progress = lambda _: None
+) -> Iterator[SensorRecord]:
+    """Reduce a recording to what a dataset keeps of it; a long one segment by segment.
 
     Args:
         experiment: The experiment.
         options: How.
         code_version: Version of this library.
+        progress: Called with the time that is left, of a long recording.
 
-    Returns:
-        A record per sensor.
+    Yields:
+        A record per sensor; nothing of the log is read after the first.
     """
-    findings = inspect_experiment(experiment)
-    return [_record(SensorRun(experiment, sensor), findings, options, code_version) for sensor in experiment.sensors]
+    segments = recorded_segments(experiment)
+    runs = [SensorRun(experiment, sensor) for sensor in experiment.sensors]
+    if len(segments) == 1:
+        reduced = [_of_whole(run, options) for run in runs]
+        found = _joined([own.findings for own in reduced])
+        yield from (_record(run, found, own, code_version) for run, own in zip(runs, reduced, strict=True))
+        return
+    sensors = [SegmentedSensor(run, block_s=options.block_s) for run in runs]
+    findings: list[Sequence[Finding]] = []
+    warnings: list[dict[str, None]] = [{} for _ in runs]
+    left = TimeLeft(progress, f"adding {experiment.name}", len(segments) * len(runs))
+    for number, segment in enumerate(segments):
+        part, found_in = replace(experiment, recording=segment.recording), []
+        for place, (run, sensor, said) in enumerate(zip(runs, sensors, warnings, strict=True)):
+            own = SensorRun(part, run.sensor)
+            sensor.add(own)
+            found_in.append(_findings(own))
+            if own.has(Use.CALIBRATION):
+                said |= dict.fromkeys(data_doubts(own))
+            left.at(number * len(runs) + place + 1)
+        findings.append(_joined(found_in))
+        forget_recording(experiment)
+    found_in_all = joined_findings(segments, findings)
+    for run, said in zip(runs, warnings, strict=True):
+        sensor = sensors.pop(0)  # what is kept of it is let go with its record
+        evaluated = sensor.evaluated()
+        evaluation = None if evaluated is None else StoredEvaluation.of(run, evaluated)
+        whole = _Reduced(moments=sensor.moments(), evaluation=evaluation, warnings=tuple(said), findings=())
+        yield _record(run, found_in_all, whole, code_version)
 
 
-def _record(run: SensorRun, findings: Sequence[Finding], options: AddOptions, code_version: str) -> SensorRecord:
-    experiment = run.experiment
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Reduced:
+    """What was computed of one sensor in a recording."""
+
+    moments: RecordingMoments | None
+    evaluation: StoredEvaluation | None
+    findings: Sequence[Finding]
+    warnings: tuple[str, ...]
+
+
+def _of_whole(run: SensorRun, options: AddOptions) -> _Reduced:
     moments = recording_moments(run, block_s=options.block_s)[0] if run.has(Use.CALIBRATION) else None
     evaluation = StoredEvaluation.of(run) if run.has(Use.VALIDATION) else None
+    findings = _findings(run)
+    warnings = () if moments is None else tuple(data_doubts(run))
+    return _Reduced(moments=moments, evaluation=evaluation, findings=findings, warnings=warnings)
+
+
+def _findings(run: SensorRun) -> list[Finding]:
+    """What `inspect` finds about a sensor and the streams that all share, with the samples that were computed of it."""
+    experiment = run.experiment
+    others = {sensor.stream for sensor in experiment.sensors} - {run.sensor.stream}
+    found = inspect_experiment(experiment, sensors=[run.sensor.name], computed=run)
+    return [finding for finding in found if finding.stream not in others]
+
+
+def _joined(findings: Sequence[Iterable[Finding]]) -> list[Finding]:
+    together = dict.fromkeys(finding for own in findings for finding in own)
+    return sorted(together, key=lambda finding: finding.start_ns or 0)
+
+
+def _record(run: SensorRun, findings: Sequence[Finding], reduced: _Reduced, code_version: str) -> SensorRecord:
+    experiment = run.experiment
     start_ns, end_ns = experiment.recording.span_ns
     others = {sensor.stream for sensor in experiment.sensors} - {run.sensor.stream}
     return SensorRecord(
@@ -176,10 +237,10 @@ def _record(run: SensorRun, findings: Sequence[Finding], options: AddOptions, co
         end_ns=end_ns,
         sensors=len(experiment.sensors),
         findings=finding_rows(start_ns, [finding for finding in findings if finding.stream not in others]),
-        warnings=() if moments is None else tuple(data_doubts(run)),
-        prior_error=_prior_error(run, moments, evaluation),
-        moments=moments,
-        evaluation=evaluation,
+        warnings=reduced.warnings,
+        prior_error=_prior_error(run, reduced.moments, reduced.evaluation),
+        moments=reduced.moments,
+        evaluation=reduced.evaluation,
     )
 
 

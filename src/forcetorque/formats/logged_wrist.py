@@ -18,6 +18,8 @@ from forcetorque.recording.stream_faults import true_runs
 FLANGE = "tool0"
 """Frame of the mechanical flange as the controller has it, which is that of an all-zero tool: z points out of the
 flange. URDFs of ROS-Industrial call it so; their link `flange` has other axes."""
+BAG = "ros"
+"""Kind of the controller of a bag, which may be any."""
 _MOVING_RAD_S = 0.05
 """Angular speed of the flange above which the arm moves; rad/s."""
 _MOVING_M_S = 0.02
@@ -47,9 +49,11 @@ class LoggedWrist:
     """What the format of a log fixes of the wrench at the flange of an arm."""
 
     controller: str
-    """Kind of the controller, `ur` or `franka`."""
+    """Kind of the controller, `ur` or `franka`; `BAG` of a bag."""
     stream: str
-    """Stream with the wrench, and with orientation and gravity of the flange."""
+    """Stream with the wrench, and with orientation and gravity of its frame."""
+    sensor: str
+    """Name for the sensor."""
     frame: str = FLANGE
     """Frame of the wrench, about whose origin its moment is."""
     measure_direction: MeasureDirection

@@ -7,12 +7,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, get_args
 
+from forcetorque.inspection.file_contents import sketch_text
 from forcetorque.inspection.plausibility.hypotheses import FaultKind
 from forcetorque.inspection.sensor_alone import sensor_answer
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount
 
 if TYPE_CHECKING:
+    from forcetorque.inspection.file_contents import MakerCalibration
     from forcetorque.inspection.inspect import FindingRow, Inspection
 
 _LEADING: Final = ("contact", "light_contact")
@@ -30,6 +32,8 @@ _NEXT: Final = {
     False: "begin an experiment file for it",
 }
 """What follows, by whether it is an experiment file."""
+_MOST_COLUMNS = 6
+"""Columns of one quantity that are named; the others are counted."""
 _CELLS = 50
 """Characters of the bar."""
 
@@ -69,9 +73,40 @@ class Event:
         spoilt = max((force * sum(_acts_s(row, *one) for one in in_use_s) for row, force in forces), default=0.0)
         return spoilt, max((force for _, force in forces), default=0.0), self.end_s - self.start_s
 
+    def spoils(self, in_use_s: Sequence[tuple[float, float]]) -> bool:
+        """Check whether a fit or its validation has samples of it.
+
+        Args:
+            in_use_s: Begin and end of the intervals for calibration and validation; s.
+
+        Returns:
+            Whether a finding lies in one of them; samples that every fit leaves out do not count.
+        """
+        rows = [row for row in self.findings if row.kind not in _LEFT_OUT]
+        return any(_acts_s(row, *interval) > 0.0 for row in rows for interval in in_use_s)
+
+    def explains(self, wrong: Iterable[FindingRow], in_use_s: Sequence[tuple[float, float]]) -> bool:
+        """Check whether it is a contact that may be why the robot model contradicts the stream (a heuristic).
+
+        Args:
+            wrong: Faults.
+            in_use_s: As of `spoils`.
+
+        Returns:
+            Whether one of them is an implausible measurement of the same stream, and the contact takes at least a
+            tenth of the time in use.
+        """
+        lead = self.findings[0]
+        touched = sum(_acts_s(lead, *interval) for interval in in_use_s)
+        lasts = touched >= _TOUCHED * sum(end - start for start, end in in_use_s)
+        of_stream = any(row.kind == "implausible" and row.stream == lead.stream for row in wrong)
+        return lead.kind in _LEADING and lasts and of_stream
+
 
 _LEFT_OUT: Final = frozenset({"gap", "frozen", "stuck", "saturation", "lost_messages", "missing", "backward_stamp"})
 """Kinds whose samples no fit has, or measures no force by."""
+_TOUCHED: Final = 0.1
+"""Share of the time in use above which a contact may explain that a measurement is implausible."""
 _LEVER_M: Final = 0.1
 """Lever by which a moment counts as a force."""
 _SAMPLE_S: Final = 0.01
@@ -167,8 +202,6 @@ def _belongs(row: FindingRow, event: Event) -> bool:
 def inspection_answers(inspection: Inspection) -> Iterator[Answer]:
     """Give the answer for a recording, or the log of a sensor by itself.
 
-    There is none for other columns that wait for a file, or the calibration of a maker.
-
     Args:
         inspection: The inspection.
 
@@ -177,8 +210,48 @@ def inspection_answers(inspection: Inspection) -> Iterator[Answer]:
     """
     if inspection.sensor is not None:
         yield sensor_answer(inspection.sensor, inspection.source, inspection.duration_s)
+    elif inspection.calibration is not None:
+        yield _calibration_answer(inspection.calibration, inspection.source)
+    elif inspection.unread:
+        yield _columns_answer(inspection)
     elif inspection.streams:
         yield inspection_answer(inspection)
+
+
+def _calibration_answer(calibration: MakerCalibration, source: str) -> Answer:
+    scales = [f"{amount(row.full_scale, row.unit)} in {row.component}" for row in calibration.rows if row.full_scale]
+    channels = f"{len(calibration.rows[0].coefficients)} channels in {calibration.raw_unit}"
+    return Answer(
+        subject=f"{source}: {calibration.form}, serial number {calibration.serial or 'not stated'}",
+        verdict="CALIBRATION",
+        why=(f"{channels}, {calibration.date or 'no date'}; full scale {', '.join(scales) or 'not stated'}",),
+        step="state it as prior of the [[sensor]] in an experiment file",
+    )
+
+
+def _columns_answer(inspection: Inspection) -> Answer:
+    rows = max(row.rows for row in inspection.unread)
+    quantities: dict[str, list[str]] = {}
+    for row in inspection.unread:
+        if row.looks_like is not None:
+            quantities.setdefault(row.looks_like, []).append(row.column)
+    alike = "; ".join(f"{quantity}: {_few(names)}" for quantity, names in quantities.items())
+    return Answer(
+        subject=f"{inspection.source}: {rows} rows, {len(inspection.unread)} columns or arrays",
+        verdict="NEEDS A FILE",
+        why=(
+            f"by their names, {alike}" if alike else "no name is that of a known quantity",
+            sketch_text(inspection.unread),
+        ),
+        step="begin an experiment file, with a question for each value that the log does not have",
+        command=typed("init", inspection.source, "-o", "experiment.toml"),
+        concern=Concern.UNCERTAIN,
+    )
+
+
+def _few(names: Sequence[str]) -> str:
+    more = len(names) - _MOST_COLUMNS
+    return ", ".join(names[:_MOST_COLUMNS]) + (f" and {more} more" if more > 0 else "")
 
 
 def inspection_answer(inspection: Inspection) -> Answer:
@@ -193,15 +266,21 @@ def inspection_answer(inspection: Inspection) -> Answer:
     grouped = events(inspection.findings, inspection.duration_s)
     notes = [row.message for row in inspection.findings if is_about_all(row, inspection.duration_s)]
     source, is_experiment = inspection.source, inspection.source.endswith(".toml")
-    begin = typed("init", source, "-o", "experiment.toml")
+    begin, go_on = typed("init", source, "-o", "experiment.toml"), typed("run", source, "-o", "results")
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
+    in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
+    spoiling = [event for event in grouped if event.spoils(in_use)]
     if wrong := faults(inspection.findings):
+        touched = [event for event in spoiling if event.explains(wrong, in_use)] if is_experiment else []
         return Answer(
             subject=subject,
             verdict=f"{len(wrong)} FAULT{'S' * (len(wrong) > 1)}",
-            why=tuple(f"{row.stream}: {row.message}" for row in wrong[:2]),
-            step="correct it, and inspect again",
-            command=typed("inspect", source),
+            why=(
+                *(f"{row.stream}: {row.message}" for row in wrong[: 1 if touched else 2]),
+                *(f"in an interval that is used: {event.text}" for event in _most_harmful(touched, in_use)[:1]),
+            ),
+            step="leave the contact out of every [[interval]]" if touched else "correct it, and inspect again",
+            command=typed("init", "--resume", source) if touched else typed("inspect", source),
             concern=Concern.BAD,
         )
     more = (f"{len(notes)} remark(s) on the whole log: {notes[0]}",) if notes else ()
@@ -211,11 +290,10 @@ def inspection_answer(inspection: Inspection) -> Answer:
             verdict="REMARKS" if notes else "NOTHING FOUND",
             why=more,
             step=_NEXT[is_experiment],
-            command=typed("run", source, "-o", "results") if is_experiment else begin,
+            command=go_on if is_experiment else begin,
             concern=Concern.UNCERTAIN if notes else Concern.NONE,
         )
-    in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
-    shown = [event.text for event in sorted(grouped, key=lambda event: event.harm(in_use), reverse=True)[:_MOST]]
+    shown = [event.text for event in _most_harmful(grouped, in_use)[:_MOST]]
     rest = len(grouped) - len(shown)
     usable = _usable(grouped, inspection.duration_s)
     bar = f"0 s |{''.join('█' if cell else '░' for cell in usable)}| {inspection.duration_s:.0f} s; █ no event"
@@ -223,10 +301,20 @@ def inspection_answer(inspection: Inspection) -> Answer:
         subject=subject,
         verdict=f"{len(grouped)} EVENT{'S' * (len(grouped) > 1)}",
         why=(*shown, *((f"{rest} less harmful one(s)",) if rest else ()), bar, *more),
-        step="leave these events out of every [[interval]]" if is_experiment else _NEXT[False],
-        command=typed("init", "--resume", source) if is_experiment else begin,
+        step=_step_of_events(spoiling) if is_experiment else _NEXT[False],
+        command=(typed("init", "--resume", source) if spoiling else go_on) if is_experiment else begin,
         concern=Concern.UNCERTAIN,
     )
+
+
+def _step_of_events(spoiling: Sequence[Event]) -> str:
+    if spoiling:
+        return "leave these events out of every [[interval]]"
+    return f"no interval has a sample of them that is used: {_NEXT[True]}"
+
+
+def _most_harmful(grouped: Iterable[Event], in_use_s: Sequence[tuple[float, float]]) -> list[Event]:
+    return sorted(grouped, key=lambda event: event.harm(in_use_s), reverse=True)
 
 
 def _usable(grouped: Sequence[Event], duration_s: float) -> Iterator[bool]:

@@ -289,12 +289,11 @@ def times_text(sketch: LogSketch) -> str:
     )
 
 
-def sketch_text(rows: Sequence[ColumnRow], source: str) -> str:
-    """Explain the next step for a log that does not describe itself.
+def sketch_text(rows: Sequence[ColumnRow]) -> str:
+    """Explain why a log needs an experiment file.
 
     Args:
         rows: Its columns.
-        source: The log.
 
     Returns:
         A message.
@@ -303,11 +302,8 @@ def sketch_text(rows: Sequence[ColumnRow], source: str) -> str:
     units = f"the headings have {with_unit} unit(s)" if with_unit else "it has no units"
     names = [row.column for row in rows]
     unnamed = names == [str(k) for k in range(1, len(names) + 1)]
-    option = ", with --column-names and a name for each column between commas, for the file has no headings," * unnamed
-    return (
-        f"the log is read with an experiment file that describes it, because {units}: `forcetorque init {source}`"
-        f"{option} drafts one, with a question for each value that the log does not have"
-    )
+    option = "; give a name for each column by --column-names, for the file has no headings" * unnamed
+    return f"the log is read with an experiment file that describes it, because {units}{option}"
 
 
 def _column_row(column: SketchedColumns, looks_like: str | None) -> ColumnRow:

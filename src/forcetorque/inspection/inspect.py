@@ -13,6 +13,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, RecordingError
 from forcetorque.base.progress import Progress
+from forcetorque.base.toml_file import parsed_toml
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.applicability import one_per_sensor
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
@@ -35,7 +36,6 @@ from forcetorque.inspection.file_contents import (
     calibration_row,
     clock_rows,
     column_rows,
-    sketch_text,
     stream_rows,
     stream_table,
     times_text,
@@ -131,7 +131,6 @@ class Inspection(Result):
                 yield self.times
             if self.skipped_arrays:
                 yield not_read_message(self.skipped_arrays)
-            yield sketch_text(self.unread, self.source)
             if self.sensor is None:
                 return
         yield stream_table(self.streams, f"{self.source}: streams")
@@ -324,12 +323,12 @@ def _of_experiment(
 
 def _parsed(source: Path) -> ExperimentFile:
     """The experiment file; the error for another kind of file says that it is not a log either."""
-    try:
-        return parse_experiment(source)
-    except FormatError as error:
-        if source.suffix.lower() == ".toml" or "expected TOML" not in str(error):
-            raise
-        raise not_recognised(source) from error
+    if source.suffix.lower() != ".toml":
+        try:
+            parsed_toml(source, what="an experiment file")
+        except FormatError as error:
+            raise not_recognised(source) from error
+    return parse_experiment(source)
 
 
 def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.formats.logged_wrist import BAG
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree
 from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
@@ -31,7 +32,8 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     """
     contradicted = any(row.severity == "contradiction" for row in weighed.hypotheses)
     contradicted |= any(arm.contradictions for arm in weighed.arms)
-    step, command = _payload_step(weighed)
+    written = weighed.robot_file is not None and not contradicted  # the file is what would come next
+    step, command = ("", "") if written else _payload_step(weighed)
     for load in weighed.loads:
         name = "" if load.load == "load" else f", {load.load}"
         doubtful = bool(contradicted or weighed.undetermined or load.mass_kg is None or samples_disagree(weighed))
@@ -41,6 +43,7 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
             why=(*_reasons(weighed), *_assumed(weighed)),
             step=step,
             command=command,
+            written=(weighed.robot_file,),
             concern=Concern.BAD if contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
         )
 
@@ -63,7 +66,8 @@ def _reasons(weighed: WeighedLoad) -> tuple[str, ...]:
     if samples_disagree(weighed):
         first = reason_to_withhold(weighed.model_copy(update={"hypotheses": ()})) or ""
         return (first, *_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed))
-    return (*_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), _samples(weighed))
+    samples = () if weighed.arms else (_samples(weighed),)  # what is assumed of a log takes their place
+    return (*_turned(weighed), _bias(weighed), *_drift(weighed), _bias_elsewhere(weighed), *samples)
 
 
 def _turned(weighed: WeighedLoad) -> Iterator[str]:
@@ -154,9 +158,9 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     if weighed.undetermined:
         return "record more postures, which turn the load about other axes", ""
     step = "write it to a file that the robot reads"
-    if not weighed.arms:
-        return step, typed("payload", EXPERIMENT, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
-    specified = [word for entry in weighed.arms[-1].specified for word in ("--recording", entry)]
+    specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
+    if not weighed.arms or weighed.arms[-1].controller == BAG:
+        return step, typed("payload", EXPERIMENT, *specified, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
     return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")
 
 
@@ -177,15 +181,14 @@ def tare_answers(tare: Tare) -> Iterator[Answer]:
         )
         weight = float((row.load[FORCE_AND_MOMENT[0]] ** 2).sum() ** 0.5)
         moves = row.load_moves_N > STILL * weight
+        weighs = "the load " if moves else f"the load weighs {amount(weight, 'N')} and "
         yield Answer(
             subject=f"{row.sensor} ({row.serial}), {name}",
             verdict="THE LOAD MOVES" if moves else f"force offset {force}",
             why=(
                 f"moment offset {moment}; {'force offset ' + force + '; ' if moves else ''}to be added to measurements",
-                f"the load weighs {amount(weight, 'N')} and moves by {amount(row.load_moves_N, 'N')} in "
-                f"{row.samples} samples of {row.interval!r}",
+                f"{weighs}moves by {amount(row.load_moves_N, 'N')} in {row.samples} samples of {row.interval!r}",
             ),
-            step="state an interval at rest" if moves else "",
-            command=typed("inspect", FIRST_EXPERIMENT) if moves else "",
+            step="add an [[interval]] in which nothing moves, and name it by --interval" if moves else "",
             concern=Concern.UNCERTAIN if moves else Concern.NONE,
         )

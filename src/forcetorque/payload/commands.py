@@ -119,8 +119,8 @@ def payload(
     experiments: Annotated[
         list[Path],
         typer.Argument(
-            help="Experiment files (TOML) with the same sensor, or logs of arms whose format fixes frame and sign; "
-            "see docs/payload/payload.md."
+            help="Experiment files (TOML) with the same sensor, logs of arms whose format fixes frame and sign, or "
+            "bags of ROS with tf; see docs/payload/payload.md."
         ),
     ],
     to: LoadFormatOption = None,
@@ -132,7 +132,8 @@ def payload(
         list[str] | None,
         typer.Option(
             "--recording",
-            help="Key of [recording] that a log lacks, as moment_about=flange or payload_kg=0; repeat for more.",
+            help="What a log lacks, as moment_about=flange, payload_kg=0 or measure_direction=parent_to_child; repeat "
+            "for more.",
         ),
     ] = None,
     save_experiment: Annotated[
@@ -147,7 +148,8 @@ def payload(
 
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
 
-    Of an arm by Universal Robots or Franka the log is enough: `forcetorque payload record.csv`.
+    Of an arm by Universal Robots or Franka the log is enough: `forcetorque payload record.csv`; of another one a bag of
+    ROS with wrenches and tf.
 
     Python: `run.payload()`, over experiments `payload.weigh_load([run, other["arm_ft"]])`; `--to`: loads of
     robots (docs/payload/robot_load.md)
@@ -188,6 +190,7 @@ def payload(
             robot = robot_load(runs[-1], load.sessions[-1].bias, weighed=load, override=override)
             log.info("the bias is that of %r, the last power-up; tare before use", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
+            load = load.model_copy(update={"robot_file": str(output)})
     if STANDARD_OUTPUT in (output, save_experiment):  # the file itself went there
         show_warnings(load)
     else:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment of a log alone: of an arm whose format fixes frame, units and sign of the wrench at its flange."""
+"""The experiment of a log alone: of an arm whose format fixes frame, units and sign of its wrench, or a bag with tf."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import InMemory
 from forcetorque.experiment.loading import load_tables
-from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription, LogFormat, RobotLoggingFormat
-from forcetorque.formats.logged_wrist import LoggedWrist
+from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription
+from forcetorque.formats.logged_wrist import BAG, LoggedWrist
 from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import draft_of_description, recording_lines
 from forcetorque.inspection.draft.toml_lines import line, toml_value
@@ -57,11 +56,12 @@ def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path)
 
     Args:
         path: The log.
-        specified: Values of keys of the `[recording]` table that neither log nor format determines.
+        specified: Values of keys of the `[recording]` table that neither log nor format determines; of a bag those of
+            `WristTable`.
         folder: Folder of the experiment file, from which its paths count.
 
     Returns:
-        The experiment, with one sensor at the flange.
+        The experiment, with one sensor.
 
     Raises:
         MissingFileError: If there is no such log.
@@ -94,35 +94,19 @@ def _description(path: Path, specified: Mapping[str, object]) -> tuple[LogDescri
         names = " or ".join(format_name(one) for one in LOG_FORMATS if isinstance(one, ArmLoggingFormat))
         raise ExperimentError(
             f"{path}: expected an experiment file, or a log whose format fixes frame and sign of a wrench ({names}), "
-            f"got a log of the format {format_name(known)}{_open_questions(path, known)}; `forcetorque init {path}` "
-            "begins an experiment file"
+            f"got a log of the format {format_name(known)}; `forcetorque init {path}` begins an experiment file"
         )
     description = known.describe_specified(path, specified)
-    wrist = description.wrist
-    if wrist is None:
-        raise ExperimentError(f"{path}: expected the wrench at the flange of an arm, got {description.wrist_lacks}")
     if description.undetermined:
         wanted = "; ".join(f"{key}, {words}" for key, words in description.undetermined.items())
         example = next(iter(description.undetermined))
         raise ExperimentError(
             f"{path}: expected what neither log nor format says: {wanted}; give each by --recording {example}=..."
         )
+    wrist = description.wrist
+    if wrist is None:
+        raise ExperimentError(f"{path}: expected the wrench at the wrist of an arm, got {description.wrist_lacks}")
     return description, wrist
-
-
-def _open_questions(path: Path, known: LogFormat[Any]) -> str:
-    """What a log with frames, as a bag of ROS, does not say of the load; empty for other logs."""
-    if not isinstance(known, RobotLoggingFormat):
-        return ""
-    streams = known.describe(path).reading.streams
-    wrenches = [stream.name for stream in streams if "wrench" in stream.signals]
-    if not wrenches:
-        return ", which has no wrenches"
-    missing = [f"which of {', '.join(wrenches)} is the sensor's"] if len(wrenches) > 1 else []
-    missing.append(f"who acts on whom in {wrenches[0] if len(wrenches) == 1 else 'it'} (measure_direction)")
-    has_robot = known.robot(path).urdf is not None
-    missing.append("which link is the support, and where down is" if has_robot else "which frame has z up (world)")
-    return f", which does not say {'; '.join(missing)}"
 
 
 def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: Path) -> Sequence[str]:
@@ -133,12 +117,24 @@ def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: 
         *recording_lines(draft_of_description(description), folder, None, {}),
         "",
         "[[sensor]]",
-        line("name", wrist.stream),
+        line("name", wrist.sensor),
         line("stream", wrist.stream),
         line("serial", SERIAL, "of a sensor that a calibration is made of, its serial number"),
         line("prior", "identity"),
-        *wrist_load_lines(wrist),
+        *_load_lines(wrist),
         *wrist_interval_lines(wrist),
+    ]
+
+
+def _load_lines(wrist: LoggedWrist) -> Sequence[str]:
+    if wrist.controller != BAG:
+        return wrist_load_lines(wrist)
+    return [
+        "",
+        "[load]",
+        line("frame", wrist.frame),
+        line("motion", [wrist.stream]),
+        line("measure_direction", wrist.measure_direction.value),
     ]
 
 

@@ -337,7 +337,7 @@ class ArmLog(Row):
     """A log of an arm that was read without an experiment file."""
 
     controller: Annotated[str, Shown("controller")]
-    """Kind of the controller, `ur` or `franka`."""
+    """Kind of the controller, `ur` or `franka`; `ros` of a bag."""
     specified: tuple[str, ...]
     """Keys of `[recording]` with the values that were given beside the log, as `moment_about="flange"`."""
     assumed: tuple[str, ...]
@@ -396,6 +396,8 @@ class WeighedLoad(Result):
     """Root mean square residual; N, N m."""
     spanned_directions: int
     """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
+    robot_file: str | None = Field(default=None, exclude=True, repr=False)
+    """File for a robot that was written; None for none."""
     recordings: tuple[RecordingLoadRow, ...] = ()
     """What each of several recordings says by itself."""
     disagreements: tuple[str, ...] = ()

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 CAPABILITY = Capability(
     page="guides/plates.md",
-    needs=("workbench",),
+    needs=("inspection", "workbench"),
     commands=("forcetorque.plates.commands:plate", "forcetorque.plates.commands:fit_plate"),
 )
 

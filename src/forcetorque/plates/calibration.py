@@ -15,6 +15,7 @@ from forcetorque.formats.c3d.force_platform import ForcePlate, centre_of_pressur
 from forcetorque.plates.applied_loads import ONE_MASS, AppliedLoads
 from forcetorque.plates.calibration_result import FAR_GAIN, ComponentRow, PlateCalibration, PlatePicture
 from forcetorque.plates.plate_file import PlateFile
+from forcetorque.plates.plausibility import CHECK_CHANNELS, PLATE
 from forcetorque.plates.standing import LOADED_N
 from forcetorque.workbench.recording import BenchRecording
 from forcetorque.workbench.sensor_fit import bench_calibration, fit_sensor, held_out_errors
@@ -51,7 +52,7 @@ def calibrate_loads(
     """
     _require_sign(f"{plates.file.path}: plate {plate.number}", loads.bench.raw, loads.bench.loads.wrench)
     recording = BenchRecording.of(loads.bench, measure_direction=measure_direction, frame=plate.name)
-    fit = fit_sensor(recording, np.random.default_rng(0), with_series=False)
+    fit = fit_sensor(recording, np.random.default_rng(0), with_series=False, setup=PLATE, check_prior=CHECK_CHANNELS)
     if fit.fitted is None or fit.row.held_out is None or fit.row.prior is None:
         raise FitError(f"{plates.file.path}: plate {plate.number}: {fit.row.reason}")
     calibration = bench_calibration(

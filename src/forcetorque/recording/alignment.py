@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
+from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.recording.stream import Signal, Stream
 
 GAP_PERIODS = 5.0
@@ -243,9 +244,9 @@ def joined_stream(segments: Sequence[Stream], names: Sequence[str]) -> Stream:
     counted = all(segment.sequence is not None for segment in segments)
     return replace(
         first,
-        stamp_ns=np.concatenate([segment.stamp_ns for segment in segments]),
+        stamp_ns=concatenated([segment.stamp_ns for segment in segments]),
         signals={quantity: _joined(quantity, segments) for quantity in first.signals},
-        sequence=np.concatenate([segment.sequence for segment in segments if segment.sequence is not None])
+        sequence=concatenated([segment.sequence for segment in segments if segment.sequence is not None])
         if counted
         else None,
     )
@@ -260,7 +261,7 @@ def _form(stream: Stream) -> str:
 
 
 def _joined(quantity: str, segments: Sequence[Stream]) -> Signal:
-    values = np.concatenate([segment.signals[quantity].values for segment in segments])
+    values = concatenated([segment.signals[quantity].values for segment in segments])
     return replace(segments[0].signals[quantity], values=values)
 
 

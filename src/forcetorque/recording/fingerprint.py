@@ -8,6 +8,7 @@ holds them. Of samples whose share p another log holds, none of `KEPT` is found 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -64,7 +65,23 @@ def fingerprint(values: FloatArray) -> str:
         At most `KEPT` hashes, hexadecimal numbers of 16 letters one behind the other; empty of samples that are too
         few, or hardly change.
     """
-    return "".join(f"{int(value):016x}" for value in window_hashes(values)[:KEPT])
+    return _text(window_hashes(values))
+
+
+def joined_fingerprint(parts: Iterable[str]) -> str:
+    """Give the hashes by which consecutive parts of samples are known again, together.
+
+    Args:
+        parts: Fingerprints of the parts.
+
+    Returns:
+        That of all samples, but for windows in which two parts meet.
+    """
+    return _text(np.unique(np.concatenate([kept_hashes(""), *map(kept_hashes, parts)])))
+
+
+def _text(hashes: Hashes) -> str:
+    return "".join(f"{int(value):016x}" for value in hashes[:KEPT])
 
 
 def kept_hashes(text: str) -> Hashes:

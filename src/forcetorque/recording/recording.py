@@ -171,6 +171,9 @@ class Recording(ArrayRecord):
     """Where it comes from, as free text by key: format, path, robot."""
     clocks: tuple[ClockShift, ...] = field(default=(), metadata=names())
     """How stamps were brought to one clock when it was read; not stored, for what is stored has that clock."""
+    of_span_ns: tuple[int, int] | None = None
+    """Earliest and latest stamp of the recording that it is a segment of; None for a whole one, which alone is stored.
+    """
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -193,11 +196,13 @@ class Recording(ArrayRecord):
 
     @property
     def span_ns(self) -> tuple[int, int]:
-        """Earliest and latest stamp over all streams.
+        """Earliest and latest stamp over all streams, of a segment those of the whole recording.
 
         Raises:
             RecordingError: If no stream has a sample.
         """
+        if self.of_span_ns is not None:
+            return self.of_span_ns
         stamps = [stream.stamp_ns for stream in self.streams.values() if len(stream)]
         if not stamps:
             raise RecordingError("the recording holds no sample in any stream")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from operator import index as whole_number
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import Any
 from urllib.parse import quote
 from uuid import uuid4
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -20,6 +21,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.arrow import arrow_array, arrow_numbers, require_small_parquet
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.base.output_file import real_path, temporary_beside
+from forcetorque.base.rows_on_disk import IN_MEMORY, RowsOnDisk
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream import QUANTITIES, Labels, Signal, Stream
 
@@ -29,6 +31,8 @@ SCHEMA = "forcetorque/recording/1"
 """Name and version of the form."""
 
 _METADATA_KEY = b"forcetorque"
+_BATCH, _BUFFER = 1 << 16, 1 << 20
+"""Rows of a longer stream that are read at a time, and bytes of its file."""
 
 
 def write_recording(folder: Path | str, recording: Recording) -> None:
@@ -201,27 +205,32 @@ def _read_stream(path: Path) -> Stream:
     if not path.is_file():
         raise MissingFileError(f"{path}: expected the Parquet file of a stream, there is no such file")
     try:
-        file = pq.ParquetFile(path, page_checksum_verification=True)
-        require_small_parquet(path, file.metadata, file.schema_arrow.names)
-        table = file.read().combine_chunks()
-        header = json.loads(table.schema.metadata[_METADATA_KEY])
-        signals = {}
+        file = pq.ParquetFile(path, page_checksum_verification=True, buffer_size=_BUFFER)
+        schema = file.schema_arrow
+        require_small_parquet(path, file.metadata, schema.names)
+        header = json.loads(schema.metadata[_METADATA_KEY])
+        widths = {}
         for quantity, described in header["signals"].items():
             if quantity not in QUANTITIES:
                 raise FormatError(f"no quantity is called {quantity!r}; known: {', '.join(QUANTITIES)}")
-            signals[quantity] = Signal(
-                quantity=quantity,
-                values=_samples(table, quantity, width=len(described["columns"])),
-                columns=tuple(described["columns"]),
-                units=tuple(described["units"]),
-                frame=described["frame"],
-            )
+            widths[quantity] = len(described["columns"])
+        counters = [name for name in ("stamp_ns", "sequence") if name == "stamp_ns" or name in schema.names]
+        columns = _columns(file, widths, counters)
         return Stream(
             name=header["name"],
             clock=header["clock"],
-            stamp_ns=_integers(table, "stamp_ns"),
-            sequence=_integers(table, "sequence") if "sequence" in table.column_names else None,
-            signals=signals,
+            stamp_ns=columns["stamp_ns"],
+            sequence=columns.get("sequence"),
+            signals={
+                quantity: Signal(
+                    quantity=quantity,
+                    values=columns[quantity],
+                    columns=tuple(described["columns"]),
+                    units=tuple(described["units"]),
+                    frame=described["frame"],
+                )
+                for quantity, described in header["signals"].items()
+            },
         )
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
@@ -229,6 +238,23 @@ def _read_stream(path: Path) -> Stream:
         raise FormatError(f"{path}: expected a stream of the form {SCHEMA}, got {error!r}") from error
     except (RecordingError, ShapeError, ValueError) as error:
         raise FormatError(f"{path}: {error}") from error
+
+
+def _columns(file: Any, widths: Mapping[str, int], counters: Sequence[str]) -> dict[str, Any]:
+    """Signals of these widths, and counters, by name; of a long stream they are read in batches, and then mapped."""
+
+    def of(table: Any) -> dict[str, Any]:
+        numbers = {name: _integers(table, name) for name in counters}
+        return numbers | {name: _samples(table, name, width=width) for name, width in widths.items()}
+
+    if 8 * file.metadata.num_rows * (sum(widths.values()) + len(counters)) <= IN_MEMORY:
+        return of(file.read().combine_chunks())
+    rows = {name: RowsOnDisk(dtype=np.int64) for name in counters}
+    rows |= {name: RowsOnDisk((width,)) for name, width in widths.items()}
+    for batch in file.iter_batches(batch_size=_BATCH):
+        for name, numbers in of(pa.Table.from_batches([batch]).combine_chunks()).items():
+            rows[name].append(numbers)
+    return {name: written.mapped() for name, written in rows.items()}
 
 
 def _column(table: Any, name: str) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_mapping
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, is_frozen, read_only, read_only_mapping
 from forcetorque.base.errors import RecordingError, ShapeError, known_names
 from forcetorque.base.labelled_arrays import AXIS, TIME, LabelledArray, xarray_dataset
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -204,6 +204,8 @@ QUANTITIES = {
 
 
 def _stamps(values: Any, *, name: str) -> IntArray:
+    if is_frozen(values, np.int64) and values.ndim == 1:
+        return np.asarray(values)
     array = np.array(values, order="C")
     if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
         raise ShapeError(f"{name}: expected integers of shape (n,), got {array.dtype} of shape {array.shape}")

@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration,
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection, SensorIdentity
-from forcetorque.inspection.plausibility.compared_wrenches import Doubt
+from forcetorque.inspection.plausibility.compared_wrenches import Doubt, Setup
 from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.fit import SESSION, BenchFit, fit_bench, fit_means
 from forcetorque.workbench.recording import BenchRecording
@@ -138,6 +138,8 @@ def rms(errors: FloatArray) -> FloatArray:
     return np.sqrt((errors**2).mean(axis=0))
 
 
+CHECK_PRIOR = "check prior of [sensor]"
+"""Where to look if the loads contradict the prior matrix of a sensor with a file of its own."""
 _PERMUTED = 0.5
 """Ratio of errors, with forces and moments exchanged over as specified, below which they were exchanged."""
 _SAMPLES = 10
@@ -167,13 +169,22 @@ class SensorFit:
         return None if self.fitted is None else self.fitted.fit.model.matrix
 
 
-def fit_sensor(recording: BenchRecording, rng: np.random.Generator, *, with_series: bool) -> SensorFit:
+def fit_sensor(
+    recording: BenchRecording,
+    rng: np.random.Generator,
+    *,
+    with_series: bool,
+    setup: Setup | None = None,
+    check_prior: str = CHECK_PRIOR,
+) -> SensorFit:
     """Fit a sensor and validate the fit.
 
     Args:
         recording: The recording of the sensor.
         rng: Source of the partitions into folds.
         with_series: Whether whole series are left out too, which takes a fit for each.
+        setup: Limits and messages of the plausibility checks; those of a workbench if None.
+        check_prior: Where to look if the loads contradict the prior matrix.
 
     Returns:
         The fit.
@@ -189,8 +200,8 @@ def fit_sensor(recording: BenchRecording, rng: np.random.Generator, *, with_seri
     fitted, reason = None, ""
     warnings: tuple[str, ...] = ()
     try:
-        doubts = _plausibility_doubts(bench) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
-        fitted, contradiction = _fitted(bench, doubts)
+        doubts = _plausibility_doubts(bench, setup) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
+        fitted, contradiction = _fitted(bench, doubts, check_prior)
         warnings = (*(doubt.message for doubt in doubts), *contradiction)
     except FitError as error:
         reason = str(error)
@@ -250,12 +261,13 @@ _CONTRADICTED = 2.0
 """Error of positions that were left out, over that of least squares without the prior, beyond which that is wrong."""
 
 
-def _fitted(bench: Bench, doubts: Sequence[Doubt]) -> tuple[BenchFit, tuple[str, ...]]:
+def _fitted(bench: Bench, doubts: Sequence[Doubt], check_prior: str = CHECK_PRIOR) -> tuple[BenchFit, tuple[str, ...]]:
     """Fit with the prior, and without it where it does not predict positions that were left out.
 
     Args:
         bench: Positions whose load and raw sample are known.
         doubts: Doubts of the plausibility checks.
+        check_prior: Where to look if the loads contradict the prior matrix.
 
     Returns:
         The fit, and a warning where the prior was left out.
@@ -279,8 +291,8 @@ def _fitted(bench: Bench, doubts: Sequence[Doubt]) -> tuple[BenchFit, tuple[str,
     unit = "N" if worst < 3 else "N m"
     warning = (
         f"the prior matrix contradicts the loads: with it {WRENCH_COMPONENTS[worst]} of a position that is left out is "
-        f"off by {errors[worst]:.2g} {unit}, without it by {alone[worst]:.2g} {unit}; it is not used: check prior of "
-        "[sensor]"
+        f"off by {errors[worst]:.2g} {unit}, without it by {alone[worst]:.2g} {unit}; it is not used: "
+        f"{check_prior}"
     )
     return fit_bench(replace(bench, prior=None)), (warning,)
 
@@ -310,7 +322,7 @@ _DETERMINED = 1e-6
 """Least share of the strongest direction of loads, and least part of a position that the others predict."""
 
 
-def _plausibility_doubts(bench: Bench) -> tuple[Doubt, ...]:
+def _plausibility_doubts(bench: Bench, setup: Setup | None = None) -> tuple[Doubt, ...]:
     """Doubts of the plausibility checks, which raise an error where measurements are implausible."""
     from forcetorque.inspection.plausibility.checks import examine
     from forcetorque.inspection.plausibility.compared_wrenches import WORKBENCH
@@ -320,7 +332,7 @@ def _plausibility_doubts(bench: Bench) -> tuple[Doubt, ...]:
         raw=np.repeat(bench.raw, _SAMPLES, axis=0),
         reference=np.repeat(bench.loads.wrench, _SAMPLES, axis=0),
     )
-    return examine([blocks], bench.prior, setup=WORKBENCH)
+    return examine([blocks], bench.prior, setup=setup or WORKBENCH)
 
 
 def _require_force_first(bench: Bench, file: str) -> None:

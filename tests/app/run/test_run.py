@@ -91,6 +91,7 @@ def test_a_contact_in_the_fitted_interval_stops_it(folder: Path, run: Run) -> No
     stopped = run("run", PARQUET, "-o", "results")
     assert stopped.code == 3
     assert "STOPPED AT INSPECT" in stopped.out.splitlines()[0]
+    assert f"\n  forcetorque init --resume {PARQUET}\n" in stopped.out
     assert snapshot(folder) == before
     went_on = run("run", PARQUET, "-o", "results", "--override", "the table is part of the test", "--format", "json")
     result = json.loads(went_on.out)
@@ -125,6 +126,7 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     stopped = run("run", "log.csv", "-o", "results", "--no-input", "--format", "json")
     questions = json.loads(stopped.out)["questions"]
     assert stopped.code == 4
+    assert json.loads(stopped.out)["stages"][0]["command"] == "run results/experiment.toml -o results"
     file = Path("results/experiment.toml")
     assert len(questions) == len(open_questions(file)) > 1
     asked: list[str] = []

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.noise.means import means_of_parts, means_over
 
 
 def test_means_by_hand() -> None:
@@ -48,3 +50,18 @@ def test_what_cannot_be_averaged_is_refused() -> None:
         means_over([0.0, 1.0], [[np.nan], [0.0]])
     with pytest.raises(ShapeError, match="columns"):
         means_over([0.0, 1.0], np.zeros((3, 1)))
+
+
+@given(ends=st.lists(st.integers(0, 500), max_size=6), start=st.floats(0.0, 1e9))
+def test_parts_have_the_means_of_the_whole(ends: list[int], start: float) -> None:
+    """Bit by bit, wherever parts end; a pause between them stays one."""
+    rng = np.random.default_rng(len(ends))
+    time = start + np.cumsum(rng.uniform(0.0, 0.05, 500) + 5.0 * (rng.uniform(size=500) > 0.99))
+    signals = rng.normal(size=(500, 3))
+    borders = [0, *sorted(ends), 500]
+    parts = [(time[a:b], signals[a:b]) for a, b in zip(borders[:-1], borders[1:], strict=True)]
+    expected = means_over(time, signals)
+    for one, other in zip(means_of_parts(parts), expected[:2], strict=True):
+        assert np.array_equal(one, other)
+    with pytest.raises(FitError, match="at least one sample"):
+        means_of_parts([(time[:0], signals[:0])])

@@ -27,6 +27,7 @@ from forcetorque.experiment.calibration.artefact import (
     CalibratedVariable,
     Calibration,
     Prior,
+    calibrations_in,
     read_calibration,
     write_calibration,
 )
@@ -266,3 +267,17 @@ def test_numbers_that_no_fit_leaves_are_refused(tmp_path: Path, place: str, valu
         with pytest.raises(FormatError, match=rf"changed\.json: {place}: .*{message}") as caught:
             read_calibration(changed)
         assert "\n" not in str(caught.value)
+
+
+def test_other_json_files_of_a_folder_are_named(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """They are left out with a warning; other results of the library, as of a joint calibration, without."""
+    write_calibration(tmp_path / "arm.json", _calibration())
+    (tmp_path / "joint.json").write_text('{"schema": "forcetorque/joint/1"}', encoding="utf-8")
+    assert list(calibrations_in(tmp_path)) == [str(tmp_path / "arm.json")]
+    assert caplog.messages == []
+    (tmp_path / "notes.json").write_text("[1, 2]", encoding="utf-8")
+    (tmp_path / "settings.json").write_text('{"schema": "other/1"}', encoding="utf-8")
+    assert list(calibrations_in(tmp_path)) == [str(tmp_path / "arm.json")]
+    assert caplog.messages == [
+        f"{tmp_path}: left out notes.json, settings.json: expected calibrations, got other JSON files"
+    ]

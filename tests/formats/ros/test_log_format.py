@@ -113,8 +113,11 @@ def test_tf_gives_gravity_in_the_support_frame(written: Path) -> None:
     gravity = rotations.inv().apply([0.0, 0.0, -STANDARD_GRAVITY])
     np.testing.assert_allclose(stream.signal("gravity").values, gravity, atol=1e-13)
     np.testing.assert_array_equal(stream.signal("translation").values, [[1.0, 2.0, 3.0]] * ROWS)
-    with pytest.raises(FormatError, match="expected poses of sole in world, got base -> sole, world -> base"):
-        _read(written, entry | {"world": "world"})
+    (chained,) = _read(written, entry | {"world": "world"}).streams
+    np.testing.assert_allclose(chained.signal("gravity").values, gravity, atol=1e-12)
+    np.testing.assert_allclose(chained.signal("translation").values, [[2.0, 4.0, 6.0]] * ROWS, atol=1e-14)
+    with pytest.raises(FormatError, match="expected poses of sole in map, got base -> sole, world -> base"):
+        _read(written, entry | {"world": "map"})
     with pytest.raises(FormatError, match="expected frame and world for poses"):
         _read(written, {"name": "sole", "topic": "/tf", "frame": "sole"})
 

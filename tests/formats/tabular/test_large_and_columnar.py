@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
@@ -14,11 +15,13 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pyarrow.csv as pacsv
+import pyarrow.feather as feather
 import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.tabular import row_readers as text
 from forcetorque.formats.tabular.log_format import sketch_table
 from forcetorque.formats.tabular.table import read_frame, read_table
@@ -159,6 +162,64 @@ def test_lists_of_several_lengths_are_refused_by_their_row(tmp_path: Path) -> No
         _stream(path, replace(OF_LIST, signals=(beyond,)))
 
 
+def _write_file(path: Path, table: pa.Table) -> None:
+    with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_file(sink, table.schema) as writer:
+        writer.write_table(table, max_chunksize=70)
+
+
+def _write_stream(path: Path, table: pa.Table) -> None:
+    with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_stream(sink, table.schema) as writer:
+        writer.write_table(table, max_chunksize=70)
+
+
+def _write_feather(path: Path, table: pa.Table) -> None:
+    feather.write_feather(table, path, compression="zstd", chunksize=70)
+
+
+ARROW: dict[str, Callable[[Path, pa.Table], None]] = {
+    "log.arrow": _write_file,
+    "stream.arrow": _write_stream,
+    "log.feather": _write_feather,
+}
+
+
+@pytest.mark.parametrize("name", ARROW)
+def test_arrow_is_read_as_parquet_is(tmp_path: Path, name: str) -> None:
+    """Columns, lists, extents and missing values, of files, streams and packed batches."""
+    columns, path = _columns(ROWS), tmp_path / name
+    ARROW[name](path, pa.table(columns))
+    _same(_stream(path))
+    assert recognised_format(path) is not None
+    sketch = sketch_table(path)
+    assert [column.name for column in sketch.columns] == list(columns)
+    assert (sketch.columns[3].largest, sketch.columns[3].rows) == (columns["fz"].max(), ROWS)
+    rows = np.column_stack([columns[name] for name in WRENCH_COMPONENTS]).tolist()
+    ARROW[name](path, pa.table({"wrench": pa.array([None, *rows[1:]]), "t": columns["t"]}))
+    values = _stream(path, OF_LIST).signal("wrench").values
+    assert np.isnan(values[0]).all()
+    np.testing.assert_array_equal(values[1:, :3], np.array(rows)[1:, :3])
+    with pytest.raises(FormatError, match="expected one column 'fx'"):
+        _stream(path)
+
+
+@pytest.mark.parametrize("name", ARROW)
+def test_damaged_arrow_is_refused(tmp_path: Path, name: str) -> None:
+    """Cut files, and none without rows; a file of another kind is not taken for a stream."""
+    path = tmp_path / name
+    ARROW[name](path, pa.table(_columns(ROWS)))
+    whole = path.read_bytes()
+    for size in (8, 300, len(whole) // 2):
+        path.write_bytes(whole[:size])
+        with pytest.raises(FormatError, match="expected a whole table"):
+            _stream(path)
+    ARROW[name](path, pa.table(_columns(0)))
+    with pytest.raises(FormatError, match="expected rows, got none"):
+        _stream(path)
+    other = tmp_path / "log.bin"
+    other.write_bytes(b"\xff" * 64)
+    assert recognised_format(other) is None
+
+
 def _replaced_in_footer(path: Path, old: bytes, new: bytes) -> None:
     content = path.read_bytes()
     footer = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
@@ -263,3 +324,26 @@ def test_ten_million_rows_take_little_more_than_their_numbers(tmp_path: Path, ki
     result_mb = rows * (6 * 8 + 16) / 2**20
     assert peak_mb < result_mb + FIXED_MB
     print(f"{kind}: {path.stat().st_size / 2**20:.0f} MB, {peak_mb} MB of which {result_mb:.0f} MB are the result")  # noqa: T201
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_a_long_table_is_mapped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str) -> None:
+    """Text or Parquet, in several blocks: bit by bit what is read into memory, in SI units."""
+    rng = np.random.default_rng(3)
+    columns = {"t": np.arange(5000) * 0.01, "x": rng.normal(size=5000), "y": rng.normal(size=5000)}
+    file = tmp_path / f"log.{ending}"
+    table = pa.table(columns)
+    if ending == "csv":
+        pacsv.write_csv(table, file)
+    else:
+        pq.write_table(table, file, row_group_size=1000)
+    layout = TableLayout(
+        stamp=StampColumn(column="t", unit="s"),
+        signals=(TableSignal(quantity="position", columns=("x", "y"), units=("deg", "deg")),),
+    )
+    (expected,) = read_table(file, layout, stream="joints", clock="log").streams
+    monkeypatch.setattr("forcetorque.formats.tabular.table.IN_MEMORY", 1)
+    monkeypatch.setattr("forcetorque.formats.tabular.row_readers.BLOCK_SIZE", 10_000)
+    (mapped,) = read_table(file, layout, stream="joints", clock="log").streams
+    assert np.array_equal(mapped.stamp_ns, expected.stamp_ns)
+    assert np.array_equal(mapped.signals["position"].values, expected.signals["position"].values)

@@ -32,6 +32,7 @@ from forcetorque.recording.storage import write_recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
+from tests.formats.franka.states import states, write_table
 from tests.formats.yarp.port_logs import write_port
 from tests.scenes.tutorial_log import FOLDER, PUSH_S, log_text, reading, robot_text
 
@@ -581,3 +582,13 @@ def test_a_robot_that_ends_at_its_sensor_has_a_tool(tmp_path: Path) -> None:
     assert _keys(draft.content)[-2:] == ["name", "link"]
     assert "the URDF has no mass there" in draft.content
     assert [one["support"] for one in tomllib.loads(draft.content)["interval"]] == ["base"] * 3
+
+
+def test_a_log_with_neither_sensor_nor_robot_is_not_called_complete(tmp_path: Path) -> None:
+    """No command could go on with its file; with the robot it is inspected."""
+    log = write_table(tmp_path / "joints.csv", states(poses=2, samples=3))
+    (alone,) = draft_experiment([log]).answers()
+    assert (alone.verdict, alone.command) == ("NO SENSOR AND NO ROBOT", "")
+    (beside,) = draft_experiment([log], urdf=ARM_URDF).answers()
+    assert "NO SENSOR" not in beside.verdict
+    assert beside.command.startswith("inspect ")

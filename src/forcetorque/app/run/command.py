@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.base.errors import ExperimentError
+from forcetorque.results.answer import typed
 from forcetorque.results.terminal.options import (
     ColumnNamesOption,
     DetailsOption,
@@ -76,7 +77,7 @@ def run(
             _begun(files, output, urdf, sensor or (), matrices, between_commas(column_names), force=force)
         ]
     for file in open_files:
-        if (unanswered := _unanswered(file, no_input=no_input)) is not None:
+        if (unanswered := _unanswered(file, output, no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
     from forcetorque.app.run.run import run as go  # here because open questions need none of its stages
 
@@ -143,7 +144,7 @@ def _begun(
     return file
 
 
-def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
+def _unanswered(file: Path, output: Path, *, no_input: bool) -> WholeRun | None:
     """Ask what only a person can answer, then for proposals; what comes out if something stays open, else None."""
     from forcetorque.app.run.result import Stage, WholeRun
     from forcetorque.inspection.draft.resume import resume_experiment
@@ -154,12 +155,14 @@ def _unanswered(file: Path, *, no_input: bool) -> WholeRun | None:
     listed = tuple(f"line {one.line}, {one.key}: {one.question}" for one in draft.questions)
     if listed:
         text = f"{len(listed)} question(s) are open, the first: {listed[0]}"
-        remedy = f'put the answers in place of "?" in {file}, and run it: forcetorque run {file}'
+        remedy = f'put the answers in place of "?" in {file}'
+        command = typed("run", str(file), "-o", str(output))
     elif blocking := [one for one in draft.proposals if one.line is None or not asks]:
         listed = tuple(one.proposal for one in blocking)
         text = f"{len(listed)} proposal(s) are open, the first: {listed[0]}"
-        remedy = f"accept them by forcetorque init --resume {file}, or decline them all: forcetorque run {file}"
+        remedy = f"accept or decline each in a terminal; forcetorque run {file} declines them all"
+        command = typed("init", "--resume", str(file))
     else:
         return None
-    stage = Stage(name="init", outcome="stopped", seconds=0.0, text=text, remedy=remedy)
+    stage = Stage(name="init", outcome="stopped", seconds=0.0, text=text, remedy=remedy, command=command)
     return WholeRun(experiment=str(file), stages=(stage,), questions=listed, files=(str(file),))

@@ -47,6 +47,8 @@ class Stage(Row):
     """What came out."""
     remedy: str | None = None
     """What to change; None where nothing is to be changed."""
+    command: str | None = None
+    """Command to type next, without the name of the program; None where there is none."""
 
 
 class WholeRun(Result):
@@ -103,6 +105,7 @@ class WholeRun(Result):
                 verdict=f"STOPPED AT {stage.name.upper()}",
                 why=(stage.text,),
                 step=stage.remedy or "",
+                command=stage.command or "",
                 written=self.files,
                 concern=Concern.BAD,
             )

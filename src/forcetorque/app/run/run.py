@@ -45,7 +45,7 @@ _WORKBENCH = "forcetorque/bench/"
 TABLE = "calibrations.csv"
 """Name of the file with the matrices of all sensors."""
 _PAGE, _NUMBERS = "report.html", "report.numbers.json"
-_OVERRIDE = 'correct it, or go on with --override "reason"'
+_OVERRIDE = 'or go on with --override "reason"'
 _CHANNELS = 6
 """Channels of a sensor whose matrix the icub-matrix file holds."""
 
@@ -85,7 +85,7 @@ class _Way:
         self.stages.append(Stage(name=name, outcome="skipped" if skipped else "done", seconds=seconds, text=text))
         self.progress(f"{name}: {text} ({seconds:.1f} s)")
 
-    def stop(self, name: StageName, text: str, remedy: str, *, for_good: bool = False) -> None:
+    def stop(self, name: StageName, text: str, remedy: str, *command: str, for_good: bool = False) -> None:
         """Record a stage after which the rest would mislead, and stop there unless a person gave a reason to go on."""
         seconds = monotonic() - self.started
         goes_on = self.override is not None and not for_good
@@ -95,7 +95,8 @@ class _Way:
                 outcome="overridden" if goes_on else "stopped",
                 seconds=seconds,
                 text=text,
-                remedy=remedy if for_good else f"{remedy}; {_OVERRIDE}",
+                remedy=remedy if for_good else f"{remedy}, {_OVERRIDE}",
+                command=typed(*command) if command else None,
             )
         )
         if not goes_on:
@@ -261,17 +262,22 @@ def _names(experiment: Experiment) -> list[str]:
 def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequence[str]) -> list[str]:
     """Look for contacts in what is to be fitted; what else is wrong by the robot model, in words."""
     way.begin("inspect")
-    touched, wrong, found = [], [], 0
+    touched: list[tuple[Path, str]] = []
+    wrong, found = [], 0
     for path, experiment in experiments.items():
         inspection = inspected(experiment, sensors=sensors, progress=way.progress)
         way.results.append(inspection)
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
         wrong += [f"{path}: {row.stream}: {row.message}" for row in faults(inspection.findings)]
-        touched += [f"{path}: {words}" for words in _contacts(experiment, inspection, sensors)]
+        touched += [(path, f"{path}: {words}") for words in _contacts(experiment, inspection, sensors)]
     if touched:
-        way.stop("inspect", "; ".join(touched), "leave the contact out of the [[interval]], or state it as [[contact]]")
+        remedy = "leave the contact out of the [[interval]], state it as [[contact]]"
+        way.stop("inspect", "; ".join(words for _, words in touched), remedy, "init", "--resume", str(touched[0][0]))
     else:
-        way.end("inspect", f"{len(experiments)} recording(s), {found} with events outside or inside the intervals")
+        way.end(
+            "inspect",
+            f"{len(experiments)} recording(s), {found} with events, none of them a contact in a calibration interval",
+        )
     return wrong
 
 
@@ -307,7 +313,8 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str]) -
             except ForceTorqueError as error:
                 unchecked.append(f"{name}: {error}")
     if contradicted:
-        way.stop("check", "; ".join(dict.fromkeys(contradicted)), "correct what the file states")
+        remedy = "correct what the file states"
+        way.stop("check", "; ".join(dict.fromkeys(contradicted)), remedy, "inspect", str(way.files[0]))
     else:
         way.end("check", f"{len(campaigns)} sensor(s): nothing contradicts the file{_not_checked(unchecked)}")
 
@@ -442,7 +449,8 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
     if forbidden:
         worst = forbidden[0]
         remedy = next((reason.remedy for reason in worst.reasons if reason.remedy is not None), "keep the prior matrix")
-        way.stop("evaluate", "; ".join(f"{use.sensor}: {use.message}" for use in forbidden), remedy.rstrip("."))
+        text = "; ".join(f"{use.sensor}: {use.message}" for use in forbidden)
+        way.stop("evaluate", text, remedy.rstrip("."), "inspect", str(way.files[0]))
     elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
         texts += [f"{one.subject.split()[0]}: no verdict" for one in without]

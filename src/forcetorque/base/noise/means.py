@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Final
@@ -46,17 +46,63 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
     time, signals = np.asarray(time_s, dtype=np.float64), np.asarray(columns, dtype=np.float64)
     require_shape(time, name="time_s", shape=(None,))
     require_shape(signals, name="columns", shape=(len(time), None))
+    _require_samples_in_time(time, signals)
+    if not len(time):
+        return time.copy(), signals.copy(), np.zeros(0, dtype=np.int64)
+    return _means(time, signals, time[0], window_s)
+
+
+def _require_samples_in_time(time: FloatArray, signals: FloatArray) -> None:
     if not (np.isfinite(time).all() and np.isfinite(signals).all()):
         raise FitError("means over windows: expected finite instants and signals; leave out samples with a gap")
     if (np.diff(time) < 0.0).any():
         raise FitError("time_s: expected instants that do not fall; sort the samples")
-    if not len(time):
-        return time.copy(), signals.copy(), np.zeros(0, dtype=np.int64)
-    window = np.floor((time - time[0]) / window_s + WINDOW_ROUNDING)
+
+
+def _means(
+    time: FloatArray, signals: FloatArray, origin: float, window_s: float
+) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Averages over windows that start at an instant."""
+    window = np.floor((time - origin) / window_s + WINDOW_ROUNDING)
     starts = np.flatnonzero(np.diff(window, prepend=-1.0))
     counts = np.diff(starts, append=len(time))
-    middle = time[0] + np.add.reduceat(time - time[0], starts) / counts
+    middle = origin + np.add.reduceat(time - origin, starts) / counts
     return middle, np.add.reduceat(signals, starts, axis=0) / counts[:, None], counts
+
+
+def means_of_parts(
+    parts: Iterable[tuple[FloatArray, FloatArray]], window_s: float = WINDOW_S
+) -> tuple[FloatArray, FloatArray]:
+    """Average samples that come in parts, as `means_over` does all of them.
+
+    Args:
+        parts: Instants and signals of consecutive samples, as of `means_over`; at least one sample in all.
+        window_s: Length of a window; s.
+
+    Returns:
+        Mean instants of the windows, shape (m,), in s; means of the signals, shape (m, k).
+
+    Raises:
+        FitError: As of `means_over`, or if there is no sample.
+    """
+    means: list[tuple[FloatArray, FloatArray, IntArray]] = []
+    origin, rest = None, None
+    for time, signals in parts:
+        if not len(time):
+            continue
+        if rest is not None:
+            time, signals = np.concatenate([rest[0], time]), np.concatenate([rest[1], signals])
+        _require_samples_in_time(time, signals)
+        origin = float(time[0]) if origin is None else origin
+        window = np.floor((time - origin) / window_s + WINDOW_ROUNDING)
+        last = int(np.searchsorted(window, window[-1]))  # the last window goes on in the next part
+        if last:
+            means.append(_means(time[:last], signals[:last], origin, window_s))
+        rest = time[last:], signals[last:]
+    if rest is None or origin is None:
+        raise FitError("means over windows: expected at least one sample, got none")
+    means.append(_means(*rest, origin, window_s))
+    return np.concatenate([one[0] for one in means]), np.concatenate([one[1] for one in means])
 
 
 def joined_times(instants: Sequence[FloatArray]) -> FloatArray:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
@@ -30,6 +31,8 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel, seconda
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
+
+_LOG = logging.getLogger(__name__)
 
 SCHEMA: Final = "forcetorque/calibration/4"
 """Name and version of the file's form."""
@@ -357,7 +360,8 @@ def calibrations_in(folder: Path) -> dict[str, Calibration]:
     """Read the calibrations of a folder, such as `calibrate` and `run` write for several sensors.
 
     Args:
-        folder: The folder; JSON files of other results in it are passed over.
+        folder: The folder; other results of the library in it are passed over, other JSON files with a warning in the
+            log.
 
     Returns:
         Calibrations by name of their file, sorted by it.
@@ -366,12 +370,16 @@ def calibrations_in(folder: Path) -> dict[str, Calibration]:
         MissingFileError: If it holds none.
         FormatError: If one is of another schema version, or a JSON file is damaged.
     """
-    files = [file for file in sorted(folder.glob("*.json")) if _is_calibration(file)]
+    schemas = {file: _schema(file) for file in sorted(folder.glob("*.json"))}
+    files = [file for file, schema in schemas.items() if schema.startswith(SCHEMA.rpartition("/")[0])]
     if not files:
         raise MissingFileError(f"{folder}: expected a folder of calibrations, .json; it holds none")
+    if others := [file.name for file, schema in schemas.items() if not schema.startswith("forcetorque/")]:
+        _LOG.warning("%s: left out %s: expected calibrations, got other JSON files", folder, ", ".join(others))
     return {str(file): read_calibration(file) for file in files}
 
 
-def _is_calibration(file: Path) -> bool:
+def _schema(file: Path) -> str:
+    """Name and version of a JSON file's form; empty if it has none."""
     content = read_json(file, expected="a JSON file")
-    return isinstance(content, dict) and str(content.get("schema")).startswith(SCHEMA.rpartition("/")[0])
+    return str(content.get("schema", "")) if isinstance(content, dict) else ""

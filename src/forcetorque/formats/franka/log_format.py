@@ -243,6 +243,7 @@ def _wrist(table: FrankaLog, states: LoggedStates) -> LoggedWrist:
     return LoggedWrist(
         controller="franka",
         stream=WRIST,
+        sensor=WRIST,
         measure_direction=_DIRECTION,
         declared=declared_loads(states.stamp_ns, mass, centre),
         moving=motions(states.stamp_ns, poses.base_H_flange[:, :3, :3], poses.base_H_flange[:, :3, 3]),

@@ -4,286 +4,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Literal
 
-import numpy as np
-from pydantic import Field
-
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
-from forcetorque.base.toml_file import Table, Text
-from forcetorque.formats.log_format import (
-    LogContext,
-    LogDescription,
-    LoggedRobot,
-    LogReading,
-    LogTable,
-    StreamReading,
-)
+from forcetorque.base.errors import ForceTorqueError, FormatError
+from forcetorque.formats.log_format import LogContext, LogDescription, LoggedRobot, LogReading, StreamReading
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
-from forcetorque.formats.ros.messages import (
-    IMU_TYPE,
-    MESSAGES,
-    POSE_TYPES,
-    QUATERNION_TYPE,
-    Batch,
-    Fields,
-    decode,
-    not_measured,
-)
+from forcetorque.formats.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUATERNION_TYPE
 from forcetorque.formats.ros.robot_topics import is_description, is_static, robot_of_bag
-from forcetorque.formats.signals import SPECIFY_SENSE, WorldTable
-from forcetorque.recording.frames import QUATERNION_XYZW, OrientationLayout, OrientationSense, orientation_signals
+from forcetorque.formats.ros.specified_topics import RosLog, RosOrientation, RosStream, read_specified
+from forcetorque.formats.ros.wrist_of_bag import describe_wrist
+from forcetorque.formats.signals import SPECIFY_SENSE
+from forcetorque.recording.frames import OrientationSense
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import QUANTITIES, Signal, Stream
-
-CLOCK = "ros"
-"""Clock of all streams: the stamps of headers, which ROS demands to be of one time."""
-
-_RATES = {"position": "", "velocity": "/s", "torque": ""}
-
-
-@dataclass(kw_only=True)
-class Samples:
-    """What was read of a topic, in batches of k messages that have one layout."""
-
-    stamps: list[IntArray] = field(default_factory=list)
-    """Stamps of the sender; shape (k,) each; ns."""
-    received: list[IntArray] = field(default_factory=list)
-    """When the recorder had them; shape (k,) each; ns."""
-    counters: list[IntArray] = field(default_factory=list)
-    """Counters of the sender, where messages have one; shape (k,) each."""
-    numbers: list[dict[str, FloatArray]] = field(default_factory=list)
-    """Numbers by quantity; shape (k, columns) each."""
-    frames: dict[str, None] = field(default_factory=dict)
-    """Frames that messages name, each once."""
-    names: dict[str, None] = field(default_factory=dict)
-    """Joints or channels that messages name, each once."""
-    batch_names: list[tuple[str, ...]] = field(default_factory=list)
-    """Those of every batch, in its order of columns."""
-    order: list[IntArray] = field(default_factory=list)
-    """Places of the messages among all of the topic; shape (k,) each."""
-
-    def joined(self, name: str) -> FloatArray:
-        """Put the batches of some numbers one behind the other; shape (n, k)."""
-        return np.concatenate([batch[name] for batch in self.numbers])
-
-
-def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | None = None) -> Samples:
-    """Read all messages of a topic.
-
-    Args:
-        bag: The bag.
-        topic: Topic, of a type in `MESSAGES`.
-        child: Of poses, the frame whose pose is wanted, where messages name it.
-        parent: Of poses, the frame in which they are seen, where messages name it.
-
-    Returns:
-        Its samples.
-
-    Raises:
-        FormatError: If there are none.
-    """
-    kind = bag.types[topic]
-    samples, first, pairs = Samples(), 0, set()
-    for received, messages in bag.messages(topic):
-        for batch in decode(messages, MESSAGES[kind], cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
-            for fields in batch.fields:
-                pairs.add(fields.frames if kind in POSE_TYPES else ())
-                if child is None or all(
-                    named in ("", wanted) for named, wanted in zip(fields.frames, (parent, child), strict=False)
-                ):
-                    _keep(samples, batch, fields, received, first)
-        first += len(messages)
-    if not samples.stamps:
-        known = ", ".join(sorted(" -> ".join(pair) for pair in pairs if pair)) or "no message"
-        wanted = f"poses of {child} in {parent}" if child else "messages"
-        raise FormatError(f"{bag.path}: {topic}: expected {wanted}, got {known}")
-    return samples
-
-
-def _keep(samples: Samples, batch: Batch, fields: Fields, received: IntArray, first: int) -> None:
-    samples.stamps.append(batch.stamp_ns(fields.stamp))
-    samples.received.append(received[batch.rows])
-    samples.order.append(first + batch.rows)
-    if fields.counter is not None:
-        samples.counters.append(batch.counters(fields.counter))
-    samples.numbers.append({name: batch.numbers(*place) for name, place in fields.numbers.items()})
-    samples.frames[fields.frame] = None
-    samples.names |= dict.fromkeys(fields.names)
-    samples.batch_names.append(fields.names)
-
-
-def topic_stream(
-    bag: Bag,
-    topic: str,
-    *,
-    name: str,
-    frame: str | None,
-    world: str | None,
-    joint_units: Mapping[str, str],
-    orientation: OrientationLayout | None = None,
-) -> StreamReading:
-    """Make the stream of a topic.
-
-    Args:
-        bag: The bag.
-        topic: Topic, of a type in `MESSAGES`.
-        name: Name for the stream.
-        frame: Frame of its readings; that of its messages if None. Of poses the frame whose pose is wanted.
-        world: Of poses, the frame in which that is seen.
-        joint_units: Unit of joints, rad or m; rad where a joint is missing.
-        orientation: What the orientations of the messages mean, to read these and nothing that an IMU measures beside.
-
-    Returns:
-        The stream, and findings.
-
-    Raises:
-        FormatError: If messages have two frames and none is specified.
-    """
-    samples = read_topic(bag, topic, child=None if world is None else frame, parent=world)
-    order = np.argsort(np.concatenate(samples.order), kind="stable")
-    stamps, stamp_findings = _stamps(samples, name, order)
-    if frame is None and len(samples.frames) > 1:
-        frames = ", ".join(map(repr, sorted(samples.frames)))
-        raise FormatError(f"{bag.path}: {topic}: expected messages of one frame, got {frames}; specify it")
-    own = next(iter(samples.frames)).strip("/") or name
-    signals: dict[str, Signal]
-    findings: tuple[Finding, ...] = ()
-    if orientation is None:
-        signals = _signals(samples, order, frame=frame or own, joint_units=joint_units)
-    else:
-        place = f"{bag.path}: {topic}"
-        signals, findings = _pose(samples, order, orientation, name=name, frame=frame or own, place=place)
-    if not signals:
-        raise FormatError(f"{bag.path}: {topic}: expected messages with numbers, got none that were measured")
-    counters = np.concatenate(samples.counters)[order] if samples.counters else None
-    stream = Stream(
-        name=name,
-        clock=CLOCK,
-        stamp_ns=stamps,
-        signals=signals,
-        # drivers that leave the counter at zero do not count
-        sequence=counters if counters is not None and world is None and counters.any() else None,
-    )
-    return StreamReading(stream, (*stamp_findings, *findings))
-
-
-def _stamps(samples: Samples, name: str, order: IntArray) -> tuple[IntArray, tuple[Finding, ...]]:
-    stamps = np.concatenate(samples.stamps)[order]
-    if stamps.any():
-        return stamps, ()
-    text = "no message has a stamp; those of the recorder are used, which are later by the transport"
-    finding = Finding(stream=name, kind="recorder_stamp", message=text, count=len(stamps))
-    return np.concatenate(samples.received)[order], (finding,)
-
-
-def _signals(samples: Samples, order: IntArray, *, frame: str, joint_units: Mapping[str, str]) -> dict[str, Signal]:
-    signals: dict[str, Signal] = {}
-    for quantity in dict.fromkeys(key for batch in samples.numbers for key in batch if key in QUANTITIES):
-        if quantity == "orientation":
-            continue  # the rotation's sense is not specified
-        if quantity in _RATES:
-            units = tuple(_joint_unit(quantity, joint_units.get(joint, "rad")) for joint in samples.names)
-            values = _by_joint(samples, quantity)[order]
-            signals[quantity] = Signal(quantity=quantity, values=values, columns=tuple(samples.names), units=units)
-            continue
-        if not _missing(samples, quantity).all():
-            has_frame = QUANTITIES[quantity].has_frame
-            signals[quantity] = Signal.of_fixed(
-                quantity, samples.joined(quantity)[order], frame=frame if has_frame else None
-            )
-    return signals
-
-
-def _pose(
-    samples: Samples, order: IntArray, layout: OrientationLayout, *, name: str, frame: str, place: str
-) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
-    missing = _missing(samples, "orientation")
-    if missing.all():
-        raise FormatError(
-            f"{place}: expected orientations, got messages whose covariance begins with -1: the device estimates none; "
-            "leave orientation out"
-        )
-    rotations = np.where(missing[:, None], np.nan, samples.joined("orientation"))[order]
-    numbers = np.concatenate(samples.order)[order]
-    signals, findings = orientation_signals(
-        rotations,
-        layout,
-        unit=layout.unit,
-        frame=frame,
-        stream=name,
-        place=lambda row: f"{place}: message {numbers[row] + 1}",
-    )
-    if "translation" in samples.numbers[0]:
-        translation = samples.joined("translation")[order]
-        signals["translation"] = Signal.of_fixed("translation", translation, frame=frame)
-    return signals, findings
-
-
-def _missing(samples: Samples, quantity: str) -> BoolArray:
-    """Messages whose driver flags that it does not measure a quantity; shape (n,)."""
-    covariance = not_measured(quantity)
-    if covariance not in samples.numbers[0]:
-        return np.zeros(sum(map(len, samples.stamps)), dtype=bool)
-    return samples.joined(covariance)[:, 0] == -1.0
-
-
-def _joint_unit(quantity: str, unit: str) -> str:
-    if quantity == "torque":
-        return "N m" if unit == "rad" else "N"
-    return unit + _RATES[quantity]
-
-
-def _by_joint(samples: Samples, quantity: str) -> FloatArray:
-    """Columns by name, for any order and choice of joints in a message; NaN where it lacks one."""
-    columns = {joint: k for k, joint in enumerate(samples.names)}
-    batches = []
-    for names, numbers, stamps in zip(samples.batch_names, samples.numbers, samples.stamps, strict=True):
-        values = np.full((len(stamps), len(columns)), np.nan)
-        if quantity in numbers:
-            values[:, [columns[joint] for joint in names]] = numbers[quantity]
-        batches.append(values)
-    return np.concatenate(batches)
-
-
-class RosOrientation(WorldTable):
-    """The world of an orientation, and what the message does not specify of it."""
-
-    sense: OrientationSense | None = None
-    """Of Imu and QuaternionStamped, which need it: `sensor_to_world` where the quaternion rotates vectors along the
-    frame's axes to the world's, as REP 145 requires of drivers, else `world_to_sensor`. Poses and tf have the
-    former."""
-
-
-class RosStream(Table):
-    """One topic of the bag, or one transform of tf."""
-
-    name: Text
-    """Name of the stream in the recording."""
-    topic: Text
-    """Topic; its type of message fixes what it holds."""
-    frame: Text | None = None
-    """Frame of the readings; that of the `[[sensor]]` which reads the stream, or else of the messages, if left out. Of
-    poses, tf and quaternions, which need it, the frame whose orientation is wanted."""
-    world: Text | None = None
-    """Of poses and tf, which need it: the frame in which `frame` is seen."""
-    orientation: RosOrientation | None = None
-    """Of Imu its orientation, in place of what else it measures; of poses and tf the gravity of the world, where its z
-    axis does not point up."""
-
-
-class RosLog(LogTable):
-    """A bag: a file `.bag`, `.mcap` or `.db3`, or the folder of a bag of ROS 2."""
-
-    format: Literal["ros"]
-    """Format of the recording."""
-    path: Path
-    """File or folder."""
-    stream: Annotated[tuple[RosStream, ...], Field(min_length=1)]
-    """What is read."""
 
 
 class RosFormat:
@@ -305,7 +37,7 @@ class RosFormat:
                 reason = _not_described(topic, kind)
                 if reason is None:
                     try:
-                        readings[topic] = _read(bag, RosStream(name=topic, topic=topic), {})
+                        readings[topic] = read_specified(bag, RosStream(name=topic, topic=topic), {})
                         reason = _unread_orientations(bag, topic, kind)
                     except ForceTorqueError as error:
                         reason = _unread_orientations(bag, topic, kind) or str(error)
@@ -327,6 +59,11 @@ class RosFormat:
             reading=LogReading.of(readings.values(), unread=unread, origin={"format": "ros", "path": str(path)}),
         )
 
+    def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
+        """Read the wrench of a wrist sensor and the pose of its frame, with keys of `WristTable`."""
+        with opened_bag(path) as bag:
+            return describe_wrist(bag, specified)
+
     def robot(self, path: Path) -> LoggedRobot:
         """Read `robot_description` and `tf_static`."""
         with opened_bag(path) as bag:
@@ -341,7 +78,7 @@ class RosFormat:
             for k, entry in enumerate(specified.stream):
                 with context.stated_in(f"stream[{k}]"):
                     framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
-                    readings.append(_read(bag, framed, context.joint_units))
+                    readings.append(read_specified(bag, framed, context.joint_units))
         return LogReading.of(readings)
 
 
@@ -357,53 +94,13 @@ def _not_described(topic: str, kind: str) -> str | None:
     return None if kind in MESSAGES else f"nothing reads messages of {kind}"
 
 
-def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> StreamReading:
-    types = bag.types
-    if entry.topic not in types:
-        raise FormatError(f"{bag.path}: no topic {entry.topic!r}; {known_names(entry.topic, types)}")
-    kind = types[entry.topic]
-    if kind not in MESSAGES:
-        raise FormatError(f"{bag.path}: {entry.topic}: expected messages of {', '.join(MESSAGES)}, got {kind}")
-    return topic_stream(
-        bag,
-        entry.topic,
-        name=entry.name,
-        frame=entry.frame,
-        world=entry.world,
-        joint_units=joint_units,
-        orientation=_layout(f"{bag.path}: {entry.topic}", kind, entry),
-    )
-
-
-def _layout(place: str, kind: str, entry: RosStream) -> OrientationLayout | None:
-    """What the quaternions of a topic mean, if they are wanted; ROS fixes their order, and the sense of poses."""
-    poses, specified = kind in POSE_TYPES, entry.orientation
-    if poses != (entry.world is not None) or (poses and entry.frame is None):
-        raise FormatError(
-            f"{place}: expected frame and world for poses and transforms of tf, and world for nothing else"
-        )
-    if poses:
-        if specified is not None and specified.sense is not None:
-            raise FormatError(f"{place}: expected no sense: a pose rotates vectors from its frame to the world")
-        return QUATERNION_XYZW if specified is None else specified.applied_to(QUATERNION_XYZW)
-    if kind == QUATERNION_TYPE and (specified is None or entry.frame is None):
-        raise FormatError(f"{place}: expected frame, whose orientations these are, and {SPECIFY_SENSE}")
-    if specified is None:
-        return None
-    if kind not in (IMU_TYPE, QUATERNION_TYPE):
-        raise FormatError(f"{place}: expected no orientation for messages of {kind}, which have none")
-    if specified.sense is None:
-        raise FormatError(f"{place}: expected {SPECIFY_SENSE}: messages do not specify which")
-    return specified.applied_to(replace(QUATERNION_XYZW, sense=specified.sense))
-
-
 def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
     """Text about orientations that an IMU estimates, if it does: their sense is not specified yet."""
     if kind != IMU_TYPE:
         return None
     sense = RosOrientation(sense=OrientationSense.SENSOR_TO_WORLD)
     try:
-        _read(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
+        read_specified(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
     except FormatError:
         return None
     return f"orientations of an IMU: specify, in a stream of its own, {SPECIFY_SENSE}"

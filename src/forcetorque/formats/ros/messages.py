@@ -210,10 +210,12 @@ def quaternion_stamped(cursor: Cursor) -> tuple[Fields, ...]:
 
 
 IMU_TYPE = "sensor_msgs/msg/Imu"
+JOINT_TYPE = "sensor_msgs/msg/JointState"
+WRENCH_TYPE = "geometry_msgs/msg/WrenchStamped"
 QUATERNION_TYPE = "geometry_msgs/msg/QuaternionStamped"
 MESSAGES: dict[str, Callable[[Cursor], tuple[Fields, ...]]] = {
-    "geometry_msgs/msg/WrenchStamped": wrench_stamped,
-    "sensor_msgs/msg/JointState": joint_state,
+    WRENCH_TYPE: wrench_stamped,
+    JOINT_TYPE: joint_state,
     IMU_TYPE: imu,
     "sensor_msgs/msg/Temperature": temperature,
     QUATERNION_TYPE: quaternion_stamped,

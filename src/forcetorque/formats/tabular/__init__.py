@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of numbers, as text, Parquet or a data frame, with a declared meaning of every column."""
+"""Tables of numbers, as text, Parquet, Arrow or a data frame, with a declared meaning of every column."""

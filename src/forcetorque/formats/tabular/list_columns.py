@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Columns of Parquet that hold a list of numbers in every row, as one column per element: `wrench[0]`, `wrench[1]`."""
+"""Columns of Parquet and Arrow with a list of numbers in every row, as one per element: `wrench[0]`, `wrench[1]`."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def element_name(column: str, element: int) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlatColumns:
-    """Columns of a Parquet file, those of lists as one per element."""
+    """Columns of a file of Parquet or Arrow, those of lists as one per element."""
 
     names: tuple[str, ...]
     """Names of all columns, in the order of the file."""
@@ -47,7 +47,7 @@ class FlatColumns:
         """Look at the columns of a file.
 
         Args:
-            table: Open `pyarrow.parquet.ParquetFile`.
+            table: Open `pyarrow.parquet.ParquetFile`, or `ArrowFile`.
 
         Returns:
             Its columns.

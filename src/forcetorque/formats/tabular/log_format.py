@@ -42,10 +42,10 @@ from forcetorque.formats.tabular.dialect import (
 )
 from forcetorque.formats.tabular.numbers import ISO8601, column_of_dates
 from forcetorque.formats.tabular.row_readers import (
+    columnar_batches,
+    columnar_size,
     first_batch,
-    is_parquet_file,
-    parquet_batches,
-    parquet_size,
+    is_columnar_file,
     text_batches,
 )
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
@@ -101,13 +101,14 @@ def is_table(path: Path) -> bool:
         path: File or folder; it exists.
 
     Returns:
-        Whether it is a Parquet file that no LeRobot dataset describes, or a text with at least two columns, and
-        numbers below at most one line of headings. Numbers between blanks alone, without headings, may be anything,
-        such as messages of a port. Other lines may stand in front where all that is looked at behind them is the table.
+        Whether it is a file of Parquet, which no LeRobot dataset describes, or of Arrow, or a text with at least two
+        columns, and numbers below at most one line of headings. Numbers between blanks alone, without headings, may be
+        anything, such as messages of a port. Other lines may stand in front where all that is looked at behind them is
+        the table.
     """
     if not path.is_file():
         return False
-    if is_parquet_file(path):
+    if is_columnar_file(path):
         return dataset_of_file(path) is None
     form = table_form(first_lines(path))
     return form is not None and (form.has_headings or form.delimiter != " ")
@@ -126,15 +127,17 @@ def sketch_table(path: Path, names: Sequence[str] = ()) -> LogSketch:
     Raises:
         FormatError: If it is no table after all, or the names are not those of its columns.
     """
-    if not is_parquet_file(path):
+    if not is_columnar_file(path):
         return _sketch_text(path, tuple(names))
     if names:
-        raise FormatError(f"{path}: expected no names of columns: a Parquet file has its own; leave them out")
-    return _sketch_parquet(path)
+        raise FormatError(
+            f"{path}: expected no names of columns: a file of Parquet or Arrow has its own; leave them out"
+        )
+    return _sketch_columnar(path)
 
 
-def _sketch_parquet(path: Path) -> LogSketch:
-    names, rows = parquet_size(path)
+def _sketch_columnar(path: Path) -> LogSketch:
+    names, rows = columnar_size(path)
     batch = first_batch(path)
     columns = tuple(
         _sketched(name, rows, None if batch is None else batch.column(k)) for k, name in enumerate(names[:MOST_COLUMNS])
@@ -142,7 +145,7 @@ def _sketch_parquet(path: Path) -> LogSketch:
     # two columns may have one name
     numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
     sketch = LogSketch(path=path, columns=columns)
-    return _with_extents(sketch, parquet_batches(path, numeric), numeric, 0 if batch is None else len(batch))
+    return _with_extents(sketch, columnar_batches(path, numeric), numeric, 0 if batch is None else len(batch))
 
 
 def _sketch_text(path: Path, names: tuple[str, ...]) -> LogSketch:
@@ -358,10 +361,10 @@ class TabularLog(LogTable):
 
 
 class TabularFormat:
-    """Text tables and Parquet, which do not specify what they hold: the experiment file specifies all that is read."""
+    """Text tables, Parquet and Arrow, which do not say what they hold: the experiment file specifies what is read."""
 
     table = TabularLog
-    sign = "a table of numbers (CSV, TSV, Parquet)"
+    sign = "a table of numbers (CSV, TSV, Parquet, Arrow)"
 
     def recognises(self, path: Path) -> bool:
         """Look at the first lines."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of text files, Parquet files and data frames, read block by block as Arrow columns."""
+"""Rows of text files, files of Parquet or Arrow, and data frames, read block by block as Arrow columns."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
 from forcetorque.base.arrow import arrow_text, require_small_parquet
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
+from forcetorque.base.input_file import require_unpacked
 from forcetorque.formats.headings import named_columns, repeated_heading_message
+from forcetorque.formats.tabular.arrow_file import ArrowFile, is_arrow_file
 from forcetorque.formats.tabular.list_columns import FlatColumns
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.formats.tabular.table_layout import (
@@ -241,8 +244,8 @@ _READ_ERRORS = (
 )
 
 
-def is_parquet_file(path: Path) -> bool:
-    """Check whether a file is one of Parquet, by its first bytes.
+def is_columnar_file(path: Path) -> bool:
+    """Check whether a file is one of Parquet or Arrow, by its first bytes.
 
     Args:
         path: A file.
@@ -250,12 +253,16 @@ def is_parquet_file(path: Path) -> bool:
     Returns:
         Whether it is.
     """
+    return _is_parquet(path) or is_arrow_file(path)
+
+
+def _is_parquet(path: Path) -> bool:
     with path.open("rb") as file:
         return file.read(len(MAGIC)) == MAGIC
 
 
-def parquet_rows(file: Path, layout: TableLayout) -> Rows:
-    """Look at a Parquet file: its columns, and how many rows it has.
+def columnar_rows(file: Path, layout: TableLayout) -> Rows:
+    """Look at a file of Parquet or Arrow: its columns, and how many rows it has.
 
     Args:
         file: The file; it exists.
@@ -269,20 +276,25 @@ def parquet_rows(file: Path, layout: TableLayout) -> Rows:
     """
     if layout.column_names is not None or layout.skip_rows:
         key = "column_names" if layout.column_names is not None else "skip_rows"
-        raise FormatError(f"{file}: expected no {key}: a Parquet file has its own columns and no lines; delete the key")
+        raise FormatError(
+            f"{file}: expected no {key}: a file of Parquet or Arrow has its own columns and no lines; delete the key"
+        )
     table, flat = _opened(file)
     columns = _require_columns(str(file), layout, flat.names)
-    require_small_parquet(file, table.metadata, columns)
+    if isinstance(table, ArrowFile):
+        require_unpacked(file, table.metadata.num_rows * len(columns) * np.dtype(np.float64).itemsize)
+    else:
+        require_small_parquet(file, table.metadata, columns)
     return Rows(
         name=str(file),
         count=table.metadata.num_rows,
-        batches=_parquet_batches(file, table, flat, columns),
+        batches=_columnar_batches(file, table, flat, columns),
         place=lambda row: _row(file, row),
     )
 
 
-def parquet_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
-    """Give some columns of a Parquet file, some rows at a time.
+def columnar_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
+    """Give some columns of a file of Parquet or Arrow, some rows at a time.
 
     Args:
         file: The file.
@@ -294,11 +306,11 @@ def parquet_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
     Raises:
         FormatError: If it is damaged.
     """
-    return _parquet_batches(file, *_opened(file), columns)
+    return _columnar_batches(file, *_opened(file), columns)
 
 
-def parquet_columns(file: Path) -> list[str]:
-    """Name the columns of a Parquet file.
+def columnar_columns(file: Path) -> list[str]:
+    """Name the columns of a file of Parquet or Arrow.
 
     Args:
         file: The file.
@@ -309,8 +321,8 @@ def parquet_columns(file: Path) -> list[str]:
     return list(_opened(file)[1].names)
 
 
-def parquet_size(file: Path) -> tuple[list[str], int]:
-    """Name the columns of a Parquet file, and count its rows.
+def columnar_size(file: Path) -> tuple[list[str], int]:
+    """Name the columns of a file of Parquet or Arrow, and count its rows.
 
     Args:
         file: The file.
@@ -323,7 +335,7 @@ def parquet_size(file: Path) -> tuple[list[str], int]:
 
 
 def first_batch(file: Path) -> Any:
-    """Read the first rows of a Parquet file.
+    """Read the first rows of a file of Parquet or Arrow.
 
     Args:
         file: The file.
@@ -349,8 +361,10 @@ def _opened(file: Path) -> tuple[Any, FlatColumns]:
     import pyarrow.parquet as pq
 
     try:
-        table = pq.ParquetFile(file)
+        table = pq.ParquetFile(file) if _is_parquet(file) else ArrowFile.of(file)
         return table, FlatColumns.of(table)
+    except ForceTorqueError:
+        raise
     except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
@@ -385,7 +399,7 @@ def _require_columns(name: str, layout: TableLayout, names: Sequence[str]) -> li
     return columns
 
 
-def _parquet_batches(file: Path, table: Any, flat: FlatColumns, columns: Sequence[str]) -> Iterator[Any]:
+def _columnar_batches(file: Path, table: Any, flat: FlatColumns, columns: Sequence[str]) -> Iterator[Any]:
     sources, start = flat.sources(columns), 0
     try:
         for group in range(table.metadata.num_row_groups):  # one at a time: a request for all makes Arrow hold them all

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading a table whose columns are declared: text, Parquet, or a data frame of pandas.
+"""Reading a table whose columns are declared: text, Parquet, Arrow, or a data frame of pandas.
 
-Besides the result, 8 bytes for each number and 16 for each stamp, a block of the table is in memory at a time.
+A block of the table is in memory at a time, and besides the result, 8 bytes for each number and 16 for each stamp;
+that of a long table is mapped from a temporary file.
 """
 
 from __future__ import annotations
@@ -15,14 +16,15 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.signals import even_stamps, specified_quantity, units_in_si
 from forcetorque.formats.tabular.numbers import column_floats, column_stamps
 from forcetorque.formats.tabular.row_readers import (
+    columnar_columns,
+    columnar_rows,
     frame_rows,
-    is_parquet_file,
-    parquet_columns,
-    parquet_rows,
+    is_columnar_file,
     text_columns,
     text_rows,
 )
@@ -42,7 +44,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     finite number. Columns that the layout does not name are not looked at.
 
     Args:
-        path: Text file, or a Parquet file, whose columns have their own names.
+        path: Text file, or a file of Parquet or Arrow, whose columns have their own names.
         layout: What its columns mean.
         stream: Name for the stream.
         clock: Name of the clock of its stamps; a table without times has the clock `row`.
@@ -57,7 +59,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a table, there is no such file")
-    rows = parquet_rows(file, layout) if is_parquet_file(file) else text_rows(file, layout)
+    rows = columnar_rows(file, layout) if is_columnar_file(file) else text_rows(file, layout)
     return read_rows(rows, layout, stream=stream, clock=clock)
 
 
@@ -65,12 +67,12 @@ def table_columns(path: Path) -> list[str]:
     """Name the columns of a table.
 
     Args:
-        path: Text file whose first line has headings between commas, or a Parquet file.
+        path: Text file whose first line has headings between commas, or a file of Parquet or Arrow.
 
     Returns:
         Their names.
     """
-    return parquet_columns(path) if is_parquet_file(path) else text_columns(path)
+    return columnar_columns(path) if is_columnar_file(path) else text_columns(path)
 
 
 def read_frame(frame: Any, layout: TableLayout, *, stream: str, clock: str) -> LogReading:
@@ -107,7 +109,7 @@ def read_rows(rows: Rows, layout: TableLayout, *, stream: str, clock: str) -> Lo
         FormatError: If a field is no number, or there are more or fewer rows than stated.
     """
     factors = [_factors(rows.name, signal) for signal in layout.signals]
-    stamp_ns, numbers = _numbers(rows, layout)
+    stamp_ns, numbers = _numbers(rows, layout, factors)
     signals: dict[str, Signal] = {}
     findings: tuple[Finding, ...] = ()
     for declared, units, values in zip(layout.signals, factors, numbers, strict=True):
@@ -120,12 +122,17 @@ def read_rows(rows: Rows, layout: TableLayout, *, stream: str, clock: str) -> Lo
     return LogReading(streams=(read,), findings=findings)
 
 
-def _numbers(rows: Rows, layout: TableLayout) -> tuple[IntArray, list[FloatArray]]:
-    """Stamps, and for each signal its columns as they are in the table."""
+def _numbers(
+    rows: Rows, layout: TableLayout, factors: Sequence[Sequence[tuple[str, float]]]
+) -> tuple[IntArray, list[FloatArray]]:
+    """Stamps, and for each signal its columns in SI units; of orientations as they are in the table."""
     if rows.count <= 0:  # damaged files of Parquet claim less than none
         raise FormatError(f"{rows.name}: expected rows, got none")
-    stamp_ns = _stamps_without_column(rows, layout)
-    numbers = [np.empty((rows.count, len(signal.columns))) for signal in layout.signals]
+    widths = [len(signal.columns) for signal in layout.signals]
+    given = None if isinstance(layout.stamp, StampColumn) else _stamps_without_column(rows, layout)
+    is_long = 8 * rows.count * (1 + sum(widths)) > IN_MEMORY
+    stamps = RowsOnDisk(dtype=np.int64) if is_long else RowsInMemory(rows.count, dtype=np.int64)
+    numbers = [RowsOnDisk((width,)) if is_long else RowsInMemory(rows.count, (width,)) for width in widths]
     start = 0
     for batch in rows.batches:
         end = start + len(batch)
@@ -133,14 +140,15 @@ def _numbers(rows: Rows, layout: TableLayout) -> tuple[IntArray, list[FloatArray
             raise FormatError(f"{rows.name}: expected {rows.count} rows, got more; was it written to meanwhile?")
         place = partial(_shifted, rows.place, start)
         if isinstance(layout.stamp, StampColumn):
-            stamp_ns[start:end] = column_stamps(batch.column(layout.stamp.column), layout.stamp, place)
-        for declared, values in zip(layout.signals, numbers, strict=True):
-            for k, name in enumerate(declared.columns):
-                values[start:end, k] = column_floats(batch.column(name), name, place)
+            stamps.append(column_stamps(batch.column(layout.stamp.column), layout.stamp, place))
+        for declared, own, written in zip(layout.signals, factors, numbers, strict=True):
+            values = np.column_stack([column_floats(batch.column(name), name, place) for name in declared.columns])
+            with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
+                written.append(values * [factor for _, factor in own] if own else values)
         start = end
     if start != rows.count:
         raise FormatError(f"{rows.name}: expected {rows.count} rows, got {start}; copy the file again")
-    return stamp_ns, numbers
+    return stamps.mapped() if given is None else given, [written.mapped() for written in numbers]
 
 
 def _stamps_without_column(rows: Rows, layout: TableLayout) -> IntArray:
@@ -171,9 +179,6 @@ def _factors(name: str, declared: TableSignal) -> Sequence[tuple[str, float]]:
 
 
 def _signal(declared: TableSignal, factors: Sequence[tuple[str, float]], values: FloatArray) -> Signal:
-    with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
-        values *= [factor for _, factor in factors]
-    values.setflags(write=False)  # so it is not copied
     return Signal(
         quantity=declared.quantity,
         values=values,

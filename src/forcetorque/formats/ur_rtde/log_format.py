@@ -309,6 +309,7 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
     return LoggedWrist(
         controller="ur",
         stream=WRIST,
+        sensor=WRIST,
         measure_direction=MeasureDirection.CHILD_TO_PARENT,
         declared=declared_loads(fields.stamp_ns, mass, centre),
         moving=motions(fields.stamp_ns, pose.base_R_flange, pose.base_p_flange),

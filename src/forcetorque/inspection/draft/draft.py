@@ -84,6 +84,9 @@ class ProposalRow(Row):
     """The same with the change; N."""
 
 
+_NO_SENSOR = "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+
+
 class Draft(Result):
     """A draft of an experiment file."""
 
@@ -118,6 +121,15 @@ class Draft(Result):
             yield self._proposed
             return
         count, first = len(self.questions), next(iter(self.questions), None)
+        if _NO_SENSOR in self.notes and not count and "[robot]" not in self.content:
+            yield Answer(
+                subject=self.file,
+                verdict="NO SENSOR AND NO ROBOT",
+                why=(_NO_SENSOR,),
+                step="begin it again with a log that has the wrench, or with the robot by --urdf",
+                concern=Concern.UNCERTAIN,
+            )
+            return
         step = "fill in what is asked, then check the file" if count else "read the file, then go on"
         yield Answer(
             subject=self.file,
@@ -386,7 +398,7 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
         what = "raw channels" if sensor.is_raw else "a wrench"
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
     if not sensors:
-        yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+        yield _NO_SENSOR
     if log.skipped_arrays:
         yield not_read_message(log.skipped_arrays)
     if log.description is not None:

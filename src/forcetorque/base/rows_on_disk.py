@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers that are kept in a temporary file and mapped for reading, where they would fill the memory, else in it."""
+
+from __future__ import annotations
+
+import mmap
+import tempfile
+import weakref
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from forcetorque.base.errors import OutputError
+
+IN_MEMORY: Final = 1 << 26
+"""Bytes of a stream up to which it is held in memory."""
+
+
+class RowsInMemory:
+    """Rows that are written one after the other, in memory."""
+
+    def __init__(self, count: int, shape: tuple[int, ...] = (), dtype: npt.DTypeLike = np.float64) -> None:
+        """Take the memory.
+
+        Args:
+            count: How many rows there will be.
+            shape: Shape of a row.
+            dtype: Kind of the numbers.
+        """
+        self._rows, self._length = np.empty((count, *shape), dtype=dtype), 0
+
+    def append(self, rows: npt.NDArray[Any]) -> None:
+        """Write rows behind the others.
+
+        Args:
+            rows: Numbers; shape (n, *shape).
+        """
+        self._rows[self._length : self._length + len(rows)] = rows
+        self._length += len(rows)
+
+    def mapped(self) -> npt.NDArray[Any]:
+        """Give all rows; no more can be written.
+
+        Returns:
+            The rows, read-only; shape (count, *shape).
+        """
+        self._rows.setflags(write=False)
+        return self._rows
+
+
+class RowsOnDisk:
+    """Rows that are written one after the other, then read as one array; nothing of them is left when it is gone."""
+
+    def __init__(self, shape: tuple[int, ...] = (), dtype: npt.DTypeLike = np.float64) -> None:
+        """Make the file, in the folder for temporary files.
+
+        Args:
+            shape: Shape of a row.
+            dtype: Kind of the numbers.
+        """
+        self._shape, self._dtype, self._rows = shape, np.dtype(dtype), 0
+        self._file = tempfile.TemporaryFile()  # noqa: SIM115 closed when it is mapped, or no longer wanted
+        self._close = weakref.finalize(self, self._file.close)
+
+    def __len__(self) -> int:
+        return self._rows
+
+    def append(self, rows: npt.NDArray[Any]) -> None:
+        """Write rows behind the others.
+
+        Args:
+            rows: Numbers; shape (n, *shape).
+
+        Raises:
+            OutputError: If the disk is full.
+        """
+        with _named_folder():
+            for part in np.array_split(rows, max(rows.nbytes // IN_MEMORY, 1)):
+                self._file.write(np.ascontiguousarray(part, dtype=self._dtype).tobytes())
+        self._rows += len(rows)
+
+    def mapped(self) -> npt.NDArray[Any]:
+        """Read all rows; no more can be written.
+
+        Returns:
+            The rows, read-only; shape (n, *shape).
+
+        Raises:
+            OutputError: If the disk is full.
+        """
+        if not self._rows:
+            self._close()
+            empty = np.zeros((0, *self._shape), dtype=self._dtype)
+            empty.setflags(write=False)
+            return empty
+        with _named_folder():
+            self._file.flush()
+        pages = mmap.mmap(self._file.fileno(), 0, access=mmap.ACCESS_READ)
+        self._close()
+        return np.frombuffer(pages, dtype=self._dtype).reshape(-1, *self._shape)
+
+
+def concatenated(arrays: Sequence[npt.NDArray[Any]]) -> npt.NDArray[Any]:
+    """Put arrays behind each other, in a temporary file where they are large.
+
+    Args:
+        arrays: At least one, of rows of one shape and kind.
+
+    Returns:
+        All rows, read-only.
+    """
+    count, first = sum(map(len, arrays)), arrays[0]
+    is_long = sum(array.nbytes for array in arrays) > IN_MEMORY
+    shape = first.shape[1:]
+    rows = RowsOnDisk(shape, first.dtype) if is_long else RowsInMemory(count, shape, first.dtype)
+    for array in arrays:
+        rows.append(array)
+        forget_pages([array])
+    return rows.mapped()
+
+
+@contextmanager
+def _named_folder() -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(
+            f"{tempfile.gettempdir()}: expected room for a long recording while it is read, got {error.strerror}; name "
+            "a folder of a larger disk in the environment variable TMPDIR"
+        ) from error
+
+
+def forget_pages(arrays: Iterable[npt.NDArray[Any]]) -> None:
+    """Let go of memory that mapped arrays take; what is looked at again is read from the file again.
+
+    Args:
+        arrays: Arrays, of which those that are no view of a mapped file are left alone.
+    """
+    for pages in {id(pages): pages for pages in map(_pages_of, arrays) if pages is not None}.values():
+        if hasattr(mmap, "MADV_DONTNEED"):  # not on Windows
+            pages.madvise(mmap.MADV_DONTNEED)
+
+
+def _pages_of(array: Any) -> mmap.mmap | None:
+    while isinstance(array, np.ndarray):
+        array = array.base
+    if isinstance(array, memoryview):
+        array = array.obj
+    return array if isinstance(array, mmap.mmap) else None

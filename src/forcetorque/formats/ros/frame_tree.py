@@ -1,0 +1,379 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tree of frames of a bag: transforms of tf, and joints of `robot_description` by their `joint_states`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import FormatError, known_names
+from forcetorque.formats.ros.bag import Bag
+from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, decode, transforms
+from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
+from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
+from forcetorque.recording.alignment import Interpolation
+from forcetorque.recording.frames import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.model import Joint, JointType
+from forcetorque.robot.urdf import read_urdf_text
+
+_STATES = "joint_states"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Transform:
+    """The poses of a frame in its parent."""
+
+    parent: str
+    """The parent."""
+    child: str
+    """The frame."""
+    topic: str
+    """Topic that has them."""
+    is_fixed: bool
+    """Whether the one pose of `poses` is that of all times."""
+    poses: Stream
+    """Stream with `orientation` and `translation` of the frame in its parent."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameTree:
+    """Frames of a bag."""
+
+    place: str
+    """The bag, for messages."""
+    transforms: Mapping[str, Transform]
+    """Poses of frames in their parents, by the frame."""
+    unknown_joints: Mapping[str, str]
+    """Joints whose positions the bag lacks, by their child links."""
+
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """Names of all frames, sorted."""
+        parents = {transform.parent for transform in self.transforms.values()}
+        return tuple(sorted(parents | set(self.transforms) | set(self.unknown_joints)))
+
+    def above(self, frame: str) -> list[Transform]:
+        """Follow a frame to the root of its tree.
+
+        Args:
+            frame: Name of a frame.
+
+        Returns:
+            Its transform, that of its parent and so on; empty for a root.
+
+        Raises:
+            FormatError: If the frame is not in the tree, or its own parent by several steps.
+        """
+        if frame not in self.frames:
+            raise FormatError(f"{self.place}: no frame {frame!r} in tf or robot_description; {self._known(frame)}")
+        chain: list[Transform] = []
+        while frame in self.transforms:
+            chain.append(self.transforms[frame])
+            frame = chain[-1].parent
+            if len(chain) > len(self.transforms):
+                raise FormatError(f"{self.place}: expected a tree of frames, got a loop at {frame!r}")
+        return chain
+
+    def root(self, frame: str) -> str:
+        """Find the frame above all others in which a frame is seen.
+
+        Args:
+            frame: Name of a frame.
+
+        Returns:
+            The root of its tree.
+
+        Raises:
+            FormatError: If the position of a joint between both is missing.
+        """
+        chain = self.above(frame)
+        root = chain[-1].parent if chain else frame
+        self._require_known(root)
+        return root
+
+    def is_below(self, frame: str, world: str) -> bool:
+        """Check whether transforms lead from one frame up to another.
+
+        Args:
+            frame: Name of a frame, which need not be there.
+            world: Name of the other.
+
+        Returns:
+            Whether `chain` has some.
+        """
+        return frame in self.transforms and world in [transform.parent for transform in self.above(frame)]
+
+    def chain(self, frame: str, world: str) -> list[Transform]:
+        """Find the transforms between two frames.
+
+        Args:
+            frame: Frame whose pose is wanted.
+            world: Frame above it.
+
+        Returns:
+            The transform of the frame first.
+
+        Raises:
+            FormatError: If one of them is not there, or the second is not above the first.
+        """
+        above = self.above(frame)
+        parents = [transform.parent for transform in above]
+        if world not in parents:
+            self._require_known(parents[-1] if parents else frame)
+            known = ", ".join(map(repr, parents)) or "no frame"
+            raise FormatError(f"{self.place}: expected {world!r} above {frame!r} in the tree of frames, got {known}")
+        return above[: parents.index(world) + 1]
+
+    def stamps(self, frame: str, world: str) -> IntArray:
+        """Give the instants of the transform between two frames that is sent most often.
+
+        Args:
+            frame: Frame whose pose is wanted.
+            world: Frame above it.
+
+        Returns:
+            The instants; shape (n,); ns.
+
+        Raises:
+            FormatError: As of `chain`, or if all transforms are fixed.
+        """
+        moving = [transform for transform in self.chain(frame, world) if not transform.is_fixed]
+        if not moving:
+            raise FormatError(
+                f"{self.place}: expected {frame!r} to move in {world!r}, got fixed frames alone between them; record "
+                "/tf, or /joint_states and /robot_description, too"
+            )
+        return np.unique(max(moving, key=lambda one: len(one.poses.stamp_ns)).poses.stamp_ns)
+
+    def poses(self, frame: str, world: str, at_ns: IntArray) -> tuple[FloatArray, FloatArray]:
+        """Compute poses of a frame along a chain of transforms.
+
+        Args:
+            frame: Frame whose pose is wanted.
+            world: Frame above it, in which it is seen.
+            at_ns: Instants; shape (n,); ns.
+
+        Returns:
+            `world_R_frame`, shape (n, 3, 3), and `world_p_frame`, shape (n, 3), m, by linear interpolation of every
+            transform; NaN at instants that one of them lacks.
+
+        Raises:
+            FormatError: As of `chain`, or if no instant has all transforms.
+        """
+        chain = self.chain(frame, world)
+        rotation, position = np.broadcast_to(np.eye(3), (len(at_ns), 3, 3)), np.zeros((len(at_ns), 3))
+        for transform in reversed(chain):
+            parent_R_child, parent_p_child = _poses_at(transform, at_ns)
+            position = position + np.einsum("nij,nj->ni", rotation, parent_p_child)
+            rotation = rotation @ parent_R_child
+        if not np.isfinite(position).all(axis=1).any():
+            topics = ", ".join(dict.fromkeys(transform.topic for transform in chain if not transform.is_fixed))
+            raise FormatError(
+                f"{self.place}: expected poses of {frame!r} in {world!r}, got messages of {topics} that share no time "
+                "with each other or with the readings"
+            )
+        return rotation, position
+
+    def _require_known(self, root: str) -> None:
+        if root in self.unknown_joints:
+            raise FormatError(
+                f"{self.place}: expected positions of joint {self.unknown_joints[root]!r}, which moves {root!r}, got "
+                "none; record /tf or all of /joint_states"
+            )
+
+    def _known(self, frame: str) -> str:
+        return known_names(frame, self.frames) if self.frames else "there are no frames"
+
+
+def _poses_at(transform: Transform, at_ns: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Rotations, shape (n, 3, 3), and positions, shape (n, 3), at instants; NaN where there are none."""
+    poses = transform.poses
+    values = np.hstack([poses.signal("orientation").values, poses.signal("translation").values])
+    if transform.is_fixed:
+        at = np.repeat(values, len(at_ns), axis=0)
+        return at[:, :9].reshape(-1, 3, 3), at[:, 9:]
+    neighbours = Interpolation(poses).at(at_ns)
+    at = neighbours.interpolated(values[neighbours.before], values[neighbours.after])
+    rotation = at[:, :9].reshape(-1, 3, 3)
+    whole = np.isfinite(at).all(axis=1)
+    at[~whole] = np.nan
+    # the rotation next to a mean of two close ones: the orthogonal factor of it
+    left, _, right = np.linalg.svd(rotation[whole])
+    rotation[whole] = left @ right
+    return rotation, at[:, 9:]
+
+
+def read_frame_tree(bag: Bag) -> FrameTree:
+    """Read all frames of a bag.
+
+    Args:
+        bag: The bag.
+
+    Returns:
+        Transforms of tf, and of links that tf lacks those of the joints of `robot_description`.
+
+    Raises:
+        FormatError: If a frame has two parents, or a message is damaged.
+    """
+    found: dict[str, Transform] = {}
+    for topic in sorted(topic for topic, kind in bag.types.items() if kind in TRANSFORM_TYPES):
+        for transform in _sent(bag, topic):
+            other = found.setdefault(transform.child, transform)
+            if other.parent != transform.parent:
+                raise FormatError(
+                    f"{bag.path}: {topic}: expected one parent of frame {transform.child!r}, got {other.parent!r} of "
+                    f"{other.topic} and {transform.parent!r}"
+                )
+    unknown: dict[str, str] = {}
+    for joint, described in _of_joints(bag, found):
+        if described is None:
+            unknown[joint.child] = joint.name
+        else:
+            found[joint.child] = described
+    return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown)
+
+
+def _sent(bag: Bag, topic: str) -> Iterator[Transform]:
+    """Transforms that messages of a topic have."""
+    batches: dict[tuple[str, ...], list[tuple[IntArray, IntArray, FloatArray]]] = {}
+    first = 0
+    for _, messages in bag.messages(topic):
+        for batch in decode(messages, transforms, cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
+            for fields in batch.fields:
+                numbers = [batch.numbers(*fields.numbers[name]) for name in ("orientation", "translation")]
+                row = (first + batch.rows, batch.stamp_ns(fields.stamp), np.hstack(numbers))
+                batches.setdefault(fields.frames, []).append(row)
+        first += len(messages)
+    is_fixed = is_static(topic, bag.types[topic])
+    for (parent, child), found in batches.items():
+        order, stamps, values = (np.concatenate(column) for column in zip(*found, strict=True))
+        rows = np.argsort(order, kind="stable")[-1 if is_fixed else 0 :]
+        quaternions = np.ascontiguousarray(values[rows, :4])
+        signals, _ = orientation_signals(
+            quaternions, QUATERNION_XYZW, unit="1", frame=child, stream=f"{topic}: {parent} -> {child}"
+        )
+        poses = _stream(child, stamps[rows], signals["orientation"].values, values[rows, 4:])
+        yield Transform(parent=parent, child=child, topic=topic, is_fixed=is_fixed, poses=poses)
+
+
+def _stream(frame: str, stamp_ns: IntArray, orientation: FloatArray, translation: FloatArray) -> Stream:
+    return Stream(
+        name=frame,
+        clock=CLOCK,
+        stamp_ns=stamp_ns,
+        signals={
+            "orientation": Signal.of_fixed("orientation", orientation, frame=frame),
+            "translation": Signal.of_fixed("translation", np.ascontiguousarray(translation), frame=frame),
+        },
+    )
+
+
+def _of_joints(bag: Bag, known: Mapping[str, Transform]) -> Iterator[tuple[Joint, Transform | None]]:
+    """Joints of the description whose child tf lacks, each with its transform; None where positions are missing."""
+    robot = robot_of_bag(bag)
+    if robot.urdf is None:
+        return
+    model = read_urdf_text(robot.urdf, where=f"{bag.path}: {robot.topic}")
+    units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
+    states: dict[str, tuple[Stream, FloatArray, str]] = {}
+    for topic in sorted(topic for topic, kind in bag.types.items() if kind == JOINT_TYPE):
+        if topic.rpartition("/")[2] != _STATES:
+            continue
+        stream = topic_stream(bag, topic, name=topic, frame=None, world=None, joint_units=units).stream
+        position = stream.signals.get("position")
+        for k, name in enumerate(position.columns if position is not None else ()):
+            if position is not None and name in states:
+                raise FormatError(
+                    f"{bag.path}: expected joint {name!r} in one topic, got it in {states[name][2]} and {topic}"
+                )
+            if position is not None:
+                states[name] = (stream, position.values[:, k], topic)
+    for joint in model.joints.values():
+        if joint.child in known:
+            continue
+        if not joint.type.moves:
+            zero = np.zeros(1)
+            yield joint, _moved(joint, np.zeros(1, dtype=np.int64), zero, robot.topic, is_fixed=True)
+            continue
+        followed, factor, offset = (
+            (joint.name, 1.0, 0.0)
+            if joint.mimic is None
+            else (joint.mimic.leader, joint.mimic.multiplier, joint.mimic.offset)
+        )
+        if followed not in states:
+            yield joint, None
+            continue
+        stream, values, topic = states[followed]
+        yield joint, _moved(joint, stream.stamp_ns, factor * values + offset, topic, is_fixed=False)
+
+
+def _moved(joint: Joint, stamp_ns: IntArray, coordinate: FloatArray, topic: str, *, is_fixed: bool) -> Transform:
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
+    whole = np.isfinite(coordinate)
+    stamp_ns, coordinate = stamp_ns[whole], coordinate[whole]
+    along = coordinate[:, None] * joint.axis
+    slides = joint.type is JointType.PRISMATIC
+    turn = Rotation.from_rotvec(np.zeros_like(along) if slides else along).as_matrix()
+    parent_R_joint, parent_p_joint = joint.parent_H_child[:3, :3], joint.parent_H_child[:3, 3]
+    position = parent_p_joint + (along @ parent_R_joint.T if slides else np.zeros_like(along))
+    orientation = (parent_R_joint @ turn).reshape(-1, 9)
+    poses = _stream(joint.child, stamp_ns, orientation, position)
+    return Transform(parent=joint.parent, child=joint.child, topic=topic, is_fixed=is_fixed, poses=poses)
+
+
+def is_sent(bag: Bag, topic: str, child: str, parent: str) -> bool:
+    """Check whether messages of a topic have the pose of one frame in another.
+
+    Args:
+        bag: The bag.
+        topic: Topic with transforms of tf.
+        child: The frame.
+        parent: The other.
+
+    Returns:
+        Whether one does.
+    """
+    return any(
+        fields.frames == (parent, child)
+        for _, messages in bag.messages(topic)
+        for batch in decode(messages, transforms, cdr=bag.cdr, topic=f"{bag.path}: {topic}")
+        for fields in batch.fields
+    )
+
+
+def pose_signals(
+    tree: FrameTree, layout: OrientationLayout, *, name: str, frame: str, world: str, at_ns: IntArray | None = None
+) -> tuple[IntArray, dict[str, Signal], tuple[Finding, ...]]:
+    """Make the signals of the poses of a frame along a chain of transforms.
+
+    Args:
+        tree: Frames of a bag.
+        layout: Gravity in the world.
+        name: Name of the stream, for findings.
+        frame: Frame whose pose is wanted.
+        world: Frame above it, in which it is seen.
+        at_ns: Instants, shape (n,), ns, with NaN where a transform is missing; those of `FrameTree.stamps` that have
+            all transforms if None.
+
+    Returns:
+        The instants, signals `orientation`, `gravity` and `translation`, and findings.
+
+    Raises:
+        FormatError: As of `FrameTree.stamps` and `FrameTree.poses`.
+    """
+    stamps = tree.stamps(frame, world)
+    wanted = stamps if at_ns is None else at_ns
+    rotation, position = tree.poses(frame, world, wanted)
+    if at_ns is None:
+        whole = np.isfinite(position).all(axis=1)
+        wanted, rotation, position = wanted[whole], rotation[whole], position[whole]
+    rows = replace(layout, form=OrientationForm.MATRIX_ROWS)
+    signals, findings = orientation_signals(rotation.reshape(-1, 9), rows, unit="1", frame=frame, stream=name)
+    translation = {"translation": Signal.of_fixed("translation", position, frame=frame)}
+    return wanted, {**signals, **translation}, findings

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows in a temporary file are the rows that were written, also after their memory was given back."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base import rows_on_disk
+from forcetorque.base.arrays import FloatArray, IntArray, is_frozen
+from forcetorque.base.errors import OutputError
+from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated, forget_pages
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.int64])
+def test_rows_are_those_that_were_written(dtype: type) -> None:
+    """Of any parts, read-only, with views that keep the file; an array in memory has nothing to forget."""
+    written: FloatArray | IntArray = (np.random.default_rng(1).normal(size=(1000, 3)) * 1e6).astype(dtype)
+    rows = RowsOnDisk((3,), dtype)
+    for part in np.array_split(written, 7):
+        rows.append(part)
+    assert len(rows) == 1000
+    mapped = rows.mapped()
+    view = mapped[100:200]
+    assert is_frozen(mapped, dtype)
+    assert is_frozen(view, dtype)
+    forget_pages([mapped, view, written])
+    assert np.array_equal(mapped, written)
+    assert np.array_equal(view, written[100:200])
+
+
+def test_no_rows_are_an_empty_array() -> None:
+    """A file without a byte cannot be mapped."""
+    assert RowsOnDisk((4,)).mapped().shape == (0, 4)
+    assert is_frozen(RowsOnDisk().mapped())
+
+
+def test_a_full_disk_names_the_folder(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the variable that names another one."""
+    full = Path("/dev/full")
+    if not full.exists():
+        pytest.skip("no device that is always full")
+    monkeypatch.setattr(tempfile, "TemporaryFile", lambda: full.open("wb"))
+    rows = RowsOnDisk()
+    with pytest.raises(OutputError, match=r"No space left on device; name a folder .* TMPDIR"):
+        rows.append(np.zeros(1_000_000))
+
+
+@pytest.mark.parametrize("in_memory", [0, 1000, 1 << 20])
+def test_arrays_behind_each_other(monkeypatch: pytest.MonkeyPatch, in_memory: int) -> None:
+    """In a file or in memory, of arrays in memory or in files, in any number of parts."""
+    monkeypatch.setattr(rows_on_disk, "IN_MEMORY", max(in_memory, 1))
+    arrays = np.array_split(np.random.default_rng(2).normal(size=(1000, 3)), 4)
+    first = concatenated(arrays[:2])
+    whole = concatenated([first, *arrays[2:]])
+    assert is_frozen(whole)
+    assert np.array_equal(whole, np.concatenate(arrays))

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A long recording that is reduced segment by segment gives what it gives as a whole."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import RecordingError
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.moment_blocks import joined
+from forcetorque.experiment.calibration.stored_moments import IntervalMoments
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.fleet.long_recording import joined_findings, recorded_segments
+from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.segments import Segment
+from tests.scenes.studies import CALIBRATION, VALIDATION
+
+_SAME = 1e-5
+"""Stamps jitter, and the grid on which joints are differentiated begins elsewhere in a segment: parts of a load."""
+_JITTER = 2
+"""Samples of a second that are in the next one: seconds count from the first sample of a segment."""
+_SEGMENT_S = 5.9
+"""Length of the segments."""
+_OF_ERROR = 0.05
+"""The same after a fit, as a part of the standard error."""
+
+
+@pytest.fixture
+def short_segments(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Segments with 2.4 s around them, of no sample beside these, cut at whole seconds."""
+    monkeypatch.setattr("forcetorque.recording.segments.BLOCK_NS", 10**9)
+    monkeypatch.setattr("forcetorque.recording.segments._SHORT", 0)
+    monkeypatch.setattr("forcetorque.fleet.long_recording._LEAST_MARGIN_S", 0.0)
+    monkeypatch.setattr("forcetorque.fleet.long_recording._WINDOWS", 0.6)
+
+
+def _records(file: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[SensorRecord, SensorRecord]:
+    """The record of the sensor by the whole recording, and by segments."""
+    options = AddOptions()
+    (whole,) = sensor_records(load_experiment(file), options, "1")
+    with monkeypatch.context() as patch:
+        shorter = partial(recorded_segments, length_s=_SEGMENT_S)
+        patch.setattr("forcetorque.fleet.sensor_record.recorded_segments", shorter)
+        experiment = load_experiment(file)
+        assert len(shorter(experiment)) > 1
+        (segmented,) = sensor_records(experiment, options, "1")
+    return whole, segmented
+
+
+def _intervals(record: SensorRecord) -> tuple[IntervalMoments, ...]:
+    assert record.moments is not None
+    return joined(record.moments.intervals)
+
+
+def _fitted(record: SensorRecord) -> Calibration:
+    assert record.moments is not None
+    whole = record.moments.model_copy(update={"intervals": _intervals(record)})
+    return calibrate_sensor(None, code_version="1", created="2020", moments=[whole])
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("short_segments")
+def test_moments_of_segments_are_those_of_the_recording(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Samples, means over seconds with derivatives by the robot model, moments, ranges, and the calibration."""
+    whole, segmented = _records(recorded / CALIBRATION[0], monkeypatch)
+    assert len(segmented.moments.intervals if segmented.moments else ()) > 1
+    for one, other in zip(_intervals(whole), _intervals(segmented), strict=True):
+        assert (one.samples, one.dropped, one.unusable) == (other.samples, other.dropped, other.unusable)
+        assert one.interval.model_copy(update={"content": None}) == other.interval.model_copy(update={"content": None})
+        assert one.interval.content is not None
+        assert other.interval.content is not None
+        assert [term.name for term in one.terms] == [term.name for term in other.terms]
+        assert np.abs(one.count - other.count).max() <= _JITTER
+        for name in ("raw_minimum_counts", "raw_maximum_counts", "variable_minimum", "variable_maximum"):
+            assert np.array_equal(getattr(one, name), getattr(other, name))
+        for name in ("mean", "second_moment"):
+            values = getattr(one, name)
+            assert np.abs(values - getattr(other, name)).max() < _SAME * np.abs(values).max()
+    calibration, again = _fitted(whole), _fitted(segmented)
+    assert calibration.posterior is not None
+    error = np.sqrt(np.diagonal(calibration.posterior.covariance, axis1=-2, axis2=-1))
+    assert np.abs(calibration.matrix - again.matrix).max() < _OF_ERROR * error.max()
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_evaluation_of_segments_is_that_of_the_recording(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same blocks end at the same samples, and seconds are the same."""
+    one, other = (record.evaluation for record in _records(recorded / VALIDATION[0], monkeypatch))
+    assert one is not None
+    assert other is not None
+    assert [block.samples for block in one.blocks] == [block.samples for block in other.blocks]
+    assert [(i.label, i.start_ns, i.end_ns, i.session) for i in one.intervals] == [
+        (i.label, i.start_ns, i.end_ns, i.session) for i in other.intervals
+    ]
+    for block, same in zip(one.blocks, other.blocks, strict=True):
+        assert np.abs(block.mean - same.mean).max() < _SAME * np.abs(block.mean).max()
+    for means, same_means in zip(one.sessions, other.sessions, strict=True):
+        assert np.allclose(means.time_s, same_means.time_s, rtol=1e-12)
+        assert np.allclose(means.raw, same_means.raw, rtol=1e-12)
+        assert np.abs(means.reference - same_means.reference).max() < _SAME * np.abs(means.reference).max()
+
+
+def _segments() -> list[Segment]:
+    recording = Experiment.__new__(Experiment)  # no samples are looked at
+    return [Segment(start_ns=k, end_ns=k + 10, recording=recording) for k in (0, 10, 20)]  # type: ignore[arg-type]
+
+
+def _finding(start: int | None, end: int | None, message: str = "", kind: str = "gap") -> Finding:
+    return Finding(stream="ft", kind=kind, message=message, count=1, start_ns=start, end_ns=end)
+
+
+def test_a_finding_across_segments_comes_once() -> None:
+    """Two segments see what lies at their border; one that goes on ends where the last segment sees its end."""
+    one, across, late = _finding(3, 4), _finding(8, 12), _finding(25, 26)
+    longer = _finding(8, 19)
+    found = joined_findings(_segments(), [[one, across], [longer], [late]])
+    assert [(finding.start_ns, finding.end_ns) for finding in found] == [(3, 4), (8, 19), (25, 26)]
+
+
+def test_a_finding_without_a_time_says_in_how_many_segments() -> None:
+    """What all segments say alike comes as it is; what was not compared in some, was in others."""
+    alike, first, second = (
+        _finding(None, None, "alike", "x"),
+        _finding(None, None, "by 1"),
+        _finding(None, None, "by 2"),
+    )
+    nothing = _finding(None, None, "still", "not_compared")
+    found = joined_findings(_segments(), [[alike, first, nothing, alike], [alike, second, alike], [alike, alike]])
+    assert [finding.message for finding in found] == ["alike", "by 1 (in 2 of 3 segments of 30 min)", "alike"]
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_a_segment_without_samples_is_left_out(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The others count; where none has samples the first reason is the error."""
+    file, calls = recorded / CALIBRATION[0], []
+
+    def lost(run: object, interval: object, **_: object) -> object:
+        calls.append(interval)
+        raise RecordingError("no sample in it to use")
+
+    patch = partial(recorded_segments, length_s=_SEGMENT_S)
+    monkeypatch.setattr("forcetorque.fleet.sensor_record.recorded_segments", patch)
+    with monkeypatch.context() as lose:
+        lose.setattr("forcetorque.experiment.sensor_run.SensorRun.interval_samples", lost)
+        with pytest.raises(RecordingError, match="no sample in it to use"):
+            list(sensor_records(load_experiment(file), AddOptions(), "1"))
+    assert len(calls) > 1

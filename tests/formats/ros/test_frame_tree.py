@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tree of frames of a bag: joints place links as the dynamics do, and what is not a tree is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import FormatError
+from forcetorque.robot.dynamics import link_pose
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf_text
+
+pytest.importorskip("rosbags")
+from forcetorque.formats.ros.bag import opened_bag
+from forcetorque.formats.ros.frame_tree import read_frame_tree
+from tests.formats.ros.bags import PERIOD_NS, START_NS, TF, Types, write_bag
+
+URDF = """<robot name="slider"><link name="base"/><link name="turned"/><link name="slid"/><link name="tool"/>
+<joint name="turn" type="revolute"><parent link="base"/><child link="turned"/><origin xyz="0 0 1" rpy="0.2 0 1"/>
+  <axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="slide" type="prismatic"><parent link="turned"/><child link="slid"/><origin xyz="1 0 0" rpy="0 0.4 0"/>
+  <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="follow" type="revolute"><parent link="slid"/><child link="tool"/><origin xyz="0 0.3 0" rpy="0 0 0.7"/>
+  <axis xyz="1 0 0"/><mimic joint="turn" multiplier="-2" offset="0.5"/>
+  <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>"""
+NAMES, POSITIONS = ("turn", "slide"), np.column_stack([np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 0.4, 7)])
+STAMPS = START_NS + PERIOD_NS * np.arange(7)
+
+
+def _topics(types: Types) -> dict[str, tuple[str, list[Any]]]:
+    empty = np.empty(0)
+    states = [types.joints(k, list(NAMES), row, empty, empty) for k, row in enumerate(POSITIONS)]
+    return {
+        "/joint_states": ("sensor_msgs/msg/JointState", states),
+        "/robot_description": ("std_msgs/msg/String", [types.text(URDF)]),
+    }
+
+
+def test_joints_place_links_as_the_dynamics_do(tmp_path: Path) -> None:
+    """A revolute, a prismatic and a mimic joint; between samples the pose is interpolated, outside there is none."""
+    with opened_bag(write_bag(tmp_path, "mcap", _topics(Types("mcap")))) as bag:
+        tree = read_frame_tree(bag)
+    assert tree.root("tool") == "base"
+    np.testing.assert_array_equal(tree.stamps("tool", "base"), STAMPS)
+    rotation, position = tree.poses("tool", "base", STAMPS)
+    motion = JointMotion.at_rest(NAMES, POSITIONS)
+    expected = link_pose(build_tree(read_urdf_text(URDF, where="test"), "base"), motion, "tool")
+    np.testing.assert_allclose(rotation, expected[:, :3, :3], atol=1e-14)
+    np.testing.assert_allclose(position, expected[:, :3, 3], atol=1e-14)
+    assert np.abs(expected[0] - expected[-1]).max() > 0.1
+    between, _ = tree.poses("tool", "base", np.append(STAMPS[:-1] + PERIOD_NS // 2, STAMPS[0] - 1))
+    np.testing.assert_allclose(between[:-1] @ between[:-1].swapaxes(1, 2), np.tile(np.eye(3), (6, 1, 1)), atol=1e-13)
+    assert np.isnan(between[-1]).all()
+
+
+def test_what_is_no_tree_is_refused(tmp_path: Path) -> None:
+    """A frame with two parents, and frames that are above each other."""
+    types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
+
+    def topic(*pairs: tuple[str, str]) -> tuple[str, list[Any]]:
+        return TF, [types.transforms(k, dict.fromkeys(pairs, turn)) for k in range(3)]
+
+    two = {"/tf": topic(("base", "tool")), "/tf_static": topic(("flange", "tool"))}
+    refused = pytest.raises(FormatError, match="one parent of frame 'tool', got 'base' of /tf and 'flange'")
+    with opened_bag(write_bag(tmp_path / "two", "mcap", two)) as bag, refused:
+        read_frame_tree(bag)
+    with opened_bag(write_bag(tmp_path / "loop", "mcap", {"/tf": topic(("a", "b"), ("b", "a"))})) as bag:
+        tree = read_frame_tree(bag)
+        with pytest.raises(FormatError, match="expected a tree of frames, got a loop at"):
+            tree.above("a")
