@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.joint.fit import KINDS, fit_jointly
+from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
 from forcetorque.calibration.joint.robust_fit import (
     JointResult,
@@ -21,7 +21,6 @@ from forcetorque.calibration.joint.robust_fit import (
     residuals,
     residuals_by,
 )
-from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
@@ -126,7 +125,7 @@ def test_a_touch_is_left_out_and_does_little_harm() -> None:
     assert _errors(result.fit, other).mean() < 1.2 * _errors(_of_wrong_model(11), other).mean()
     # negative control: a fit that believes all windows errs more at that arm
     windows = part_windows(pushed.stretch, untouched_parts(pushed.stretch.tree, SENSORS, FEET), ())
-    believing = fit_jointly(part_sums(windows))
+    believing = fit_jointly(windows)
     assert _errors(believing, other)[4].max() > 2.0 * _errors(result.fit, other)[4].max()
 
 
@@ -155,7 +154,7 @@ def test_equations_about_a_fit_leave_what_those_about_the_model_do() -> None:
     parts = untouched_parts(stretch.tree, SENSORS, FEET)
     terms = error_terms(stretch.tree, parts, ModelTolerance())
     windows = tuple(part_windows(stretch, parts, terms))
-    fit = fit_jointly(part_sums(windows), terms)
+    fit = fit_jointly(windows, terms)
     fit = replace(fit, mean=0.01 * fit.mean)
     exact = fit.mean.copy()
     exact[fit.places.errors] = 0.0
@@ -186,7 +185,7 @@ def test_a_fit_leaves_what_its_matrices_and_offsets_do() -> None:
     """Of an exact model, in N and N m as in the units of the fit; offsets that suit best leave less yet."""
     stretch = swaying(1, duration_s=2.0).stretch
     windows = tuple(part_windows(stretch, untouched_parts(stretch.tree, SENSORS, FEET), ()))
-    fit = fit_jointly(part_sums(windows))
+    fit = fit_jointly(windows)
     for one in windows:
         factors = {name: fit.change(name) for name in one.sensors}
         offsets = {name: fit.offset(name, "day") for name in one.sensors}
