@@ -25,6 +25,7 @@ from __future__ import annotations
 
 import argparse
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -65,6 +66,8 @@ LOAD_CASES = (
 DEFAULT = "default"
 """Name of the default load case of every limb."""
 BOOTSTRAPS = 2000
+PROBABILITIES = (0.02, 0.1, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.95)
+"""Of an error within the allowed one, at which the trade-off of wrong uses and power is printed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,6 +84,13 @@ class Outcome:
     """The first reason."""
     within: float
     """Predicted probability of an error within the allowed one."""
+    share: float
+    """Factor of the deviations of the prediction."""
+    limited_by: str
+    """Largest source of the predicted error where the prediction speaks against the use; "data" where only something
+    else does; empty for a use."""
+    else_usable: bool
+    """Whether nothing but the prediction speaks against the use."""
     true: tuple[float, float]
     allowed: tuple[float, float]
     predicted: tuple[float, float]
@@ -143,6 +153,12 @@ def _outcome(
         decision=verdict.decision,
         reason=verdict.reasons[0].text,
         within=-1.0 if verdict.within is None else verdict.within,
+        share=verdict.prior_error_share,
+        limited_by="" if verdict.decision == "use" else verdict.limited_by or "data",
+        else_usable=not any(
+            reason.against is not None and reason.remedy is not None and "error comes from" not in reason.remedy
+            for reason in verdict.reasons
+        ),
         true=true,
         allowed=case.requirement,
         predicted=(force.after, moment.after),
@@ -199,6 +215,13 @@ def table(found: Sequence[Outcome]) -> Iterator[str]:
             f"{name}: {part} of {whole}, {_percent(part / max(whole, 1))} % ({_percent(low)} to {_percent(high)} %; "
             f"sensors drawn anew {_percent(least)} to {_percent(most)} %)"
         )
+    limits = Counter(one.limited_by for one in found if one.good and one.limited_by)
+    yield f"good sensors that are not used, limited by: {', '.join(f'{key} {n}' for key, n in limits.most_common())}"
+    yield "least probability of an error within the allowed one that a use needs: wrong uses of all, power"
+    for least in PROBABILITIES:
+        use = [one for one in found if one.within >= least and one.else_usable]
+        right, good = sum(one.good for one in use), sum(one.good for one in found)
+        yield f"  {least:.2f}: {len(use) - right} of {len(use)}, {_percent(right / max(good, 1))} %"
 
 
 def _percent(share: float) -> str:
