@@ -124,7 +124,7 @@ def true_error(calibration: Calibration, sensor: SimulatedSensor, case: LoadCase
 
 
 def _counts(sensor: SimulatedSensor, wrench: FloatArray) -> FloatArray:
-    counts = np.linalg.solve(sensor.matrix, (wrench - sensor.offset).T).T
+    counts: FloatArray = np.asarray(np.linalg.solve(sensor.matrix, (wrench - sensor.offset).T).T, dtype=np.float64)
     return counts if sensor.crosstalk is None else counts + sensor.crosstalk.counts(wrench)
 
 
@@ -199,7 +199,7 @@ def table(found: Sequence[Outcome]) -> Iterator[str]:
     columns = ("n", "good", "use", "not", "data", "wrong use", "wrong not", "power", "cover", "pred F", "pred M")
     yield f"{'':24s}" + "".join(f"{column:>10s}" for column in columns)
     groups: list[Group] = [
-        *((name, lambda one, name=name: one.family == name) for name in FAMILIES),  # type: ignore[misc]
+        *((name, lambda one, name=name: one.family == name) for name in FAMILIES),
         *((name, lambda one, name=name: one.load_case == name) for name in dict.fromkeys(o.load_case for o in found)),
         *((name, lambda one, name=name: one.motion == name) for name in MOTIONS),
         ("all", lambda one: True),

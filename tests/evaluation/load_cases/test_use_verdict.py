@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,18 +15,20 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.evaluation.load_cases.load_case import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     ValidationSegment,
     compare_with_prior,
     evidence,
+    evidence_by_calibration,
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, LoadCaseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import RECORDED, LoadCaseAssessment, LoadCaseVerdict, use_verdicts
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.robot.tree import build_tree, outboard_bodies
@@ -275,6 +278,40 @@ def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
     assert len(operating_load_cases([run], [stated])) == 1
     with pytest.raises(ExperimentError, match="two different load cases are called 'push'"):
         operating_load_cases([run], [stated.model_copy(update={"force_error_N": 7.0})])
+
+
+def test_data_that_show_a_better_prior_than_assumed_narrow_the_prediction(arm: Path) -> None:
+    """A limit between both upper ends is held by that alone; the verdict says what limits the other."""
+    edit(arm / PARQUET, 'tolerance = "exact"\n', "")
+    run = _run(arm)
+    fitted, (case,) = _fit(run), operating_load_cases([run])
+    measured, posterior = evidence_by_calibration(Campaign.of(run), {"new": fitted})["new"], fitted.posterior
+    assert posterior is not None
+    assert posterior.prior_covariance is not None
+    pessimistic = posterior.model_copy(update={"prior_covariance": 25.0 * posterior.prior_covariance})
+    calibration = fitted.model_copy(update={"posterior": pessimistic})
+    narrow, wide = LoadCaseAssessment(case, calibration, measured), LoadCaseAssessment(case, calibration, None)
+    assert 0.0 < narrow.share < 1.0 == wide.share
+    assert narrow.after is not None
+    assert wide.after is not None
+    between = 0.5 * (narrow.after.force.at_most + wide.after.force.at_most)
+    limited = replace(case, allowed_force_N=between)
+    assert LoadCaseAssessment(limited, calibration, measured).verdict()[0] == "use"
+    # negative control: an even chance is not enough, and no data show nothing
+    even = LoadCaseAssessment(replace(case, allowed_force_N=narrow.after.force.typical), calibration, measured)
+    for assessment in (even, LoadCaseAssessment(limited, calibration, None)):
+        assert assessment.verdict()[0] == "not enough data"
+        assert assessment.limited_by is not None
+
+
+def test_a_share_of_recorded_loads_that_hardly_move_forbids_nothing(arm: Path) -> None:
+    """Noise is more than a twentieth of next to no load; negative control: loads of that size that a file states."""
+    run = _run(arm)
+    calibration, still = _fit(run), _evidence(0.0, sway=0.1)
+    for name, decision in ((RECORDED, "not enough data"), ("stated", "do not use")):
+        case = LoadCase(name=name, words="", wrench=still.moved, is_stated=name != RECORDED)
+        assert still.force.rest_at_least > case.requirement[0]
+        assert LoadCaseAssessment(case, calibration, still).verdict()[0] == decision
 
 
 def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned: bool = False) -> Evidence:
