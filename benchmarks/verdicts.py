@@ -84,8 +84,6 @@ class Outcome:
     """The first reason."""
     within: float
     """Predicted probability of an error within the allowed one."""
-    share: float
-    """Factor of the deviations of the prediction."""
     limited_by: str
     """Largest source of the predicted error where the prediction speaks against the use; "data" where only something
     else does; empty for a use."""
@@ -153,7 +151,6 @@ def _outcome(
         decision=verdict.decision,
         reason=verdict.reasons[0].text,
         within=-1.0 if verdict.within is None else verdict.within,
-        share=verdict.prior_error_share,
         limited_by="" if verdict.decision == "use" else verdict.limited_by or "data",
         else_usable=not any(
             reason.against is not None and reason.remedy is not None and "error comes from" not in reason.remedy

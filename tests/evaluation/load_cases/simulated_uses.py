@@ -104,7 +104,6 @@ def outcome_of(case: Case, fit: GenerativeFit, use: LoadCase, judged: list[DataS
         "Calibration",
         SimpleNamespace(
             posterior=fit.posterior,
-            estimation_type="generative",
             prior=SimpleNamespace(matrix=case.prior, offset=np.zeros(6)),
             validity=SimpleNamespace(
                 expected_wrench_sd=np.concatenate([data.reference for data in case.data]).std(axis=0)

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from types import SimpleNamespace
-from typing import cast
 
 import numpy as np
 import pytest
@@ -13,13 +11,7 @@ import pytest
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
-from forcetorque.evaluation.load_cases.predicted_error import (
-    ErrorMagnitude,
-    predict_from_posterior,
-    predict_prior,
-    prior_error_share,
-)
-from forcetorque.experiment.calibration.artefact import JOINT, Calibration
+from forcetorque.evaluation.load_cases.predicted_error import ErrorMagnitude, predict_from_posterior, predict_prior
 from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.loading import load_experiment
@@ -201,38 +193,3 @@ def test_a_variable_that_was_not_fitted_is_refused() -> None:
     """By its name, with those that there are."""
     with pytest.raises(FitError, match="which are temperature, got humidity"):
         predict_from_posterior(_posterior(), _case(changes={"humidity": 1.0}))
-
-
-def _prior_of(size: float, *, left: float = 0.1, model: object = True, **changed: object) -> Calibration:
-    """A calibration whose prior errs by a part of what was assumed of it; data left a part of the uncertainty."""
-    assumed = np.broadcast_to(0.06**2 * np.eye(6), (6, 6, 6))
-    mean = np.zeros((6, 7))
-    mean[:, :6] = 0.06 * size
-    posterior = SimpleNamespace(
-        space="wrench", mean=mean, covariance=left**2 * assumed, prior_covariance=assumed, model=model
-    )
-    values = {"posterior": posterior, "prior": SimpleNamespace(matrix=np.eye(6)), "estimation_type": "generative"}
-    return cast("Calibration", SimpleNamespace(**{**values, **changed}))
-
-
-def test_the_share_of_a_prior_is_what_its_error_is_of_what_was_assumed() -> None:
-    """Error and what is left uncertain of it; a prior that is worse than assumed makes no prediction wider."""
-    loads = np.eye(6)
-    assert prior_error_share(_prior_of(0.3), loads) == pytest.approx(np.hypot(0.3, 0.1), rel=EXACT)
-    assert prior_error_share(_prior_of(0.0), loads) == pytest.approx(0.1, rel=EXACT)
-    # negative controls: a worse prior, data that determine nothing, no loads, and what it was not measured for
-    assert prior_error_share(_prior_of(3.0), loads) == 1.0
-    assert prior_error_share(_prior_of(0.0, left=1.0), loads) == pytest.approx(1.0, rel=EXACT)
-    assert prior_error_share(_prior_of(0.0), np.zeros((3, 6))) == 1.0
-    for other in ({"posterior": None}, {"prior": None}, {"estimation_type": JOINT}, {"model": None}):
-        calibration = _prior_of(0.0, **other)
-        assert prior_error_share(calibration, loads) == 1.0
-
-
-def test_a_share_narrows_what_the_unknowns_add_and_not_the_noise() -> None:
-    """By that factor, so that noise is left where it is 0."""
-    posterior, case = _posterior(), _case()
-    whole, half, none = (predict_from_posterior(posterior, case, share=share) for share in (1.0, 0.5, 0.0))
-    assert half.force.sources["matrix"] == pytest.approx(0.5 * whole.force.sources["matrix"], rel=EXACT)
-    assert half.force.sources["noise"] == whole.force.sources["noise"]
-    assert none.force.typical == pytest.approx(whole.force.sources["noise"], rel=EXACT)

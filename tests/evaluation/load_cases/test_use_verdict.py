@@ -21,14 +21,18 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     ValidationSegment,
     compare_with_prior,
     evidence,
-    evidence_by_calibration,
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import RECORDED, LoadCaseAssessment, LoadCaseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import (
+    ADVICE_BY_SOURCE,
+    RECORDED,
+    LoadCaseAssessment,
+    LoadCaseVerdict,
+    use_verdicts,
+)
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.robot.tree import build_tree, outboard_bodies
@@ -280,28 +284,16 @@ def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
         operating_load_cases([run], [stated.model_copy(update={"force_error_N": 7.0})])
 
 
-def test_data_that_show_a_better_prior_than_assumed_narrow_the_prediction(arm: Path) -> None:
-    """A limit between both upper ends is held by that alone; the verdict says what limits the other."""
-    edit(arm / PARQUET, 'tolerance = "exact"\n', "")
+def test_a_prediction_that_is_too_large_names_what_limits_it(arm: Path) -> None:
+    """Its largest source; negative control: nothing limits a load case whose allowed error is large."""
     run = _run(arm)
-    fitted, (case,) = _fit(run), operating_load_cases([run])
-    measured, posterior = evidence_by_calibration(Campaign.of(run), {"new": fitted})["new"], fitted.posterior
-    assert posterior is not None
-    assert posterior.prior_covariance is not None
-    pessimistic = posterior.model_copy(update={"prior_covariance": 25.0 * posterior.prior_covariance})
-    calibration = fitted.model_copy(update={"posterior": pessimistic})
-    narrow, wide = LoadCaseAssessment(case, calibration, measured), LoadCaseAssessment(case, calibration, None)
-    assert 0.0 < narrow.share < 1.0 == wide.share
-    assert narrow.after is not None
-    assert wide.after is not None
-    between = 0.5 * (narrow.after.force.at_most + wide.after.force.at_most)
-    limited = replace(case, allowed_force_N=between)
-    assert LoadCaseAssessment(limited, calibration, measured).verdict()[0] == "use"
-    # negative control: an even chance is not enough, and no data show nothing
-    even = LoadCaseAssessment(replace(case, allowed_force_N=narrow.after.force.typical), calibration, measured)
-    for assessment in (even, LoadCaseAssessment(limited, calibration, None)):
-        assert assessment.verdict()[0] == "not enough data"
-        assert assessment.limited_by is not None
+    calibration, (case,) = _fit(run), operating_load_cases([run])
+    tight = LoadCaseAssessment(replace(case, allowed_force_N=1e-3), calibration, None)
+    assert tight.after is not None
+    sources = tight.after.force.sources
+    assert tight.limited_by == max(ADVICE_BY_SOURCE, key=sources.__getitem__)
+    wide = replace(case, allowed_force_N=1e6, allowed_moment_Nm=1e6)
+    assert LoadCaseAssessment(wide, calibration, None).limited_by is None
 
 
 def test_a_share_of_recorded_loads_that_hardly_move_forbids_nothing(arm: Path) -> None:

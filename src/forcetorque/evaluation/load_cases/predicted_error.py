@@ -20,7 +20,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.section import LoadCaseOffset
-from forcetorque.experiment.calibration.artefact import JOINT, Calibration
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 
 CONFIDENCE: Final = 0.95
@@ -80,52 +80,12 @@ class PredictedError:
         return float(held.mean())
 
 
-def _with_measured_rates(calibration: Calibration) -> tuple[Posterior, FloatArray, FloatArray] | None:
-    """Posterior, prior matrix and covariance of its errors; None of a kind whose rates were not measured."""
-    posterior, prior = calibration.posterior, calibration.prior
-    if posterior is None or prior is None or posterior.prior_covariance is None or posterior.model is None:
-        return None
-    return None if calibration.estimation_type == JOINT else (posterior, prior.matrix, posterior.prior_covariance)
-
-
-def prior_error_share(calibration: Calibration, loads: FloatArray) -> float:
-    """Compare the error of the prior matrix at loads with what was assumed of it before any data.
-
-    A prior that is better than assumed where data determine its error is taken to be so in the other directions of
-    load, too: deviations of the unknowns are this much smaller. Measured, not derived: `python -m benchmarks.verdicts`.
-
-    Args:
-        calibration: A calibration.
-        loads: Loads that its data determine, such as those of validation data about their mean; shape (n, 6); N, N m.
-
-    Returns:
-        Root mean square error of the prior by the posterior, its uncertainty included, over that by the prior
-        distribution; the larger of force and moment, at most 1. 1 for all but the fit of a single sensor with a prior
-        matrix and an uncertain robot model: for others it was not measured.
-    """
-    known = _with_measured_rates(calibration)
-    if known is None or not loads.any():
-        return 1.0
-    posterior, prior, prior_covariance = known
-    channel = posterior.space == "channel"
-    to_wrench = prior if channel else np.eye(6)
-    error = to_wrench @ posterior.mean[:, :6] - (np.eye(6) if channel else 0.0)
-    moment = loads.T @ loads / len(loads)
-    uncertain, assumed = (
-        to_wrench**2 @ np.einsum("kij,ij->k", covariance, moment)
-        for covariance in (posterior.covariance[:, :6, :6], prior_covariance)
-    )
-    found = np.einsum("ij,jk,ik->i", error, moment, error) + uncertain
-    return min(1.0, max(float(np.sqrt(found[part].sum() / assumed[part].sum())) for part in FORCE_AND_MOMENT))
-
-
-def predict(calibration: Calibration, case: LoadCase, *, share: float = 1.0) -> PredictedError:
+def predict(calibration: Calibration, case: LoadCase) -> PredictedError:
     """Predict the error of a calibration at a load case.
 
     Args:
         calibration: A calibration of the generative model.
         case: The load case.
-        share: Factor of the deviations of the unknowns, as of `prior_error_share`.
 
     Returns:
         The error, noise of a reading included.
@@ -133,16 +93,15 @@ def predict(calibration: Calibration, case: LoadCase, *, share: float = 1.0) -> 
     Raises:
         FitError: If the calibration has no posterior, or not the variables of the load case.
     """
-    return predict_from_posterior(_posterior(calibration), case, share=share)
+    return predict_from_posterior(_posterior(calibration), case)
 
 
-def predict_from_posterior(posterior: Posterior, case: LoadCase, *, share: float = 1.0) -> PredictedError:
+def predict_from_posterior(posterior: Posterior, case: LoadCase) -> PredictedError:
     """Predict the error at a load case by the posterior of a sensor.
 
     Args:
         posterior: What is known.
         case: The load case.
-        share: Factor of the deviations of the unknowns.
 
     Returns:
         The error, noise of a reading included.
@@ -150,11 +109,11 @@ def predict_from_posterior(posterior: Posterior, case: LoadCase, *, share: float
     Raises:
         FitError: If the posterior has not the variables of the load case.
     """
-    unknowns = posterior.to_wrench @ (share * _draws(posterior))
-    return _error(unknowns, posterior, posterior.to_wrench, load_second_moment(posterior, case), share)
+    unknowns = posterior.to_wrench @ _draws(posterior)
+    return _error(unknowns, posterior, posterior.to_wrench, load_second_moment(posterior, case))
 
 
-def predict_prior(calibration: Calibration, case: LoadCase, *, share: float = 1.0) -> PredictedError | None:
+def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | None:
     """Predict the error of the prior matrix at a load case, by all information of the recordings.
 
     Its offset is that which the same recordings give it, and it knows of no variables.
@@ -162,7 +121,6 @@ def predict_prior(calibration: Calibration, case: LoadCase, *, share: float = 1.
     Args:
         calibration: A calibration of the generative model.
         case: The load case.
-        share: Factor of the deviations of the unknowns.
 
     Returns:
         The error; None without a prior.
@@ -174,12 +132,12 @@ def predict_prior(calibration: Calibration, case: LoadCase, *, share: float = 1.
     if calibration.prior is None:
         return None
     to_wrench = np.eye(6) if posterior.space == "wrench" else calibration.prior.matrix
-    unknowns = to_wrench @ (posterior.mean + share * _draws(posterior))
+    unknowns = to_wrench @ (posterior.mean + _draws(posterior))
     if posterior.space == "channel":
         unknowns[..., :6] -= np.eye(6)
     if case.offset is LoadCaseOffset.FITTED:
         unknowns[..., _offset_place(posterior)] += calibration.prior.offset
-    return _error(unknowns, posterior, to_wrench, load_second_moment(posterior, case), share)
+    return _error(unknowns, posterior, to_wrench, load_second_moment(posterior, case))
 
 
 def _posterior(calibration: Calibration) -> Posterior:
@@ -245,20 +203,18 @@ def load_second_moment(posterior: Posterior, case: LoadCase) -> FloatArray:
     return moment
 
 
-def _error(
-    unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, moment: FloatArray, share: float
-) -> PredictedError:
+def _error(unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, moment: FloatArray) -> PredictedError:
     """Errors by the unknowns as what they do to every component; shape of those (m, 6, p)."""
     noise = to_wrench**2 @ np.array([row.white**2 for row in posterior.noise])
     square = np.einsum("mij,jk,mik->mi", unknowns, moment, unknowns, optimize=True) + noise
     v = len(posterior.variables)
     shares = [
         np.einsum("mij,jk,mik->i", unknowns[..., at], moment[at, at], unknowns[..., at], optimize=True) / len(unknowns)
-        - share**2 * _of_model(posterior, to_wrench, moment, at)
+        - _of_model(posterior, to_wrench, moment, at)
         for at in (slice(6), slice(6 + v, None), slice(6, 6 + v))
     ]
-    shares += [noise, share**2 * _of_model(posterior, to_wrench, moment, slice(None))]
-    sizes = [_size(square[:, part], [source[part].sum() for source in shares]) for part in FORCE_AND_MOMENT]
+    shares += [noise, _of_model(posterior, to_wrench, moment, slice(None))]
+    sizes = [_size(square[:, part], [share[part].sum() for share in shares]) for part in FORCE_AND_MOMENT]
     return PredictedError(force=sizes[0], moment=sizes[1])
 
 

@@ -26,7 +26,6 @@ from forcetorque.evaluation.load_cases.predicted_error import (
     PredictedError,
     predict,
     predict_prior,
-    prior_error_share,
 )
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
@@ -135,9 +134,6 @@ class LoadCaseVerdict(Row):
     """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
     errors: tuple[LoadCaseError, ...]
     """Predicted errors of force and moment; none without a covariance."""
-    prior_error_share: float = 1.0
-    """Error of the prior matrix, as the data know it, over what is assumed of one before any data, at the loads of the
-    validation data; at most 1. Deviations of the predicted errors are multiplied by it."""
     limited_by: ErrorSource | None = None
     """Largest source of the predicted error that is too large; None where the prediction does not limit the verdict."""
     larger_than_prior: tuple[Literal["force", "moment"], ...] = ()
@@ -292,10 +288,8 @@ class LoadCaseAssessment:
         self.posterior: Posterior | None = calibration.posterior
         self.after: PredictedError | None = None
         self.before: PredictedError | None = None
-        self.share = 1.0 if measured is None else prior_error_share(calibration, measured.moved)
         if self.posterior is not None:
-            self.after = predict(calibration, case, share=self.share)
-            self.before = predict_prior(calibration, case, share=self.share)
+            self.after, self.before = predict(calibration, case), predict_prior(calibration, case)
 
     @property
     def within(self) -> float | None:
@@ -596,7 +590,6 @@ def load_case_verdict(
         message=f"{decision} for {case.words}: {reasons[0].text}",
         reasons=(*reasons, *notes),
         within=assessment.within,
-        prior_error_share=assessment.share,
         limited_by=assessment.limited_by if decision == "not enough data" else None,
         larger_than_prior=tuple(row.quantity for row in assessment.worse),
         errors=tuple(assessment.errors()),
