@@ -46,14 +46,16 @@ from forcetorque.simulation.motions.joint_motions import grid_movement, random_m
 from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.scenario.file import Sensors
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S
-from forcetorque.simulation.sensor import distorted_by_mounting, mounted_matrix, random_matrix_error
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, mounted_matrix, random_matrix_error
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
 UNCERTAIN, EXACT = "tolerance = {}\n", 'tolerance = "exact"\n'
 """Lines of the experiment file that state the default tolerances of the robot model, and none."""
-RANDOM, RATE_HZ, HOUR_NS = "random", 100.0, 3_600_000_000_000
+RANDOM, VALIDATION = "random", "validation"
+"""Recordings beside those of the motions: one of another power-up, and one that is not fitted."""
+RATE_HZ, HOUR_NS = 100.0, 3_600_000_000_000
 MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", RANDOM)}
 """Recordings of each kind of case; the random one is of another power-up."""
 
@@ -157,14 +159,18 @@ def _directions(rng: np.random.Generator, count: int) -> FloatArray:
     return np.asarray(drawn / np.linalg.norm(drawn, axis=1, keepdims=True))
 
 
-def traces(seed: int, robot: Robot, limb: str) -> dict[str, Trace]:
-    """Move the true robot; traces by the names of the recordings."""
+def true_stand(seed: int, robot: Robot) -> Stand:
+    """Hang up the robot as it is."""
     nominal, rng = read_urdf(named_robot(["biped"])), np.random.default_rng([seed, _ROBOT])
     zero_rad = np.deg2rad(robot.zero_deg)
     errors = RobotErrors.draw(nominal, mass=robot.mass, centre_m=0.0, joint_zero_rad=zero_rad, rng=rng)
     down = _turn(rng, robot.tilt_deg, level=True) @ [0.0, 0.0, -1.0]
-    stand = Stand(model=errors.applied_to(nominal), support=nominal.root_link, gravity_direction=down)
-    rng = np.random.default_rng([seed, _MOTION, LIMBS.index(limb)])
+    return Stand(model=errors.applied_to(nominal), support=nominal.root_link, gravity_direction=down)
+
+
+def traces(seed: int, robot: Robot, limb: str) -> dict[str, Trace]:
+    """Move the true robot; traces by the names of the recordings."""
+    stand, rng = true_stand(seed, robot), np.random.default_rng([seed, _MOTION, LIMBS.index(limb)])
     movements = (
         grid_movement(stand, limb, name="grid"),
         z_torque_movement(stand, limb, rng=rng, name="tz"),
@@ -174,6 +180,13 @@ def traces(seed: int, robot: Robot, limb: str) -> dict[str, Trace]:
         own.name: trace_movement(own, [limb], rate_hz=RATE_HZ, rng=rng, start_ns=EPOCH_NS + k * HOUR_NS)
         for k, own in enumerate(movements)
     }
+
+
+def validation_trace(seed: int, robot: Robot, limb: str) -> Trace:
+    """Move the true robot once more, at random, in the power-up of the grid."""
+    rng = np.random.default_rng([seed, _MOTION, LIMBS.index(limb), 1])
+    movement = random_movement(true_stand(seed, robot), rng=rng, duration_s=60.0, name=VALIDATION)
+    return trace_movement(movement, [limb], rate_hz=RATE_HZ, rng=rng, start_ns=EPOCH_NS + 3 * HOUR_NS)
 
 
 def _turn(rng: np.random.Generator, angle_deg: float, *, level: bool = False) -> FloatArray:
@@ -201,12 +214,16 @@ def specimen(seed: int, family: str, limb: str) -> Specimen:
     return replace(drawn, sensor=replace(drawn.sensor, matrix=matrix, offset=offset))
 
 
+def powered_up(seed: int, limb: str, one: Specimen, recording: str) -> SimulatedSensor:
+    """Give the sensor with the offset that it has in a recording."""
+    return one.powered_up(np.random.default_rng([seed, _SENSOR, LIMBS.index(limb), int(recording == RANDOM)]))
+
+
 def _recorded(seed: int, family: str, limb: str, one: Specimen, trace: Trace) -> Recording:
     """Read the sensor, with what the family does to the record."""
     kind, number, name = FAMILIES[family], LIMBS.index(limb), trace.movement.name
-    power_up = int(name == RANDOM)
-    sensor = one.powered_up(np.random.default_rng([seed, _SENSOR, number, power_up]))
-    if kind.contact_N is not None and name != RANDOM:
+    sensor = powered_up(seed, limb, one, name)
+    if kind.contact_N is not None and name in MOTIONS:
         rng = np.random.default_rng([seed, _CONTACT, number, *name.encode()])
         trace = _touched(trace, limb, rng.uniform(*kind.contact_N), rng)
     noise = np.random.default_rng([seed, _NOISE, number, *name.encode()])
@@ -228,7 +245,7 @@ def _touched(trace: Trace, limb: str, force_N: float, rng: np.random.Generator) 
 def _written(folder: Path, name: str, limb: str, recording: Recording, duration_s: float, robot: str) -> Path:
     """Write a recording, and an experiment file that knows of no error."""
     write_recording(folder / name, recording)
-    file = folder / f"{name}.toml"
+    file, use = folder / f"{name}.toml", "validation" if name == VALIDATION else "calibration"
     file.write_text(
         f'schema = "forcetorque/experiment/1"\nname = "{name}"\n'
         f'[robot]\nurdf = "robot.urdf"\n{robot}[recording]\nformat = "parquet"\npath = "{name}"\n'
@@ -236,10 +253,24 @@ def _written(folder: Path, name: str, limb: str, recording: Recording, duration_
         "limit_counts = 32767.0\n"
         '[[support]]\nframe = "pelvis"\ngravity_direction = [0.0, 0.0, -1.0]\n'
         f'[[interval]]\nlabel = "{name}"\nstart_s = {INTERVAL_MARGIN_S}\nend_s = {duration_s - INTERVAL_MARGIN_S:.3f}\n'
-        f'use = "calibration"\nsupport = "pelvis"\nsession = "power-up {int(name == RANDOM)}"\n',
+        f'use = "{use}"\nsupport = "pelvis"\nsession = "power-up {int(name == RANDOM)}"\n',
         encoding="utf-8",
     )
     return file
+
+
+def sensor_runs(
+    folder: Path, seed: int, family: str, limb: str, one: Specimen, known: Sequence[Trace], robot: str = UNCERTAIN
+) -> list[SensorRun]:
+    """Record the sensor in every trace; the files are in a folder, with the nominal robot and the prior matrix."""
+    shutil.copyfile(named_robot(["biped"]), folder / "robot.urdf")
+    write_matrix_file(folder / "matrix.txt", encode_matrix(one.workbench))
+    runs = []
+    for trace in known:
+        recording, movement = _recorded(seed, family, limb, one, trace), trace.movement
+        file = _written(folder, movement.name, limb, recording, movement.duration_s, robot)
+        runs.append(SensorRun(load_experiment(file), limb))
+    return runs
 
 
 def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Trace], robot: str = UNCERTAIN) -> Case:
@@ -247,14 +278,7 @@ def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Tr
     one = specimen(seed, family, limb)
     case = Case(seed=seed, family=family, limb=limb, motion=motion)
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        shutil.copyfile(named_robot(["biped"]), folder / "robot.urdf")
-        write_matrix_file(folder / "matrix.txt", encode_matrix(one.workbench))
-        runs = []
-        for part in MOTIONS[motion]:
-            recording = _recorded(seed, family, limb, one, known[part])
-            file = _written(folder, part, limb, recording, known[part].movement.duration_s, robot)
-            runs.append(SensorRun(load_experiment(file), limb))
+        runs = sensor_runs(Path(name), seed, family, limb, one, [known[part] for part in MOTIONS[motion]], robot)
         start = time.process_time()
         try:
             calibration = calibrate_sensor(runs if len(runs) > 1 else runs[0], code_version="benchmark", created="now")

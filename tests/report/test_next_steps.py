@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Reason
+from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, LoadCaseVerdict, Reason
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.report.decision import Undecided, grouped_by_text, next_steps, texts_with_names
 from tests.report.drawing import use_of
@@ -47,6 +47,17 @@ def test_one_that_may_not_be_used_leads_to_a_plan() -> None:
     assert "(the prior) may be used there" in better[0]
     assert worse[1] == "Record more."
     assert "`forcetorque plan walk.toml -c leg.json --clearance-deg 10` lists what to record next" in worse[2]
+
+
+def test_a_measured_error_rules_over_a_predicted_one() -> None:
+    """A prior that was measured to err less is not said to be predicted worse, however little the difference."""
+    (today, *_) = _steps(use_of(force=40.0, before=80.0, larger_than_prior=("force",)))
+    assert today.endswith("On data that were not fitted the matrix that it came from (the prior) errs less in force.")
+    # where that forbids the use, the remedy says it
+    reason = Reason(against="use", text="its force error is larger", remedy=KEEP_PRIOR)
+    today, remedy, *_ = _steps(use_of(force=40.0, before=80.0, larger_than_prior=("force",), reasons=(reason,)))
+    assert today == "Do not rely on leg.json for “push” yet."
+    assert remedy == KEEP_PRIOR
 
 
 def test_no_plan_where_none_can_be_had() -> None:

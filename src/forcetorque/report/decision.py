@@ -228,9 +228,14 @@ def _as_it_is(verdict: LoadCaseVerdict) -> str:
             else "Its offset holds until the sensor is switched off or mounted anew."
         )
         return "Put {calibration} on the robot for {use}: `forcetorque export` writes what robots read. " + offset
-    # where the prior was measured to err less, a remedy says so
-    measured = any(reason.remedy == KEEP_PRIOR for reason in verdict.reasons)
-    instead = _instead(verdict) if _predicts_too_much(verdict) and not measured else ""
+    instead = ""
+    if verdict.larger_than_prior:
+        # measured errors rule over predicted ones; where they forbid the use, a remedy says to keep the prior
+        if not any(reason.remedy == KEEP_PRIOR for reason in verdict.reasons):
+            larger = " and ".join(verdict.larger_than_prior)
+            instead = f" On data that were not fitted the matrix that it came from (the prior) errs less in {larger}."
+    elif _predicts_too_much(verdict):
+        instead = _instead(verdict)
     return "Do not rely on {calibration} for {use} yet." + instead
 
 

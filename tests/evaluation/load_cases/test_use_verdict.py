@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.evaluation.load_cases.load_case import operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     ValidationSegment,
@@ -23,7 +24,13 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, LoadCaseVerdict, use_verdicts
+from forcetorque.evaluation.load_cases.verdict import (
+    ADVICE_BY_SOURCE,
+    RECORDED,
+    LoadCaseAssessment,
+    LoadCaseVerdict,
+    use_verdicts,
+)
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
@@ -275,6 +282,28 @@ def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
     assert len(operating_load_cases([run], [stated])) == 1
     with pytest.raises(ExperimentError, match="two different load cases are called 'push'"):
         operating_load_cases([run], [stated.model_copy(update={"force_error_N": 7.0})])
+
+
+def test_a_prediction_that_is_too_large_names_what_limits_it(arm: Path) -> None:
+    """Its largest source; negative control: nothing limits a load case whose allowed error is large."""
+    run = _run(arm)
+    calibration, (case,) = _fit(run), operating_load_cases([run])
+    tight = LoadCaseAssessment(replace(case, allowed_force_N=1e-3), calibration, None)
+    assert tight.after is not None
+    sources = tight.after.force.sources
+    assert tight.limited_by == max(ADVICE_BY_SOURCE, key=sources.__getitem__)
+    wide = replace(case, allowed_force_N=1e6, allowed_moment_Nm=1e6)
+    assert LoadCaseAssessment(wide, calibration, None).limited_by is None
+
+
+def test_a_share_of_recorded_loads_that_hardly_move_forbids_nothing(arm: Path) -> None:
+    """Noise is more than a twentieth of next to no load; negative control: loads of that size that a file states."""
+    run = _run(arm)
+    calibration, still = _fit(run), _evidence(0.0, sway=0.1)
+    for name, decision in ((RECORDED, "not enough data"), ("stated", "do not use")):
+        case = LoadCase(name=name, words="", wrench=still.moved, is_stated=name != RECORDED)
+        assert still.force.rest_at_least > case.requirement[0]
+        assert LoadCaseAssessment(case, calibration, still).verdict()[0] == decision
 
 
 def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned: bool = False) -> Evidence:

@@ -134,6 +134,10 @@ class LoadCaseVerdict(Row):
     """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
     errors: tuple[LoadCaseError, ...]
     """Predicted errors of force and moment; none without a covariance."""
+    limited_by: ErrorSource | None = None
+    """Largest source of the predicted error that is too large; None where the prediction does not limit the verdict."""
+    larger_than_prior: tuple[Literal["force", "moment"], ...] = ()
+    """Errors that validation data find larger than those of the prior, however little."""
     beyond_range: str | None = None
     """Why the default load case is not that of the verdict: the sensor cannot read it; None where it can."""
 
@@ -193,8 +197,26 @@ ADVICE_BY_SOURCE: Final[dict[ErrorSource, str]] = {
 """What lowers an error, by its largest source."""
 
 
+def largest_source(
+    after: PredictedError, allowed: tuple[float, float]
+) -> tuple[Literal["force", "moment"], ErrorSource]:
+    """Find what adds most to a predicted error where it exceeds the allowed error most.
+
+    Args:
+        after: The predicted error.
+        allowed: Allowed force and moment error; N, N m; infinite where it is not evaluated.
+
+    Returns:
+        What the error is of, and its largest source.
+    """
+    force, moment = allowed
+    of_force = after.force.at_most / force >= after.moment.at_most / moment
+    sources = (after.force if of_force else after.moment).sources
+    return "force" if of_force else "moment", max(ADVICE_BY_SOURCE, key=sources.__getitem__)
+
+
 def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) -> str:
-    """Advise how to lower a predicted error, by its largest source where it exceeds the allowed error most.
+    """Advise how to lower a predicted error.
 
     Args:
         after: The predicted error.
@@ -203,13 +225,12 @@ def error_reduction_advice(after: PredictedError, allowed: tuple[float, float]) 
     Returns:
         A sentence.
     """
-    force, moment = allowed
-    worst = after.force if after.force.at_most / force >= after.moment.at_most / moment else after.moment
-    shares = {source: worst.sources[source] for source in ADVICE_BY_SOURCE}
-    quantity = "force" if worst is after.force else "moment"
-    return f"Most of the {quantity} error comes from {ADVICE_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
+    quantity, source = largest_source(after, allowed)
+    return f"Most of the {quantity} error comes from {ADVICE_BY_SOURCE[source]}"
 
 
+RECORDED: Final = "recorded loads"
+"""Name of the load case in place of a default one that the sensor cannot read."""
 FEWEST_S: Final = 5
 """Seconds of validation data below which they test nothing."""
 CONSTANT_SHARE: Final = 0.01
@@ -296,13 +317,14 @@ class LoadCaseAssessment:
         """Where validation data find a quantity with a limit worse than with the prior, by more than a trifle."""
         limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
         for row in self.worse:
-            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
-                continue
             text = (
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
                 f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
             )
-            yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
+            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
+                yield Reason(against=None, text=text)
+            else:
+                yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
 
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
@@ -312,14 +334,20 @@ class LoadCaseAssessment:
             )
             yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
-        share = self.after.within(*self.case.requirement)
-        words = self._predicted_words()
-        remedy = error_reduction_advice(self.after, self.case.requirement)
-        if share >= CONFIDENCE:
-            yield Reason(against=None, text=words)
+        chance, text = self.after.within(*self.case.requirement), self._predicted_words()
+        if chance >= CONFIDENCE:
+            yield Reason(against=None, text=text)
         else:
-            chance = f"{words}; the chance that it is within that is {100.0 * share:.0f} %"
-            yield Reason(against="data", text=chance, remedy=remedy)
+            text += f"; the chance that it is within that is {100.0 * chance:.0f} %"
+            remedy = error_reduction_advice(self.after, self.case.requirement)
+            yield Reason(against="data", text=text, remedy=remedy)
+
+    @property
+    def limited_by(self) -> ErrorSource | None:
+        """Largest source of the predicted error that is too large; None where it is not."""
+        if self.after is None or self.after.within(*self.case.requirement) >= CONFIDENCE:
+            return None
+        return largest_source(self.after, self.case.requirement)[1]
 
     def _predicted_words(self) -> str:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
@@ -379,13 +407,20 @@ class LoadCaseAssessment:
         if len(self.measured.reference) < FEWEST_S:
             text = f"the data that were not fitted last {len(self.measured.reference)} s only, too short to test it"
             yield Reason(against="data", text=text, remedy=ADD_VALIDATION)
+        # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
+        static = static_loads_text(
+            *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
+        )
+        # a share of loads that hardly moved is no limit that an error can contradict
+        limits_error = static is None or self.case.name != RECORDED
         loads = (self.case.force_N, self.case.moment_Nm)
         expected = self._expected_there()
         for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
             error: MeasuredError = getattr(self.measured, quantity)
-            yield from self._constant(error, quantity, unit, allowed, load)
+            if limits_error:
+                yield from self._constant(error, quantity, unit, allowed, load)
             rest = f"on data that were not fitted its {quantity} error is {amount(error.rest, unit)} (RMS)"
-            if error.rest_at_least > allowed:
+            if error.rest_at_least > allowed and limits_error:
                 text = f"{rest} without the constant part, {amount(allowed, unit)} allowed"
                 yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
             elif expected is not None and error.rest_at_least > expected[quantity]:
@@ -393,10 +428,6 @@ class LoadCaseAssessment:
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
                 yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
-        # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
-        static = static_loads_text(
-            *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
-        )
         if static is not None:
             yield Reason(against="data", text=f"{static}; evaluate it on data that move", remedy=VALIDATE_MOVING_LOADS)
 
@@ -491,10 +522,6 @@ def _larger(rows: Sequence[PriorComparison], name: str, offset: Offset) -> Itera
     return (row for row in rows if (row.calibration, row.offset) == (name, offset))
 
 
-RECORDED: Final = "recorded loads"
-"""Name of the load case in place of a default one that the sensor cannot read."""
-
-
 def _recorded(measured: Evidence | None) -> LoadCase | None:
     """The loads of the data that were not fitted; None where there are none, or nothing moves."""
     if measured is None or not measured.moved.any():
@@ -563,6 +590,8 @@ def load_case_verdict(
         message=f"{decision} for {case.words}: {reasons[0].text}",
         reasons=(*reasons, *notes),
         within=assessment.within,
+        limited_by=assessment.limited_by if decision == "not enough data" else None,
+        larger_than_prior=tuple(row.quantity for row in assessment.worse),
         errors=tuple(assessment.errors()),
     )
     return verdict if beyond is None else _without(verdict, usual, beyond)
