@@ -58,6 +58,7 @@ def fit_jointly(
     priors: Mapping[str, SensorPrior] | None = None,
     *,
     about: JointFit | None = None,
+    widened: bool = True,
 ) -> JointFit:
     """Find what is most probable.
 
@@ -66,6 +67,8 @@ def fit_jointly(
         terms: Errors of the model that their coefficients allow for.
         priors: How far the sensors may be from their prior matrices, by name; `EVEN` for sensors that are not there.
         about: The fit that the windows were made with; None for the prior matrices.
+        widened: Whether predicted errors are those of changes that are as large as evidence says, which takes as long
+            again.
 
     Returns:
         The fit.
@@ -81,7 +84,9 @@ def fit_jointly(
     rows = [row for one in used for row in _rows(one, unknowns, about)]
     data, sizes = [row for row, _ in rows], unknowns.sizes([own for _, own in rows])
     held = infer(data, replace(sizes, weight=np.where(unknowns.of_sensors(sizes), np.inf, sizes.weight)))
-    return unknowns.fit(held, np.maximum(infer(data, sizes).deviations, held.deviations))
+    return unknowns.fit(
+        held, np.maximum(infer(data, sizes).deviations, held.deviations) if widened else held.deviations
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -260,11 +260,11 @@ def fit_stretches(
     duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
     every = max(round(duration / LINEAR_S), 1)
     windows = _windows(stretches, terms, None, every)
-    fit = _fit(windows, _agreeing(windows, None), terms, priors, None)
+    fit = _fit(windows, _agreeing(windows, None), terms, priors, None, widened=False)
     for number in range(2, ROUNDS + 1):
         progress(f"the same about the fit, round {number} of {ROUNDS}")
         windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
-        fit = _fit(windows, _agreeing(windows, fit), terms, priors, fit)
+        fit = _fit(windows, _agreeing(windows, fit), terms, priors, fit, widened=number == ROUNDS)
     kept = _agreeing(windows, fit)
     return JointResult(
         fit=fit,
@@ -296,8 +296,12 @@ def _fit(
     terms: Sequence[ErrorTerm],
     priors: Mapping[str, SensorPrior] | None,
     about: JointFit | None,
+    *,
+    widened: bool,
 ) -> JointFit:
-    return fit_jointly((one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, priors, about=about)
+    return fit_jointly(
+        (one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, priors, about=about, widened=widened
+    )
 
 
 def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
