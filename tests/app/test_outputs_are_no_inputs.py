@@ -59,6 +59,7 @@ WORDS = {
     "dataset check": f"{PARQUET}",
     "dataset compensate": f"{PARQUET}",
     "estimate": f"{PARQUET} -o new.csv",
+    "evaluate": f"{PARQUET} -c fitted.json",
     "export": "fitted.json --to csv",
     "fleet add": f"{PARQUET}",
     "fleet report": "fitted.json -c fitted.json",
@@ -130,7 +131,9 @@ def _asked(command: str, option: str, name: str) -> list[str]:
 
 
 def _ending(command: str, option: str) -> str:
-    return {"--figure": ".png", "--video": ".mp4", "--table": ".csv"}.get(option) or ENDINGS.get(command, ".out")
+    return {"--figure": ".png", "--video": ".mp4", "--table": ".csv", "--view": ".html"}.get(option) or ENDINGS.get(
+        command, ".out"
+    )
 
 
 def test_every_output_option_is_looked_at() -> None:

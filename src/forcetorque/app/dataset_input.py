@@ -6,14 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin, get_type_hints
 
 from typer.models import ArgumentInfo
 
 from forcetorque.base.errors import ExperimentError
 
+if TYPE_CHECKING:
+    from forcetorque.results.result import Result
 
-def with_datasets(name: str, command: Callable[..., None]) -> Callable[..., None]:
+
+def with_datasets(name: str, command: Callable[..., Result | None]) -> Callable[..., Result | None]:
     """Let a command take a dataset.
 
     Args:
@@ -26,7 +29,7 @@ def with_datasets(name: str, command: Callable[..., None]) -> Callable[..., None
     arguments = _arguments(command)
 
     @wraps(command)
-    def run(**given: Any) -> None:
+    def run(**given: Any) -> Result | None:
         inputs = [path for argument in arguments for path in _paths(given[argument])]
         folders = [path for path in inputs if path.is_dir()]
         if folders:
@@ -41,13 +44,13 @@ def with_datasets(name: str, command: Callable[..., None]) -> Callable[..., None
                 )
             if datasets:
                 run_from_dataset(name, datasets[0], given)
-                return
-        command(**given)
+                return None
+        return command(**given)
 
     return run
 
 
-def _arguments(command: Callable[..., None]) -> list[str]:
+def _arguments(command: Callable[..., Any]) -> list[str]:
     """Names of what is typed without a flag."""
     hints = get_type_hints(command, include_extras=True)
     return [

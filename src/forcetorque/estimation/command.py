@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -69,17 +69,20 @@ def estimate(
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
-) -> None:
+) -> Any:
     """Estimate contact wrenches, joint torques and expected readings.
 
     Example: forcetorque estimate experiment.toml -o estimates.parquet
 
     Python: `experiment.estimate(calibration)`
+
+    Returns:
+        The `Result` that is shown, without samples.
     """
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.estimation.result import estimates_of_recordings
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.input_files import file_of_each, stated_in
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.formats.sample_table import SUFFIXES
     from forcetorque.results.terminal.output import refuse_figure
@@ -89,7 +92,7 @@ def estimate(
     _refuse_ending(output, SUFFIXES)
     refuse_figure(figure, force=force)
     refuse_a_file_twice(experiments)
-    files, figures = _outputs(experiments, output), {} if figure is None else _outputs(experiments, figure)
+    files, figures = file_of_each(experiments, output), {} if figure is None else file_of_each(experiments, figure)
     written = [*files.values(), *(file for file in figures.values() if file != figure)]
     declare_outputs(*written, force=force)
     if len(experiments) > 1 and any(file.exists() for file in written):
@@ -113,12 +116,9 @@ def estimate(
                 figure=figures.get(path),
             )
     several = len(summaries) > 1
-    show(
-        estimates_of_recordings(summaries) if several else summaries[str(experiments[0])],
-        output_format,
-        details=details,
-        experiments=experiments,
-    )
+    result = estimates_of_recordings(summaries) if several else summaries[str(experiments[0])]
+    show(result, output_format, details=details, experiments=experiments)
+    return result
 
 
 def _estimated(
@@ -165,16 +165,6 @@ def _estimated(
         log.info("drawn are the joints whose torques change most, not %s", ", ".join(left_out))
     # without samples afterwards: there may be more of them than memory holds
     return drawn_to(summary.model_copy(update={"torques": torques}), figure).model_copy(update={"torques": None})
-
-
-def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:
-    """File for the samples of every experiment: the one that is named, or one each with its name before the ending."""
-    from forcetorque.experiment.input_files import distinct_files
-
-    if len(experiments) == 1:
-        return {experiments[0]: output}
-    names = distinct_files(experiments)
-    return {path: output.with_suffix(f".{names[path].replace('/', '-')}{output.suffix}") for path in experiments}
 
 
 def _refuse_ending(output: Path, endings: Sequence[str]) -> None:

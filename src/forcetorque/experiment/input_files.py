@@ -275,6 +275,22 @@ def path_endings(file: Path) -> list[str]:
     return ["/".join(parts[-count:]) for count in range(1, len(parts))]
 
 
+def file_of_each(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:
+    """Name the file that is written of every experiment.
+
+    Args:
+        experiments: Experiment files.
+        output: The file that is named.
+
+    Returns:
+        That file for one experiment; of several one each, NAME.EXPERIMENT with its ending.
+    """
+    if len(experiments) == 1:
+        return {experiments[0]: output}
+    names = distinct_files(experiments)
+    return {path: output.with_suffix(f".{names[path].replace('/', '-')}{output.suffix}") for path in experiments}
+
+
 def distinct_files(files: Sequence[Path]) -> dict[Path, str]:
     """Name every file by its stem, with as many folders in front as tell all of them apart.
 

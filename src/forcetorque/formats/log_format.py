@@ -89,6 +89,8 @@ class LogDescription:
     """Of the log of an arm what is known of the wrench at its flange; None for other logs, or without a wrench."""
     wrist_lacks: str = ""
     """Why there is no such wrench in the log of an arm."""
+    sensors_apart: bool = False
+    """Whether its sensors are those of no robot, each with a load of its own, as force plates are."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

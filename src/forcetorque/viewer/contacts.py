@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,10 +15,11 @@ from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.joint.windows import WINDOW_S
 from forcetorque.estimation.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.contacts import contacts_at_sensors
+from forcetorque.experiment.contacts import contact_in_words, contacts_at_sensors
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.experiment.validation_offset import OffsetPolicy
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import Contact
@@ -29,12 +30,25 @@ from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import ContactSeries, Sensor, WrenchSeries
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactOptions:
+    """How contacts are estimated, as the options of `forcetorque estimate` have it."""
+
+    contacts: Sequence[str] | None = None
+    """`FRAME`, `FRAME:force` or `FRAME:force_along:x,y,z` each, in place of the experiment's; its own if None."""
+    length_scale: float | None = None
+    """Moment that weighs as much as one newton, in place of the experiment's; m."""
+    offset: OffsetPolicy | str | None = None
+    """Where the offsets of all sensors come from; None for those that are shown."""
+
+
 def scene_contacts(
     experiment: Experiment,
     groups: Mapping[str, Mapping[str, Calibration]],
     posture: Posture,
     priors: Priors,
     draft: SceneDraft,
+    options: ContactOptions,
 ) -> tuple[ContactSeries, ...]:
     """Estimate what the world does to the robot: at the contacts of the experiment, else at its sensors; and support.
 
@@ -44,18 +58,26 @@ def scene_contacts(
         posture: The instants.
         priors: How sensors are read without a calibration.
         draft: Takes the arrays, what is missing and where the rest comes from.
+        options: Contacts, length scale and offsets in place of those of the experiment.
 
     Returns:
         Contacts, NaN outside intervals; none where the log does not allow to estimate them.
     """
     try:
-        corrections = _first_corrections(experiment, groups, priors)
-        spans = estimate_experiment(experiment, corrections)
+        if options.contacts is not None:
+            named = tuple(contact_in_words(text, experiment.model) for text in options.contacts)
+            experiment = replace(experiment, contacts=named)
+        if options.offset is None:
+            corrections = _first_corrections(experiment, groups, priors)
+        else:
+            corrections = corrections_of(experiment, _first(groups), offset=options.offset)
+        spans = estimate_experiment(experiment, corrections, length_scale=options.length_scale)
     except ForceTorqueError as error:
         draft.notes.append(f"no contact wrenches: {error}")
         return ()
     read = "; ".join(f"{sensor}: {correction.source}" for sensor, correction in corrections.items())
-    what = "that the experiment states" if experiment.contacts else "at the sensors"
+    what = "that are named" if options.contacts else "that the experiment states"
+    what = what if experiment.contacts else "at the sensors"
     draft.sources.append(f"contact wrenches {what} are estimated with {read}")
     draft.notes.extend(
         dict.fromkeys(
@@ -90,10 +112,14 @@ def _first_corrections(
     experiment: Experiment, groups: Mapping[str, Mapping[str, Calibration]], priors: Priors
 ) -> dict[str, Correction]:
     """How every sensor is read where one way is needed: by its first calibration, else its prior."""
-    first = dict(next(iter(group.items())) for group in groups.values())
     calibrated = replace(experiment, sensors=tuple(s for s in experiment.sensors if s.name in groups))
-    corrections = corrections_of(calibrated, first)
+    corrections = corrections_of(calibrated, _first(groups))
     return {sensor.name: corrections.get(sensor.name) or priors.of(sensor) for sensor in experiment.sensors}
+
+
+def _first(groups: Mapping[str, Mapping[str, Calibration]]) -> dict[str, Calibration]:
+    """The first calibration of every sensor by its name."""
+    return dict(next(iter(group.items())) for group in groups.values())
 
 
 def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[str, Contact]:

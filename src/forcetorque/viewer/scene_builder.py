@@ -31,7 +31,7 @@ from forcetorque.results.table import Table
 from forcetorque.robot.installed import urdf_file
 from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
-from forcetorque.viewer.contacts import scene_contacts, scene_parts
+from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.geometry import robot_geometry
 from forcetorque.viewer.posture import Posture, posture_at, root_poses, scene_joints, shown_stream
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
@@ -39,6 +39,7 @@ from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
 from forcetorque.viewer.skin import scene_skin, scene_skin_events
 
 _BESIDE = f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
+_AS_STATED = ContactOptions()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -61,6 +62,7 @@ def build_scene(
     sensors: Sequence[str] | None = None,
     mesh_folders: Sequence[Path] = (),
     provenance: Sequence[str] = (),
+    contact_options: ContactOptions = _AS_STATED,
 ) -> BuiltScene:
     """Collect everything that the viewer shows of an experiment.
 
@@ -75,6 +77,7 @@ def build_scene(
         sensors: Sensors to show; all of the experiment if None.
         mesh_folders: Folders with packages of meshes that are looked at first.
         provenance: Lines to add to the list of inputs.
+        contact_options: How contacts are estimated.
 
     Returns:
         The scene.
@@ -109,7 +112,7 @@ def build_scene(
         scene_sensor(computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, draft)
         for one in shown
     ]
-    contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft)
+    contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft, contact_options)
     patches = computed.section(PATCHES)
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
@@ -208,6 +211,7 @@ def scene_of(
     *,
     sensors: Sequence[str] | None = None,
     mesh_folders: Sequence[Path] | None = None,
+    contact_options: ContactOptions = _AS_STATED,
 ) -> BuiltScene:
     """Build the scene of an experiment.
 
@@ -217,6 +221,7 @@ def scene_of(
         calibrations: Calibrations by their file; of a sensor any number.
         sensors: Sensors to show; all if None.
         mesh_folders: Folders with packages of meshes.
+        contact_options: As of `build_scene`.
 
     Returns:
         The scene, which states the hashes of the calibrations.
@@ -234,6 +239,7 @@ def scene_of(
         urdf=None if robot is None else urdf_file(robot.urdf, path.parent),
         sensors=sensors,
         mesh_folders=mesh_folders or (),
+        contact_options=contact_options,
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
     )
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, MissingExtraError
+from forcetorque.base.errors import ExperimentError, FormatError, MissingExtraError, OutputError
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.c3d.c3d_file import is_c3d, read_c3d
 from forcetorque.formats.c3d.conventions import C3dLog
@@ -247,3 +247,30 @@ def test_init_asks_what_the_file_leaves_open(tmp_path: Path) -> None:
     draft = draft_experiment(path, tmp_path / "x.toml")
     assert {"origin_from", "measure_direction"} <= {question.key for question in draft.questions}
     assert draft.format == "c3d"
+
+
+def test_init_drafts_every_plate(tmp_path: Path) -> None:
+    """A file each, which differ in the plate alone; one that is named has a single file; files are not replaced."""
+    corners, channels = files.CORNERS_MM.T.astype(np.float32), np.arange(1, 7)
+    path = files.write_plate(
+        tmp_path / "walk.c3d",
+        FORCE_PLATFORM__USED=np.array(2),
+        FORCE_PLATFORM__TYPE=np.array([2, 2]),
+        FORCE_PLATFORM__CORNERS=np.stack([corners, corners], axis=2),
+        FORCE_PLATFORM__ORIGIN=np.stack([files.ORIGIN_MM] * 2, axis=1),
+        FORCE_PLATFORM__CHANNEL=np.stack([channels, channels], axis=1),
+    )
+    draft = draft_experiment(path, tmp_path / "walk.toml")
+    second = tmp_path / "walk.plate2.toml"
+    assert draft.sensor_files == (str(second),)
+    first = (tmp_path / "walk.toml").read_text(encoding="utf-8")
+    assert first.replace("plate1", "plate2") == second.read_text(encoding="utf-8") != first
+    alone = draft_experiment(path, tmp_path / "two.toml", sensors=["plate2"])
+    assert alone.sensor_files == ()
+    assert (tmp_path / "two.toml").read_bytes() == second.read_bytes()
+    (tmp_path / "walk.toml").unlink()
+    with pytest.raises(OutputError, match=r"walk\.plate2\.toml"):
+        draft_experiment(path, tmp_path / "walk.toml")
+    assert not (tmp_path / "walk.toml").exists()
+    with pytest.raises(ExperimentError, match="--output -: expected one sensor, .* got 2; name one by --sensor"):
+        draft_experiment(path, "-")

@@ -43,7 +43,8 @@ class C3dFormat:
         file = read_c3d(path)
         table = checked_tables({"format": "c3d", "path": path}, C3dLog, path)
         undetermined = {key: QUESTIONS[key] for key in unanswered(table, undetermined_keys(file))}
-        return LogDescription(table=table, reading=_reading(file, table, undetermined), undetermined=undetermined)
+        reading = _reading(file, table, undetermined)
+        return LogDescription(table=table, reading=reading, undetermined=undetermined, sensors_apart=True)
 
     def read(self, specified: C3dLog, context: LogContext) -> LogReading:
         """Read the wrenches about the centres of the surfaces, and the markers."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -90,7 +90,7 @@ _NO_SENSOR = "no stream looks like the reading of a force-torque sensor; without
 class Draft(Result):
     """A draft of an experiment file."""
 
-    of_several: ClassVar[tuple[str, ...]] = ("robot_file",)
+    of_several: ClassVar[tuple[str, ...]] = ("robot_file", "sensor_files")
 
     schema_name: Literal["forcetorque/init/1"] = Field(default="forcetorque/init/1", alias="schema")
     """Form of the result."""
@@ -108,6 +108,8 @@ class Draft(Result):
     """Findings about the log, and reasons for what is unknown."""
     robot_file: str | None = None
     """URDF that was written from the log's own description; None for none."""
+    sensor_files: tuple[str, ...] = ()
+    """Files of the other sensors where no robot carries them, each with the same questions of its sensor."""
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
 
@@ -137,7 +139,7 @@ class Draft(Result):
             why=self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",),
             step=step,
             command=typed(*("inspect" if count else self._next).split(), self.file),
-            written=() if self.robot_file is None else (self.robot_file,),
+            written=(self.robot_file, *self.sensor_files),
             concern=Concern.UNCERTAIN if count else Concern.NONE,
         )
 
@@ -214,7 +216,8 @@ def draft_experiment(
             one is there, or for a wrist sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
         column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
-        sensors: Names or streams of the sensors to draft; all if empty.
+        sensors: Names or streams of the sensors to draft; all if empty. Without a robot an experiment has one sensor:
+            others that are named, and other force plates, have a file each beside it, NAME.SENSOR.toml.
         matrices: Folder of the calibrations that the sensors came with; None for none.
         force: Whether an existing experiment file may be replaced.
 
@@ -248,9 +251,12 @@ def draft_experiment(
     chosen = chosen_sensors(found, sensors)
     others = {sensor.stream for sensor in found} - {sensor.stream for sensor in chosen}
     framed = tuple(with_fixed_frame(sensor, log.streams, logged, model) for sensor in chosen)
+    apart = _alone(framed, log, model, by_name=bool(sensors))
+    beside = {} if output is None else {_file_of(file, one): one for one in apart[1:]}
+    _refuse_beside(beside, file, force=force)
     priors = () if matrices is None else matrix_files(Path(matrices))
     robot = _robot_line(urdf, robot_file, logged, folder, is_kept=kept is not None)
-    text, notes, recording = _written(without_streams(log, others), framed, priors, folder, model, robot)
+    text, notes, recording = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
     if kept is not None:
         notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
     notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
@@ -258,6 +264,9 @@ def draft_experiment(
         write_bytes_atomically(robot_file, logged.urdf.encode())
     if output is not None:
         write_bytes_atomically(file, text.encode())
+    for path, sensor in beside.items():
+        other, *_ = _written(without_streams(log, others), (sensor,), priors, folder, model, robot)
+        write_bytes_atomically(path, other.encode())
     questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
     return Draft(
         file=str(file),
@@ -266,8 +275,36 @@ def draft_experiment(
         questions=questions,
         notes=notes,
         robot_file=None if robot_file is None else str(robot_file),
+        sensor_files=tuple(map(str, beside)),
         content=text,
     )
+
+
+def _alone(
+    sensors: tuple[DraftedSensor, ...], log: DraftedLog, model: RobotModel | None, *, by_name: bool
+) -> tuple[DraftedSensor, ...]:
+    """Sensors that have a file each, as there is no robot that carries them; none where they share one."""
+    # without a robot a sensor beside the first may be the same one in another form, unless its name is given
+    if model is not None:
+        return ()
+    are_apart = by_name or (log.description is not None and log.description.sensors_apart)
+    return sensors if are_apart else sensors[:1]
+
+
+def _file_of(file: Path, sensor: DraftedSensor) -> Path:
+    """File of a sensor beside that of the first."""
+    return file.with_suffix(f".{sensor.name}{file.suffix}")
+
+
+def _refuse_beside(files: Collection[Path], file: Path, *, force: bool) -> None:
+    """Refuse files of further sensors that cannot be written."""
+    if files and file == STANDARD_OUTPUT:
+        raise ExperimentError(
+            f"--output -: expected one sensor, as each has a file without a robot, got {len(files) + 1}; name one by "
+            "--sensor, or a file"
+        )
+    for path in files:
+        refuse_output(path, force=force)
 
 
 def _differs(file: Path, urdf: str | None) -> bool:

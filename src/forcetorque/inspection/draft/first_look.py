@@ -85,7 +85,7 @@ def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None
         return None
     if any(column.rows > MOST_ROWS for stream in log.streams if stream.table for column in stream.table.columns):
         return None
-    sensors = draft_sensors(log.streams, None)
+    sensors = draft_sensors(log.streams, None)[:1]
     lines = recording_lines(log, Path(), None, {sensor.stream: sensor.name for sensor in sensors})
     recording, _ = read_drafted(likeliest_text(lines), Path(), sensors, None)
     assumed = tuple(text.likeliest for text in lines if isinstance(text, Question) and text.likeliest is not None)

@@ -101,7 +101,7 @@ def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) ->
     if model is None:
         return tuple(
             DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=_is_raw(stream))
-            for stream in reading[:1]
+            for stream in reading
         )
     return tuple(_matched(stream, reading, model) for stream in reading)
 

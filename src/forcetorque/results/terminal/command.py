@@ -52,14 +52,15 @@ _FILLED = (_RUN, _RUNS, _EXPERIMENT, _CALIBRATIONS, _ONE_CALIBRATION, _OTHERS, _
 """Types of parameters that the command line fills from files, or with its log."""
 
 
-def command_function(function: Callable[..., Any]) -> Callable[..., None]:
+def command_function(function: Callable[..., Any]) -> Callable[..., Result | None]:
     """Make what typer takes as a command.
 
     Args:
         function: An analysis with its options, or a command that parses by itself.
 
     Returns:
-        A function whose signature has arguments and options; the command itself if it parses by itself.
+        A function whose signature has arguments and options, which returns what it shows; the command itself if it
+        parses by itself.
     """
     offered = command_of(function)
     return function if offered is None else _Analysis(function, offered).command()
@@ -87,11 +88,11 @@ class _Analysis:
         """Whether experiment files are typed."""
         return not {_RUN, _RUNS, _EXPERIMENT}.isdisjoint(self.named_by_kind)
 
-    def command(self) -> Callable[..., None]:
+    def command(self) -> Callable[..., Result]:
         """The command, which typer parses by its signature."""
 
-        def run(**given: Any) -> None:
-            self.run(given)
+        def run(**given: Any) -> Result:
+            return self.run(given)
 
         typed = [
             *self.typed(),
@@ -129,11 +130,14 @@ class _Analysis:
         if self.offered.saved:
             yield _typed("force", ForceOption, False)
 
-    def run(self, given: Mapping[str, Any]) -> None:
+    def run(self, given: Mapping[str, Any]) -> Result:
         """Compute, draw and show the result.
 
         Args:
             given: What was typed, by name.
+
+        Returns:
+            The result.
 
         Raises:
             typer.Exit: With code 1 if the result is not as it should be.
@@ -153,6 +157,7 @@ class _Analysis:
             show(result, given["output_format"], details=given["details"], experiments=files)
         if not result.passed:
             raise typer.Exit(1)
+        return result
 
     def refuse_outputs(self, given: Mapping[str, Any]) -> None:
         """Refuse folders, files and a figure that cannot be written, before anything is computed."""

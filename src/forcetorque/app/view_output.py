@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`--view FILE` of commands with a result: what the viewer shows of the same files, with the verdicts of the result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import wraps
+from inspect import Parameter, cleandoc, signature
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final, get_type_hints
+
+import typer
+
+from forcetorque.base.errors import ExperimentError, ForceTorqueError
+
+if TYPE_CHECKING:
+    from forcetorque.results.result import Result
+    from forcetorque.viewer.scene_builder import BuiltScene
+
+COMMANDS: Final = ("estimate", "evaluate")
+"""Commands that take it."""
+_ENDINGS: Final = (".rrd", ".mcap", ".html")
+_Option = Annotated[
+    Path | None,
+    typer.Option(
+        "--view",
+        help="File of the recording with the result for Rerun (.rrd), Foxglove and ROS 2 (.mcap) or a browser (.html); "
+        "of several experiments one each, NAME.EXPERIMENT.rrd.",
+    ),
+]
+
+
+def with_view(name: str, command: Callable[..., Result | None]) -> Callable[..., Result | None]:
+    """Let a command write what the viewer shows of its experiments.
+
+    Args:
+        name: Name of the command.
+        command: The command, with `experiments` and `calibration`, which returns its result.
+
+    Returns:
+        The command with the option `--view` if it is one of `COMMANDS`, else as it is.
+    """
+    if name not in COMMANDS:
+        return command
+    hints = get_type_hints(command, include_extras=True)
+    typed = [one.replace(annotation=hints[one.name]) for one in signature(command).parameters.values()]
+    typed.append(Parameter("view", Parameter.POSITIONAL_OR_KEYWORD, default=None, annotation=_Option))
+
+    @wraps(command)
+    def run(view: Path | None = None, **given: Any) -> Result | None:
+        if view is None:
+            return command(**given)
+        files = _declared(view, given)
+        result = command(**given)
+        if result is not None:
+            _write(name, files, given, result)
+        return result
+
+    run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
+    run.__doc__ = cleandoc(command.__doc__ or "").partition("\n\nReturns:")[0]
+    run.__annotations__ = {one.name: one.annotation for one in typed}
+    return run
+
+
+def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
+    """Files by experiment, which can be written."""
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.experiment.input_files import file_of_each
+    from forcetorque.viewer.view_file import require_writer
+
+    if view.suffix.lower() not in _ENDINGS:
+        raise ForceTorqueError(f"--view {view}: expected a name that ends in {', '.join(_ENDINGS)}")
+    for path in given["experiments"]:
+        if path.is_dir():
+            raise ExperimentError(f"--view {view}: expected experiment files, whose samples it needs, got {path}")
+    require_writer(view)
+    files = file_of_each(given["experiments"], view)
+    declare_outputs(*files.values(), force=given.get("force"))
+    return files
+
+
+def _write(name: str, files: Mapping[Path, Path], given: Mapping[str, Any], result: Result) -> None:
+    from forcetorque.results.terminal.output import start_logging
+    from forcetorque.viewer.view_file import write_view
+
+    log = start_logging()
+    for path, file in files.items():
+        built = _scene(path, given)
+        for note in built.scene.notes:
+            log.info("%s", note)
+        built = _with_notes(built, tuple(_verdicts(name, result)))
+        log.info("written: %s, %.1f MB", file, 1e-6 * write_view(file, built))
+
+
+def _scene(path: Path, given: Mapping[str, Any]) -> BuiltScene:
+    """What the viewer shows of an experiment, by the options of the command."""
+    from forcetorque.experiment.loading import Purpose, load_experiment
+    from forcetorque.results.terminal.reading import read_calibrations
+    from forcetorque.viewer.contacts import ContactOptions
+    from forcetorque.viewer.scene_builder import scene_of
+
+    sensors: Sequence[str] | None = given.get("sensor")
+    return scene_of(
+        path,
+        load_experiment(path, Purpose.DISPLAY),
+        read_calibrations(given["calibration"], sensors),
+        sensors=sensors,
+        contact_options=ContactOptions(
+            contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")
+        ),
+    )
+
+
+def _verdicts(name: str, result: Result) -> Iterator[str]:
+    for answer in result.answers():
+        yield f"{name}: {answer.subject}: {answer.verdict}" + "".join(f"; {text}" for text in answer.why)
+
+
+def _with_notes(built: BuiltScene, notes: Sequence[str]) -> BuiltScene:
+    return replace(built, scene=replace(built.scene, notes=(*notes, *built.scene.notes)))

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`--view` of `estimate` and `evaluate`: what `view` writes of the same files, with the verdicts and the options."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from forcetorque.formats.ros.bag import opened_bag
+from forcetorque.viewer.mcap_file import typestore
+from tests.app.outcome import Run
+from tests.scenes.experiments import PARQUET
+
+pytest.importorskip("rosbags")
+
+
+def _topics(file: Path) -> dict[str, int]:
+    with opened_bag(file) as bag:
+        return {topic: sum(len(stamps) for stamps, _ in bag.messages(topic)) for topic in bag.types}
+
+
+def _events(file: Path) -> list[str]:
+    types = typestore(file)
+    with opened_bag(file) as bag:
+        rows = [row for _, data in bag.messages("/rosout") for row in data]
+        return [types.deserialize_cdr(row, bag.types["/rosout"]).msg for row in rows]
+
+
+def test_an_evaluation_is_written_for_viewers(run: Run, arm: Path) -> None:
+    """Errors over time are topics; the verdict that is printed is an event."""
+    ended = run("evaluate", PARQUET, "-c", "fitted.json", "--view", "evaluated.mcap")
+    assert ended.code == 0, ended.err
+    assert any(line.startswith("INFO: written: evaluated.mcap, ") for line in ended.log)
+    topics = _topics(arm / "evaluated.mcap")
+    assert topics["/arm_ft/fitted_json/error"] > 0
+    assert "/hand/contact" not in topics
+    (verdict,) = (text for text in _events(arm / "evaluated.mcap") if text.startswith("evaluate: "))
+    subject, *_, decision = ended.out.splitlines()[0].split("  ")
+    assert verdict.startswith(f"evaluate: {subject}: {decision.strip()}; ")
+
+
+@pytest.mark.long
+def test_contacts_are_those_that_are_estimated(run: Run, arm: Path) -> None:
+    """A contact that an option names has its wrench, in place of that at the sensor."""
+    words = ("--contacts", "hand:force", "-o", "samples.csv", "--view", "named.mcap")
+    ended = run("estimate", PARQUET, "-c", "fitted.json", *words)
+    assert ended.code == 0, ended.err
+    topics = _topics(arm / "named.mcap")
+    assert topics["/hand/contact"] > 0
+    assert "/arm_ft/contact" not in topics
+
+
+@pytest.mark.parametrize(
+    ("view", "message"),
+    [
+        ("view.txt", "--view view.txt: expected a name that ends in .rrd, .mcap, .html"),
+        ("nowhere/view.mcap", "nowhere/view.mcap: expected an existing folder to write to"),
+    ],
+)
+def test_what_cannot_be_written_is_refused_first(run: Run, arm: Path, view: str, message: str) -> None:
+    """One line, before anything is computed."""
+    assert message in run("evaluate", PARQUET, "-c", "gone.json", "--view", view).error()
+
+
+def test_a_dataset_has_no_samples_to_show(run: Run, arm: Path) -> None:
+    """A folder in place of experiment files is refused."""
+    (arm / "dataset").mkdir()
+    error = run("evaluate", "dataset", "-c", "fitted.json", "--view", "view.mcap").error()
+    assert "--view view.mcap: expected experiment files, whose samples it needs, got dataset" in error
+
+
+@pytest.mark.long
+def test_several_experiments_have_a_file_each(run: Run, arm: Path) -> None:
+    """Named as the samples of `estimate` are; the option leaves commands without a recording as they are."""
+    (arm / "again.toml").write_bytes((arm / PARQUET).read_bytes())
+    words = ("estimate", PARQUET, "again.toml", "-c", "fitted.json", "-o", "samples.parquet", "--view", "view.mcap")
+    assert run(*words).code == 0
+    names = {file.name for file in arm.glob("view.*.mcap")}
+    assert names == {"view.parquet.mcap", "view.again.mcap"}
+    assert "--view" not in run("inspect", "--help").out
