@@ -122,7 +122,7 @@ def agreeing_moments(
     """
     recording, data_sets = CampaignRecording.of(run), [interval.data_set for interval in intervals]
     agree, spans = agreeing_samples(
-        data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=recording.options.drift
+        data_sets, recording.sensor.prior, assumptions_of(recording), variables=variables, drift=recording.options.drift
     )
     kept: list[IntervalMoments] = []
     for interval, data, marks in zip(intervals, data_sets, agree, strict=True):
@@ -141,7 +141,15 @@ def agreeing_moments(
     ]
 
 
-def _assumptions(recording: CampaignRecording) -> Assumptions:
+def assumptions_of(recording: CampaignRecording) -> Assumptions:
+    """Give what the options of a recording, and the full scale of its sensor, let a fit assume.
+
+    Args:
+        recording: The recording of one sensor.
+
+    Returns:
+        The assumptions.
+    """
     options = recording.options
     return Assumptions(
         full_scale=channel_full_scale(recording),

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.joint.fit import KINDS, fit_jointly
+from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
 from forcetorque.calibration.joint.robust_fit import (
     JointResult,
@@ -21,7 +21,7 @@ from forcetorque.calibration.joint.robust_fit import (
     residuals,
     residuals_by,
 )
-from forcetorque.calibration.joint.sums import part_sums
+from forcetorque.calibration.joint.sensor_prior import EVEN
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
@@ -89,27 +89,26 @@ def test_more_motions_teach_more_where_the_mass_is_known() -> None:
 @pytest.mark.long
 def test_the_predicted_error_is_about_the_true_one() -> None:
     """Over six specimens, of loads of 50 N and 5 N m along every axis; 1 would be exact."""
-    squares = []
-    for seed in range(21, 27):
-        motion = swaying(seed, **WRONG)
-        fit = _fit(motion)
-        loads = 50.0 * np.diag(UNITS)
-        for name in SENSORS:
-            error = ((fit.change(name) @ np.linalg.inv(motion.change[name]) - np.eye(6)) @ loads).T
-            spread = np.sqrt(np.einsum("kii->ki", fit.error_covariance(name, loads)))
-            squares.append((error / spread) ** 2)
-    assert 0.5 < float(np.sqrt(np.mean(squares))) < 1.5
+    motions = [swaying(seed, **WRONG) for seed in range(21, 27)]
+    ratios = [_push_error_over_predicted(_fit(motion), motion) for motion in motions]
+    assert 0.5 < float(np.sqrt(np.mean(np.square(ratios)))) < 1.5
 
 
 @pytest.mark.long
 def test_a_model_that_is_taken_for_exact_is_believed_too_much() -> None:
     """Negative control of the tolerances: without them the predicted error is far too small."""
     motion = swaying(21, **WRONG)
-    fit = _fit(motion, tolerance=EXACT)
-    loads = 50.0 * np.diag(UNITS)
-    error = ((fit.change("l_leg_ft") @ np.linalg.inv(motion.change["l_leg_ft"]) - np.eye(6)) @ loads).T
-    spread = np.sqrt(np.einsum("kii->ki", fit.error_covariance("l_leg_ft", loads)))
-    assert np.sqrt(np.mean((error / spread) ** 2)) > 2.0
+    assert _push_error_over_predicted(_fit(motion, tolerance=EXACT), motion) > 2.0
+
+
+def _push_error_over_predicted(fit: JointFit, motion: Swaying) -> float:
+    """Of loads of 50 N and 5 N m along every axis of every sensor, root mean square."""
+    squares, loads = [], 50.0 * np.diag(UNITS)
+    for name in SENSORS:
+        error = ((fit.change(name) @ np.linalg.inv(motion.change[name]) - np.eye(6)) @ loads).T
+        spread = np.sqrt(np.einsum("kii->ki", fit.error_covariance(name, loads)))
+        squares.append((error / spread) ** 2)
+    return float(np.sqrt(np.mean(squares)))
 
 
 @pytest.mark.long
@@ -126,7 +125,7 @@ def test_a_touch_is_left_out_and_does_little_harm() -> None:
     assert _errors(result.fit, other).mean() < 1.2 * _errors(_of_wrong_model(11), other).mean()
     # negative control: a fit that believes all windows errs more at that arm
     windows = part_windows(pushed.stretch, untouched_parts(pushed.stretch.tree, SENSORS, FEET), ())
-    believing = fit_jointly(part_sums(windows))
+    believing = fit_jointly(windows)
     assert _errors(believing, other)[4].max() > 2.0 * _errors(result.fit, other)[4].max()
 
 
@@ -155,7 +154,7 @@ def test_equations_about_a_fit_leave_what_those_about_the_model_do() -> None:
     parts = untouched_parts(stretch.tree, SENSORS, FEET)
     terms = error_terms(stretch.tree, parts, ModelTolerance())
     windows = tuple(part_windows(stretch, parts, terms))
-    fit = fit_jointly(part_sums(windows), terms)
+    fit = fit_jointly(windows, terms)
     fit = replace(fit, mean=0.01 * fit.mean)
     exact = fit.mean.copy()
     exact[fit.places.errors] = 0.0
@@ -186,7 +185,7 @@ def test_a_fit_leaves_what_its_matrices_and_offsets_do() -> None:
     """Of an exact model, in N and N m as in the units of the fit; offsets that suit best leave less yet."""
     stretch = swaying(1, duration_s=2.0).stretch
     windows = tuple(part_windows(stretch, untouched_parts(stretch.tree, SENSORS, FEET), ()))
-    fit = fit_jointly(part_sums(windows))
+    fit = fit_jointly(windows)
     for one in windows:
         factors = {name: fit.change(name) for name in one.sensors}
         offsets = {name: fit.offset(name, "day") for name in one.sensors}
@@ -217,17 +216,15 @@ def test_a_recording_has_a_delay_where_one_may_be() -> None:
 
 
 @pytest.mark.long
-def test_evidence_widens_the_predicted_error_but_not_the_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_evidence_widens_the_predicted_error_but_not_the_estimate() -> None:
     """Changes of 2.5 times the expected size: the estimate is that of the expected size, its error that of the true."""
     motion = swaying(51, duration_s=8.0, noise=0.3, error=0.15)
-    sums = part_sums(part_windows(motion.stretch, untouched_parts(motion.stretch.tree, SENSORS, FEET), ()))
-    fit = fit_jointly(sums)
-    assert all(np.diag(fit.prior_covariance(name)).mean() > (2.0 * KINDS[0].expected) ** 2 for name in SENSORS)
-    monkeypatch.setattr("forcetorque.calibration.joint.fit.KINDS", [replace(kind, weight=1e12) for kind in KINDS])
-    held = fit_jointly(sums)
+    windows = list(part_windows(motion.stretch, untouched_parts(motion.stretch.tree, SENSORS, FEET), ()))
+    fit, held = fit_jointly(windows), fit_jointly(windows, widened=False)
+    expected = EVEN.scales[0].expected
     for name in SENSORS:
-        # noise is found by iteration, which begins elsewhere
-        np.testing.assert_allclose(_changes(fit, name), _changes(held, name), atol=0.01)
+        assert np.diag(fit.prior_covariance(name)).mean() > (1.9 * expected) ** 2
+        np.testing.assert_allclose(_changes(fit, name), _changes(held, name), rtol=1e-12)
     assert 0.7 < _error_over_predicted(fit, motion) < 1.3
     # negative control: as if the changes were as small as expected
     assert _error_over_predicted(held, motion) > 1.7

@@ -54,9 +54,7 @@ def test_the_predicted_error_is_that_of_draws_of_the_fit(session: str | None) ->
     reading = factor @ load + offset if session is not None else factor @ load
     errors = []
     for mean in draws:
-        drawn = JointFit(
-            places=fit.places, mean=mean, covariance=fit.covariance, prior_root=fit.prior_root, residual=fit.residual
-        )
+        drawn = JointFit(places=fit.places, mean=mean, covariance=fit.covariance, prior_root=fit.prior_root)
         added = drawn.offset(SENSOR, "day") if session is not None else np.zeros(6)
         errors.append(drawn.change(SENSOR) @ reading + added - load)
     spread = np.sqrt((np.array(errors) ** 2).mean(axis=0))

@@ -14,7 +14,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
 from forcetorque.calibration.generative.agreement import require_rank, require_response, require_sensor
 from forcetorque.calibration.generative.design import Design, cells_of, design_of
-from forcetorque.calibration.generative.model import Sizes, Unknowns, infer
+from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer
 from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
@@ -25,15 +25,15 @@ from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 
 
-def _frame_changes() -> FloatArray:
-    """What rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
+def frame_changes() -> FloatArray:
+    """Give what rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
     skew = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)
     changes = np.zeros((LOADS, LOADS, LOADS))
     changes[:3, :3, :3] = changes[:3, 3:, 3:] = changes[3:, 3:, :3] = skew
     return changes
 
 
-_FRAME_CHANGES: Final = _frame_changes()
+_FRAME_CHANGES: Final = frame_changes()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,7 +135,8 @@ class Layout:
         rows, first = len(group), len(own) * (int(group.max()) + 1)
         together = np.arange(len(of_shared)) + rows * len(of_own)
         return Sizes(
-            places=np.stack([np.r_[np.arange(len(of_own)) + k * len(of_own), together] for k in range(rows)]),
+            places=[np.r_[np.arange(len(of_own)) + k * len(of_own), together] for k in range(rows)],
+            own=len(of_own),
             size=np.concatenate([*(of_own + len(own) * number for number in group), first + of_shared]),
             expected=np.array([scale.expected for scale in scales]),
             weight=np.array([scale.weight for scale in scales]),
@@ -455,16 +456,19 @@ def fit_generative(
         """Solve the rows, which read errors of the loads by `reading`; shape (rows, 6)."""
         design = design_of(ordered, response, shares, _in_rows(derivatives, reading), drift=drift, centre=centre)
         _require_means(design, drift=drift)
-        unknowns, deviance = infer(
-            whiten(design, shapes),
-            basis,
-            layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount),
-            design,
-            sensor=np.arange(LOADS),
-            accuracy=rows.accuracy if noise_floor else np.zeros_like(rows.accuracy),
-            freedom=max(len(raw) - design.free.shape[1], 1),
-            start=start,
-        )
+        data = [
+            RowData(
+                data=whitened,
+                basis=own,
+                terms=design.model_places,
+                accuracy=float(accuracy) if noise_floor else 0.0,
+                freedom=max(len(raw) - design.free.shape[1], 1),
+            )
+            for whitened, own, accuracy in zip(whiten(design, shapes), basis, rows.accuracy, strict=True)
+        ]
+        sizes = layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount)
+        best = infer(data, sizes, local=design.local_places.ravel(), sensor=np.arange(LOADS), start=start)
+        unknowns = best.rows()
         solved = SolvedRows(
             rows=rows,
             design=design,
@@ -478,7 +482,7 @@ def fit_generative(
             with_prior=prior is not None,
             assumptions=assumptions,
         )
-        return solved, deviance
+        return solved, best.deviance
 
     solved, deviance = solve(rows.from_load, shapes)
     if terms:

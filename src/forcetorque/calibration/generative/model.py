@@ -21,7 +21,6 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
-from forcetorque.calibration.generative.design import Design
 from forcetorque.calibration.generative.row_evidence import RowPrior, evidence_of
 from forcetorque.calibration.generative.shared_unknowns import RowProducts, SharedSolution, solve_together
 from forcetorque.calibration.generative.whitening import Whitened
@@ -64,17 +63,17 @@ class Unknowns:
 class _Row:
     """Products of one row for every shape of the noise, and what its columns are worth in its unknowns."""
 
-    def __init__(
-        self, number: int, data: Sequence[Whitened], basis: FloatArray, model: Sizes, terms: IntArray, accuracy: float
-    ) -> None:
-        self.data, self.basis, self.places = data, basis, model.places[number]
-        self.terms = basis.shape[1] + terms
+    def __init__(self, number: int, row: RowData, model: Sizes) -> None:
+        data, accuracy = row.data, row.accuracy
+        self.data, self.basis, self.freedom, self.places = data, row.basis, row.freedom, model.places[number]
+        self.start = row.start
+        self.terms = row.basis.shape[1] + row.terms
         self._place = number, len(model.places), model.own
         self.response = np.array([one.response for one in data])
         self.log_determinant = np.array([one.log_determinant for one in data])
         ratio = np.array([one.noise.ratio for one in data])
         lasting = np.array([one.noise.time_constant_s >= _LEAST_TIME_S for one in data])
-        self.least = np.maximum(_ROUNDING * self.response, _TINY)
+        self.least = np.maximum(_ROUNDING * self.response, row.least)
         if accuracy > 0.0:
             of_reference = np.divide(accuracy**2, ratio, out=np.zeros(len(data)), where=ratio > 0.0)
             self.least = np.maximum(self.least, of_reference)
@@ -91,18 +90,18 @@ class _Row:
         """Start with a known variance of the noise."""
         self.variance = np.maximum(variance, self.least)
 
-    def take_all_as_noise(self, freedom: int) -> None:
+    def take_all_as_noise(self) -> None:
         """Start with the whole response as noise."""
-        self.variance = np.maximum(self.response / max(freedom, 1), self.least)
+        self.variance = np.maximum(self.start * self.response / self.freedom, self.least)
 
-    def take_least_squares(self, freedom: int, used: IntArray) -> FloatArray:
+    def take_least_squares(self, used: IntArray) -> FloatArray:
         """Start with the residual of least squares on some unknowns as noise, and give these by the first shape."""
         basis, a = self.basis[:, used], len(self.basis)
         columns = np.stack([basis.T @ one.columns[:a, :a] @ basis for one in self.data])
         shared = np.stack([basis.T @ one.shared[:a] for one in self.data])
         solution = np.einsum("kij,kj->ki", np.linalg.pinv(columns, hermitian=True), shared)
         left = self.response - np.einsum("ki,ki->k", shared, solution)
-        self.variance = np.maximum(left / (freedom - len(used)), self.least)
+        self.variance = np.maximum(left / (self.freedom - len(used)), self.least)
         return solution[np.argmax(self.allowed)]
 
     def prior(self, deviations: FloatArray, local: FloatArray) -> RowPrior:
@@ -117,7 +116,6 @@ def _settle(
     deviations: FloatArray,
     local: FloatArray,
     *,
-    freedom: int,
     rounds: int,
 ) -> list[FloatArray]:
     """Iterate the variance of the noise of every row under some shapes, and give the deviances for it."""
@@ -130,6 +128,7 @@ def _settle(
         return np.concatenate([getattr(row, name)[shapes] for row, shapes in zip(rows, picked, strict=True)])
 
     response, least, variance = of_shapes("response"), of_shapes("least"), of_shapes("variance")
+    freedom = np.repeat([row.freedom for row in rows], [len(shapes) for shapes in picked])
     for step in range(rounds + 1):
         of_data = evidence.at(variance)
         left = np.maximum(response - of_data.explained - variance * of_data.squares, _TINY)
@@ -147,8 +146,10 @@ def _settle(
 class Sizes:
     """Which unknowns there are, and what is expected of the sizes of their kinds."""
 
-    places: IntArray
-    """Place among all unknowns of those of every row; shape (rows, q). Rows with a place in common are coupled."""
+    places: Sequence[IntArray]
+    """Place among all unknowns of those of every row; shape (q,) each. Rows with a place in common are coupled."""
+    own: int
+    """Number of unknowns that every row has for itself, which are its first."""
     size: IntArray
     """Number of the size of every unknown; shape (unknowns,)."""
     expected: FloatArray
@@ -161,12 +162,7 @@ class Sizes:
     @property
     def coupled(self) -> bool:
         """Whether rows share unknowns."""
-        return self.own < self.places.shape[1]
-
-    @property
-    def own(self) -> int:
-        """Number of unknowns that every row has for itself, which are its first."""
-        return int(np.argmax(np.r_[self.places[0] == self.places[-1], True])) if len(self.places) > 1 else 0
+        return self.own < len(self.places[0])
 
     def of(self, unknowns: Sequence[Unknowns]) -> FloatArray:
         """Give the sizes that the unknowns of every row have, or are expected to have where there are none."""
@@ -202,74 +198,35 @@ class Sizes:
         return float((self.weight[free] * (np.log(square) + 1.0 / square)).sum())
 
 
-def infer(
-    data: Sequence[Sequence[Whitened]],
-    bases: Sequence[FloatArray],
-    sizes: Sizes,
-    design: Design,
-    *,
-    sensor: IntArray,
-    accuracy: FloatArray,
-    freedom: int,
-    start: Sequence[Unknowns] = (),
-) -> tuple[list[Unknowns], float]:
-    """Find sizes, noise and unknowns.
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowData:
+    """What the data say of one row."""
 
-    Args:
-        data: The data of every row under every shape of the noise.
-        bases: For every row, what the columns without those of terms of the robot model are worth in the unknowns of
-            the row without these terms, which stand last; shapes (a, b).
-        sizes: The unknowns of every row, and what is expected of their sizes.
-        design: Which terms all cells have, and which single ones.
-        sensor: Which unknowns of a row are coefficients of the matrix, with which the second start begins; shape (6,).
-        accuracy: Slow error of the reference in every row, which the noise cannot fall below; shape (rows,).
-        freedom: Number of means less that of free unknowns.
-        start: Unknowns of every row whose sizes are held and whose noise is the one start; none to find sizes from the
-            two starts of this module.
-
-    Returns:
-        The unknowns of every row, and the deviance: minus twice the logarithm of the evidence, less a constant.
-    """
-    rows = [
-        _Row(k, own, basis, sizes, design.model_places, float(accuracy[k]))
-        for k, (own, basis) in enumerate(zip(data, bases, strict=True))
-    ]
-    local = design.local_places.ravel()
-    for row, known in zip(rows, start, strict=False):
-        row.take_noise(known.variance)
-    for row in () if start else rows:
-        row.take_all_as_noise(freedom)
-    best = _ascend(rows, sizes, sizes.of(start), local, freedom, hold=bool(start))
-    if not start and freedom > LOADS and _have_rank(data[0][0].columns[:LOADS, :LOADS]):
-        solutions = np.concatenate([row.take_least_squares(freedom, sensor) for row in rows])
-        least_squares = sizes.estimated(solutions**2, np.ones_like(solutions), sizes.places[:, sensor].ravel())
-        second = _ascend(rows, sizes, least_squares, local, freedom)
-        best = second if second.deviance < best.deviance - _HIGHER else best
-    covariance = best.solution.covariance()
-    return [
-        Unknowns(
-            coefficients=best.solution.coefficients[places],
-            covariance=covariance[np.ix_(places, places)],
-            deviations=best.deviations[places],
-            variance=variance,
-            noise=noise,
-        )
-        for places, variance, noise in zip(sizes.places, best.variances, best.noises, strict=True)
-    ], best.deviance
-
-
-def _have_rank(products: FloatArray) -> bool:
-    """Whether loads with these products move all six directions."""
-    size = np.sqrt(np.diag(products))
-    return bool(size.all()) and bool(np.linalg.eigvalsh(products / np.outer(size, size))[0] > _RANK**2)
+    data: Sequence[Whitened]
+    """The data under every shape of the noise."""
+    basis: FloatArray
+    """What the columns without those of terms of the robot model are worth in the unknowns of the row without these
+    terms, which stand last; shape (a, b)."""
+    terms: IntArray
+    """Places of the terms that all cells have among those of the row; shape (s,)."""
+    accuracy: float
+    """Slow error of the reference, which the noise cannot fall below."""
+    freedom: int
+    """Number of means less that of free unknowns, at least 1."""
+    start: float = 1.0
+    """Share of the response that the first start takes as noise."""
+    least: float = _TINY
+    """Variance of the noise below which it is not told from rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Maximum:
+class Maximum:
     """A maximum of the evidence."""
 
     solution: SharedSolution
     """All unknowns."""
+    places: Sequence[IntArray]
+    """Place among them of those of every row; shape (q,) each."""
     deviations: FloatArray
     """Standard deviation of each before any data; shape (unknowns,)."""
     variances: list[float]
@@ -279,16 +236,74 @@ class _Maximum:
     deviance: float
     """Minus twice the logarithm of the evidence, less a constant."""
 
+    def rows(self) -> list[Unknowns]:
+        """Give the unknowns of every row."""
+        covariance = self.solution.covariance()
+        return [
+            Unknowns(
+                coefficients=self.solution.coefficients[places],
+                covariance=covariance[np.ix_(places, places)],
+                deviations=self.deviations[places],
+                variance=variance,
+                noise=noise,
+            )
+            for places, variance, noise in zip(self.places, self.variances, self.noises, strict=True)
+        ]
+
+
+def infer(
+    data: Sequence[RowData],
+    sizes: Sizes,
+    *,
+    local: IntArray | None = None,
+    sensor: IntArray | None = None,
+    start: Sequence[Unknowns] = (),
+) -> Maximum:
+    """Find sizes, noise and unknowns.
+
+    Args:
+        data: The data of every row.
+        sizes: The unknowns of every row, and what is expected of their sizes.
+        local: Places of the terms that single cells have among those of every row, -1 for none; shape (cells w,); None
+            where there are no such terms.
+        sensor: Which unknowns of a row are coefficients of the matrix, with which the second start begins; shape (6,);
+            None for the first start alone.
+        start: Unknowns of every row whose sizes are held and whose noise is the one start; none to find sizes from the
+            two starts of this module.
+
+    Returns:
+        The highest maximum of the evidence that was found.
+    """
+    rows = [_Row(k, one, sizes) for k, one in enumerate(data)]
+    of_cells = np.zeros(0, dtype=np.int64) if local is None else local
+    for row, known in zip(rows, start, strict=False):
+        row.take_noise(known.variance)
+    for row in () if start else rows:
+        row.take_all_as_noise()
+    best = _ascend(rows, sizes, sizes.of(start), of_cells, hold=bool(start))
+    if start or sensor is None or rows[0].freedom <= LOADS or not _have_rank(data[0].data[0].columns[:LOADS, :LOADS]):
+        return best
+    solutions = np.concatenate([row.take_least_squares(sensor) for row in rows])
+    used = np.concatenate([places[sensor] for places in sizes.places])
+    least_squares = sizes.estimated(solutions**2, np.ones_like(solutions), used)
+    second = _ascend(rows, sizes, least_squares, of_cells)
+    return second if second.deviance < best.deviance - _HIGHER else best
+
+
+def _have_rank(products: FloatArray) -> bool:
+    """Whether loads with these products move all six directions."""
+    size = np.sqrt(np.diag(products))
+    return bool(size.all()) and bool(np.linalg.eigvalsh(products / np.outer(size, size))[0] > _RANK**2)
+
 
 def _ascend(
     rows: Sequence[_Row],
     model: Sizes,
     sizes: FloatArray,
     local_terms: IntArray,
-    freedom: int,
     *,
     hold: bool = False,
-) -> _Maximum:
+) -> Maximum:
     """Iterate sizes and noise from a start, or noise alone where sizes are held."""
     coupled = model.coupled
     choices = _CHOICES_TOGETHER if coupled else _CHOICES
@@ -298,21 +313,25 @@ def _ascend(
     if len(local):
         blocks, beside = local, [row.places[np.r_[: row.basis.shape[1], row.terms]] for row in rows]
     else:
-        blocks, beside = model.places[:, : model.own].ravel(), [row.places[model.own :] for row in rows]
+        blocks, beside = (
+            np.concatenate([places[: model.own] for places in model.places]),
+            [row.places[model.own :] for row in rows],
+        )
     for sweep in range(_SWEEPS):
         deviations = sizes[model.size]
         of_local = np.where(local >= 0, deviations[local], 0.0)
         deviance = model.deviance(sizes)
         if sweep in choices:
             # where cells have terms what is prepared of a row is large
-            for together in [[row] for row in rows] if len(local) else [rows]:
+            alike = not len(local) and len({len(places) for places in model.places}) == 1
+            for together in [rows] if alike else [[row] for row in rows]:
                 candidates = [np.flatnonzero(row.allowed) for row in together]
-                of_shapes = _settle(together, candidates, deviations, of_local, freedom=freedom, rounds=4)
+                of_shapes = _settle(together, candidates, deviations, of_local, rounds=4)
                 for row, shapes, of_row in zip(together, candidates, of_shapes, strict=True):
                     row.choose(int(shapes[np.argmin(of_row)]))
         if not coupled:
             chosen = [np.array([row.shape]) for row in rows]
-            of_rows = _settle(rows, chosen, deviations, of_local, freedom=freedom, rounds=2)
+            of_rows = _settle(rows, chosen, deviations, of_local, rounds=2)
             deviance += float(np.sum(of_rows))
         variances = np.array([row.variance[row.shape] for row in rows])
         solution = solve_together([row.products for row in rows], beside, blocks, deviations, variances)
@@ -320,14 +339,15 @@ def _ascend(
             deviance += solution.log_determinant - solution.explained
             for k, row in enumerate(rows):
                 shape = row.shape
-                deviance += freedom * float(np.log(row.variance[shape]))
+                deviance += row.freedom * float(np.log(row.variance[shape]))
                 deviance += float(row.log_determinant[shape] + row.response[shape] / row.variance[shape])
                 left, determined = max(solution.left[k], _TINY), solution.determined[k]
-                row.variance[shape] = max(left / max(freedom - determined, 1.0), row.least[shape])
+                row.variance[shape] = max(left / max(row.freedom - determined, 1.0), row.least[shape])
         if not hold:
             sizes = model.estimated(solution.coefficients**2, 1.0 - solution.variances / deviations**2, every)
-    return _Maximum(
+    return Maximum(
         solution=solution,
+        places=model.places,
         deviations=deviations,
         variances=[float(row.variance[row.shape]) for row in rows],
         noises=[row.data[row.shape].noise for row in rows],

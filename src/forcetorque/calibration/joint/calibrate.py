@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
 from urllib.parse import quote
@@ -12,15 +12,15 @@ from urllib.parse import quote
 from forcetorque.base.errors import EstimationError, FitError
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.joint.artefact import sensor_artefact
-from forcetorque.calibration.joint.fit import ChangeSpread
 from forcetorque.calibration.joint.interval import JointInterval, joint_interval, required_prior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
-from forcetorque.calibration.moments import channel_full_scale
+from forcetorque.calibration.joint.sensor_prior import SensorPrior
+from forcetorque.calibration.moments import assumptions_of
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
-from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
+from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
@@ -109,8 +109,9 @@ class JointData:
         Raises:
             FitError: If there are no equations.
         """
-        spreads = {name: _spread(campaign) for name, campaign in self.campaigns.items()}
-        return fit_stretches([one.untouched for one in intervals], tolerance, spreads=spreads, progress=progress)
+        specified = ModelTolerance() if tolerance is None else tolerance
+        priors = {name: _prior(campaign, specified) for name, campaign in self.campaigns.items()}
+        return fit_stretches([one.untouched for one in intervals], specified, priors=priors, progress=progress)
 
     def calibrations(
         self, intervals: Sequence[JointInterval], result: JointResult, *, code_version: str, created: str
@@ -144,9 +145,10 @@ class JointData:
         }
 
 
-def _spread(campaign: Campaign) -> ChangeSpread:
-    full_scale = channel_full_scale(CampaignRecording.of(campaign.runs[0]))
-    return ChangeSpread.of(required_prior(campaign.sensor), full_scale)
+def _prior(campaign: Campaign, tolerance: ModelTolerance) -> SensorPrior:
+    assumptions = assumptions_of(CampaignRecording.of(campaign.runs[0]))
+    mount = tolerance.mount_of(campaign.sensor.name)
+    return SensorPrior.of(required_prior(campaign.sensor), replace(assumptions, mount=mount))
 
 
 def _intervals(
@@ -251,11 +253,6 @@ def calibrate_jointly(
     joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE))
     doubts = [
         *data.left_out,
-        *(
-            f"{name}: mount_deg and mount_m of [robot] tolerance are of calibrations of single sensors, and not used"
-            for name in calibrations
-            if specified.mount_of(name) != MountTolerance()
-        ),
         *(_without_equation(name) for name in data.campaigns if name not in calibrations),
         *joint.doubts(),
         *(

@@ -1,115 +1,74 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All sensors of a robot in one fit, from equations of link groups without contact, and its prior distribution.
+"""All sensors of a robot in one fit, from equations of link groups without contact: the inference of one sensor.
 
-The unknowns, changes of all matrices, offsets and errors of the model, are normal with a prior: the size of a
-sensor's changes follows from the data (evidence), tolerances of the model are specified. The noise of every row of
-every link group is the residual, found by iteration. Noise of the measurements stands in the coefficients too: its
-expected part of the normal equations is taken off, no more of it than the residual can hold (errors in variables).
+The rows of the inference are the components of the equation of every group in every interval. Unknowns and priors are
+those of a fit of one sensor, of all sensors of the group: coefficients, gains, rotation and shift of the frame, and
+errors of the robot model; offsets besides.
 
-What coefficients make of wrenches is uneven. A sensor that computes moments from forces by small differences of its
-channels reads a moment as a force far more easily than another, and only its prior matrix shows that. Gain, rotation
-and displacement of its frame make the rest.
+    sum over sensors of X (D reading + offset) + J nu = demand - sum of X reading
+    wrench = (1 + D) reading + offset
 
-Evidence may lower the size of changes, but not raise it above the expected one: on a real robot the misfit of its
-model passes for changes of the matrices, and larger sizes would open directions that the motion does not determine.
-Predicted errors are those that the estimate makes if changes are as large as evidence says.
+The reading that stands beside D is the one that the last fit expects: that of the wrenches that are nearest to the
+fitted ones and add up to what the bodies demand. Of a group with one sensor that is the demand itself, as in the fit of
+one sensor. With measured readings in its place, noise in them would shrink all sensors alike.
+
+The noise of a row is white, and four windows count as one, because residuals of neighbouring windows are alike. Sizes
+of changes are held at the expected ones: on a real robot misfit of its model passes for changes of the matrices, and
+sizes by evidence would open directions that the motion does not determine. Evidence only widens what is predicted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Final, Self
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, require_shape
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.joint.sums import PartSums
-from forcetorque.calibration.joint.unknowns import UNITS, JointFit, Places
-from forcetorque.experiment.calibration.assumptions import FRAME, FRAME_ROOTS, SENSOR
+from forcetorque.base.noise.slow_noise import CANDIDATES, Timeline
+from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer
+from forcetorque.calibration.generative.whitening import Border, Whitened
+from forcetorque.calibration.joint.sensor_prior import EVEN, SensorPrior
+from forcetorque.calibration.joint.unknowns import CHANGES, JointFit, Places
+from forcetorque.calibration.joint.windows import PartWindows
+from forcetorque.experiment.calibration.assumptions import LOADS, MODEL, Scale
 from forcetorque.experiment.calibration.model_error import ErrorTerm
 
-KINDS: Final = (SENSOR, FRAME)
-"""Expected size of both kinds of changes, and what that expectation weighs."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ChangeSpread:
-    """How the rows of D scatter before any data; in `UNITS`."""
-
-    roots: FloatArray
-    """L of both kinds and every row, with L L^T its covariance where its size is 1; shape (2, 6, 6, 6).
-
-    First coefficients that are off by as much as their row is large; then gain, rotation and displacement of the frame.
-    """
-
-    @classmethod
-    def of(cls, matrix: FloatArray, full_scale: FloatArray) -> Self:
-        """Tell it from a prior matrix.
-
-        Args:
-            matrix: Prior matrix; shape (6, c); N/count, N m/count.
-            full_scale: Full scale of every channel; shape (c,); counts.
-
-        Returns:
-            The spread.
-        """
-        require_shape(full_scale, name="full_scale", shape=(matrix.shape[1],))
-        scaled = matrix * full_scale
-        response = np.linalg.pinv(scaled) * UNITS
-        sizes = np.sqrt((scaled**2).mean(axis=1)) / UNITS
-        return cls(
-            roots=np.stack(
-                [
-                    sizes[:, None, None] * np.linalg.cholesky(response.T @ response),
-                    FRAME_ROOTS * UNITS / UNITS[:, None, None],
-                ]
-            )
-        )
-
-    def covariance(self, sizes: FloatArray) -> FloatArray:
-        """Give the covariance of every row.
-
-        Args:
-            sizes: Size of both kinds; shape (2,).
-
-        Returns:
-            Covariances; shape (6, 6, 6).
-        """
-        scaled = sizes[:, None, None, None] * self.roots
-        return (scaled @ scaled.transpose(0, 1, 3, 2)).sum(axis=0)
-
-
-EVEN: Final = ChangeSpread(roots=np.stack([np.stack([np.eye(6)] * 6), np.zeros((6, 6, 6))]))
-"""Every coefficient of D scatters alike: for a sensor of which no matrix is known."""
-
-
-_SMALLEST, _LARGEST = 0.1, 5.0
-"""How far the size of changes by evidence may be from the expected one."""
-_OFFSET_DEVIATION = 1e3
-"""Standard deviation of an offset before any data, in `UNITS`: hardly anything is known of it.
+_OFFSET: Final = Scale(expected=1e3, weight=np.inf)
+"""An offset before any data, in `UNITS`: hardly anything is known of it.
 
 Much more would cost the digits that directions need which only the prior tells, such as a joint's zero from the frame
 of the sensor beside it.
 """
-_REPEATS = 4.0
-"""Residuals of neighbouring windows are alike, so that n windows tell as much as n over this."""
-_LEAST_VARIANCE = 1e-4
-_NOISE_SHARE = 0.9
-"""Largest share of what is left over that noise of the readings may claim: taking off more explodes."""
-_ROUNDS = 12
+_WHITE: Final = CANDIDATES[0]
+_REPEATS: Final = 4.0
+"""Windows that count as one."""
+_LEAST: Final = 0.01
+"""Smallest noise of a window, in `UNITS`: below that it is rounding and what is not modelled."""
+_NO_CELLS: Final = Border(
+    own=np.zeros((0, 0, 0)), columns=np.zeros((0, 0)), free=np.zeros((0, 0)), response=np.zeros(0)
+)
 
 
 def fit_jointly(
-    sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = (), spreads: Mapping[str, ChangeSpread] | None = None
+    windows: Iterable[PartWindows],
+    terms: Sequence[ErrorTerm] = (),
+    priors: Mapping[str, SensorPrior] | None = None,
+    *,
+    about: JointFit | None = None,
+    widened: bool = True,
 ) -> JointFit:
     """Find what is most probable.
 
     Args:
-        sums: Moments of the equations.
+        windows: The equations.
         terms: Errors of the model that their coefficients allow for.
-        spreads: How the changes of a sensor scatter, by its name; `EVEN` for sensors that are not there.
+        priors: How far the sensors may be from their prior matrices, by name; `EVEN` for sensors that are not there.
+        about: The fit that the windows were made with; None for the prior matrices.
+        widened: Whether predicted errors are those of changes that are as large as evidence says, which takes as long
+            again.
 
     Returns:
         The fit.
@@ -117,139 +76,141 @@ def fit_jointly(
     Raises:
         FitError: If there are no equations.
     """
-    if not sums:
+    used = [one for one in windows if len(one)]
+    if not used:
         raise FitError("joint calibration: no window of any part has readings and motion; look for gaps in the log")
-    places = Places.of([(sensor, part.session) for part in sums for sensor in part.sensors], terms)
-    columns = [places.of_part(part.sensors, part.session, part.terms) for part in sums]
-    one = np.zeros(len(places))
-    for sensor in places.sensors:
-        one[places.changes(sensor)] = np.eye(6).ravel()
-    own_spreads = [EVEN if spreads is None else spreads.get(sensor, EVEN) for sensor in places.sensors]
-    expected = np.array([kind.expected for kind in KINDS])
-    size = np.tile(expected, (len(places.sensors), 1))
-    variance = [np.maximum(0.01 * part.square / part.count, _LEAST_VARIANCE) for part in sums]
-    solution = _Solution(mean=np.zeros(len(places)), variance=variance)
-    for sweep in range(_ROUNDS):
-        solution = _solved(_prior_root(places, own_spreads, size), sums, columns, one, solution)
-        if 1 < sweep < _ROUNDS - 1:
-            size = _sizes(places, own_spreads, solution.mean, solution.covariance, size)
-    by_evidence = _prior_root(places, own_spreads, size)
-    covariance, held = solution.covariance, np.minimum(size, expected)
-    if (held < size).any():
-        root = _prior_root(places, own_spreads, held)
-        for _ in range(_ROUNDS):
-            solution = _solved(root, sums, columns, one, solution)
-        covariance = solution.error_covariance(by_evidence)
-    residual = tuple(
-        (part.part, part.recording, np.sqrt(spread) * UNITS)
-        for part, spread in zip(sums, solution.variance, strict=True)
+    places = Places.of([(name, one.stretch.session) for one in used for name in one.sensors], terms)
+    unknowns = _Unknowns.of(places, [(priors or {}).get(name, EVEN) for name in places.sensors])
+    rows = [row for one in used for row in _rows(one, unknowns, about)]
+    data, sizes = [row for row, _ in rows], unknowns.sizes([own for _, own in rows])
+    held = infer(data, replace(sizes, weight=np.where(unknowns.of_sensors(sizes), np.inf, sizes.weight)))
+    return unknowns.fit(
+        held, np.maximum(infer(data, sizes).deviations, held.deviations) if widened else held.deviations
     )
-    return JointFit(places=places, mean=solution.mean, covariance=covariance, prior_root=by_evidence, residual=residual)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Solution:
-    """Unknowns for one prior and one noise of the parts, and the noise that they leave."""
+class _Unknowns:
+    """Where the unknowns of the inference stand: those of every sensor, offsets by session, errors of the model."""
 
-    mean: FloatArray
-    """Most probable values; shape (p,)."""
-    variance: Sequence[FloatArray]
-    """Mean square of what they leave of every part; shape (6,) each."""
-    root: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
-    """R of the prior; shape (p, p)."""
-    directions: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
-    """Directions in which data and prior are independent, in units of R, as columns; shape (p, p)."""
-    told: FloatArray = field(default_factory=lambda: np.empty(0))
-    """Information of the data along them, that of the prior being 1; shape (p,)."""
+    places: Places
+    """The same by changes of the sensors in place of their unknowns."""
+    priors: Sequence[SensorPrior]
+    """Of every sensor."""
+    starts: IntArray
+    """First unknown of every sensor, and of the offsets; shape (sensors + 1,)."""
+
+    @classmethod
+    def of(cls, places: Places, priors: Sequence[SensorPrior]) -> _Unknowns:
+        return cls(places=places, priors=priors, starts=np.cumsum([0, *(prior.basis.shape[1] for prior in priors)]))
 
     @property
-    def covariance(self) -> FloatArray:
-        """Covariance of the unknowns, if they scatter as the prior says; shape (p, p)."""
-        return self.error_covariance(self.root)
+    def _shift(self) -> int:
+        """What is to be added to a place of an offset or a term."""
+        return int(self.starts[-1]) - CHANGES * len(self.priors)
 
-    def error_covariance(self, root: FloatArray) -> FloatArray:
-        """Give the covariance of the errors of the mean if the unknowns scatter otherwise than the prior says.
+    def of_part(self, windows: PartWindows) -> tuple[FloatArray, IntArray]:
+        """What changes and offsets of the sensors of a part are in unknowns, and where these and its terms stand."""
+        numbers = [self.places.sensors.index(name) for name in windows.sensors]
+        sizes = [self.priors[number].basis.shape[1] for number in numbers]
+        k, offsets = len(numbers), LOADS * len(numbers)
+        basis = np.zeros((CHANGES * k + offsets, sum(sizes) + offsets))
+        ends = np.cumsum([0, *sizes])
+        for place, number in enumerate(numbers):
+            basis[CHANGES * place : CHANGES * (place + 1), ends[place] : ends[place + 1]] = self.priors[number].basis
+        basis[CHANGES * k :, ends[-1] :] = np.eye(offsets)
+        rest = self.places.of_part(windows.sensors, windows.stretch.session, windows.terms)[CHANGES * k :]
+        own = [np.arange(self.starts[number], self.starts[number + 1]) for number in numbers]
+        return basis, np.concatenate([*own, rest + self._shift])
 
-        Args:
-            root: R', with R' R'^T the covariance of the unknowns; shape (p, p).
+    def sizes(self, rows: Sequence[IntArray]) -> Sizes:
+        """Kinds of the unknowns: of every sensor its own, offsets, and errors of the model of one kind."""
+        scales: list[Scale] = []
+        size: list[int] = []
+        for prior in self.priors:
+            size += [len(scales) + kind for kind in prior.kinds]
+            scales += prior.scales
+        size += [len(scales)] * (LOADS * len(self.places.offsets))
+        scales.append(_OFFSET)
+        kinds = list(dict.fromkeys(term.kind for term in self.places.terms))
+        size += [len(scales) + kinds.index(term.kind) for term in self.places.terms]
+        scales += [MODEL] * len(kinds)
+        return Sizes(
+            places=rows,
+            own=0,
+            size=np.array(size),
+            expected=np.array([scale.expected for scale in scales]),
+            weight=np.array([scale.weight for scale in scales]),
+            least=np.array([scale.least for scale in scales]),
+        )
 
-        Returns:
-            Covariance of what the prior pulls them by and of what the noise adds; shape (p, p).
-        """
-        scaled = self.root @ self.directions / (self.told + 1.0)
-        pulled = scaled @ (self.directions.T @ np.linalg.solve(self.root, root))
-        return pulled @ pulled.T + (scaled * self.told) @ scaled.T
+    def of_sensors(self, sizes: Sizes) -> BoolArray:
+        """Which sizes are those of sensors; shape (sizes,)."""
+        return np.arange(len(sizes.expected)) < sum(len(prior.scales) for prior in self.priors)
 
-
-def _solved(
-    root: FloatArray, sums: Sequence[PartSums], columns: Sequence[IntArray], one: FloatArray, last: _Solution
-) -> _Solution:
-    """Solve the equations for a prior, with the noise that the last solution left."""
-    products, shared = np.zeros_like(root), np.zeros(len(root))
-    for part, own, spread in zip(sums, columns, last.variance, strict=True):
-        _add(products, shared, part, own, spread, one[own], last.mean)
-    values, directions = np.linalg.eigh(root.T @ products @ root)
-    # where noise explains everything the prior stays
-    told = np.maximum(values, 0.0)
-    mean = root @ (directions @ ((directions.T @ (root.T @ shared)) / (told + 1.0)))
-    variance = [np.maximum(part.rest(mean[own]), _LEAST_VARIANCE) for part, own in zip(sums, columns, strict=True)]
-    return _Solution(mean=mean, variance=variance, root=root, directions=directions, told=told)
-
-
-def _add(
-    products: FloatArray,
-    shared: FloatArray,
-    part: PartSums,
-    own: IntArray,
-    variance: FloatArray,
-    one: FloatArray,
-    mean: FloatArray,
-) -> None:
-    """Add the equations of a part, each row by the noise that is left over, less what noise adds."""
-    changes, scale = part.noise.shape[1], float(part.common @ mean[own])
-    weighed, response = np.zeros((len(own), len(own))), np.zeros(len(own))
-    for row in range(6):
-        weight = 1.0 / (variance[row] * _REPEATS)
-        noise = part.noise[row]
-        claimed = one[:changes] @ noise @ one[:changes] / part.count
-        share = 1.0 if claimed <= 0.0 else min(1.0, _NOISE_SHARE * variance[row] / claimed)
-        left, right = part.products[row].copy(), part.shared[row].copy()
-        left[:changes, :changes] -= share * noise
-        right[:changes] += share * noise @ one[:changes]  # the same noise stands in coefficients and right side
-        # what else is left over grows with all sensors and masses together: a fit would shrink them alike for nothing
-        right += max(variance[row] - share * claimed, 0.0) * part.count * (1.0 + scale) * part.common
-        weighed += weight * left
-        response += weight * right
-    products[np.ix_(own, own)] += weighed
-    shared[own] += response
-
-
-def _prior_root(places: Places, spreads: Sequence[ChangeSpread], size: FloatArray) -> FloatArray:
-    deviations = np.full(len(places), _OFFSET_DEVIATION)
-    deviations[places.errors] = [term.deviation for term in places.terms]
-    root = np.diag(deviations)
-    for sensor, spread, own in zip(places.sensors, spreads, size, strict=True):
-        start = places.changes(sensor).start
-        for row, factor in enumerate(np.linalg.cholesky(spread.covariance(own))):
-            place = slice(start + 6 * row, start + 6 * (row + 1))
-            root[place, place] = factor
-    return root
+    def fit(self, best: Maximum, deviations: FloatArray) -> JointFit:
+        """Give changes, offsets and errors of the model, if unknowns scatter by `deviations`, no less than taken."""
+        places = self.places
+        basis = np.zeros((len(places), len(deviations)))
+        for number, (name, prior) in enumerate(zip(places.sensors, self.priors, strict=True)):
+            basis[places.changes(name), self.starts[number] : self.starts[number + 1]] = prior.basis
+        first, scales = self.starts[-1], np.ones(len(deviations) - self.starts[-1])
+        scales[len(scales) - len(places.terms) :] = [term.deviation for term in places.terms]
+        basis[first - self._shift :, first:] = np.diag(scales)
+        covariance = best.solution.covariance()
+        pulled = covariance / best.deviations**2 * np.sqrt(deviations**2 - best.deviations**2)
+        return JointFit(
+            places=places,
+            mean=basis @ best.solution.coefficients,
+            covariance=basis @ (covariance + pulled @ pulled.T) @ basis.T,
+            prior_root=basis * deviations,
+        )
 
 
-def _sizes(
-    places: Places, spreads: Sequence[ChangeSpread], mean: FloatArray, covariance: FloatArray, size: FloatArray
-) -> FloatArray:
-    """Sizes of both kinds of changes of every sensor, by what the data tell of them; shape (sensors, 2)."""
-    determined, square, rows = np.empty_like(size), np.empty_like(size), np.arange(6)
-    for number, (sensor, spread) in enumerate(zip(places.sensors, spreads, strict=True)):
-        own, before = places.changes(sensor), spread.covariance(size[number])
-        narrowed = before - covariance[own, own].reshape(6, 6, 6, 6)[rows, :, rows, :]
-        # what of a change is of each kind, in its own size
-        shares = size[number, :, None, None, None] * np.linalg.solve(before, spread.roots).transpose(0, 1, 3, 2)
-        determined[number] = np.einsum("crij,rjk,crik->c", shares, narrowed, shares)
-        square[number] = size[number] ** 2 * ((shares @ mean[own].reshape(6, 6, 1)) ** 2).sum(axis=(1, 2, 3))
-    # every sensor has its own size of the first kind; frames of one robot are off alike
-    determined[:, 1], square[:, 1] = determined[:, 1].sum(), square[:, 1].sum()
-    expected, weight = (np.array([getattr(kind, name) for kind in KINDS]) for name in ("expected", "weight"))
-    sizes = np.sqrt((square + weight * expected**2) / (np.maximum(determined, 0.0) + weight))
-    return np.clip(sizes, _SMALLEST * expected, _LARGEST * expected)
+def _rows(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> list[tuple[RowData, IntArray]]:
+    """The rows of one part in one interval, with the places of their unknowns."""
+    basis, own = unknowns.of_part(windows)
+    deviations = {term.name: term.deviation for term in unknowns.places.terms}
+    expected, right = windows.expected_changes, windows.right
+    if about is not None:
+        known = np.concatenate([about.mean[about.places.changes(name)] for name in windows.sensors])
+        right = right - (windows.changes - expected) @ known
+    errors = windows.errors * np.array([deviations[name] for name in windows.terms])
+    columns = np.concatenate([expected, windows.offsets, errors], axis=2)
+    line = Timeline.of(windows.time_s, share=np.full(len(windows), 1.0 / _REPEATS))
+    return [
+        (
+            RowData(
+                data=[_whitened(line, np.c_[columns[:, row], right[:, row]])],
+                basis=basis,
+                terms=np.arange(len(windows.terms)),
+                accuracy=0.0,
+                freedom=max(round(len(windows) / _REPEATS), 1),
+                start=_unexplained(windows.offsets[:, row], right[:, row]),
+                least=_LEAST**2,
+            ),
+            own,
+        )
+        for row in np.flatnonzero(windows.rows)
+    ]
+
+
+def _unexplained(columns: FloatArray, response: FloatArray) -> float:
+    """Share of a response that columns do not explain."""
+    left = response - columns @ np.linalg.lstsq(columns, response, rcond=None)[0]
+    total = float(response @ response)
+    return float(left @ left) / total if total else 1.0
+
+
+def _whitened(line: Timeline, stacked: FloatArray) -> Whitened:
+    """Products of columns, the response last, under white noise."""
+    product, log_determinant = line.product(stacked, _WHITE)
+    return Whitened(
+        noise=_WHITE,
+        log_determinant=log_determinant,
+        columns=product[:-1, :-1],
+        shared=product[:-1, -1],
+        response=float(product[-1, -1]),
+        free=np.zeros((0, 0)),
+        border=_NO_CELLS,
+    )

@@ -11,10 +11,10 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.calibration.contact_windows import FEWEST, disagreeing, minority, with_neighbours
-from forcetorque.calibration.joint.fit import ChangeSpread, fit_jointly
+from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
 from forcetorque.calibration.joint.nodes import Stretch
-from forcetorque.calibration.joint.sums import part_sums
+from forcetorque.calibration.joint.sensor_prior import SensorPrior
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows, part_windows
 from forcetorque.experiment.calibration.assumptions import LOADS
@@ -238,7 +238,7 @@ def fit_stretches(
     stretches: Sequence[UntouchedStretch],
     tolerance: ModelTolerance | None = None,
     *,
-    spreads: Mapping[str, ChangeSpread] | None = None,
+    priors: Mapping[str, SensorPrior] | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> JointResult:
     """Calibrate all sensors of a robot at once.
@@ -246,7 +246,7 @@ def fit_stretches(
     Args:
         stretches: What is known, of any number of recordings of one robot.
         tolerance: How far the robot model may be off; `ModelTolerance()` if None.
-        spreads: How the changes of a sensor scatter, by its name; `EVEN` for sensors that are not there.
+        priors: How far sensors may be from their prior matrices, by name; `EVEN` for sensors that are not there.
         progress: Called with what is being done.
 
     Returns:
@@ -260,11 +260,11 @@ def fit_stretches(
     duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
     every = max(round(duration / LINEAR_S), 1)
     windows = _windows(stretches, terms, None, every)
-    fit = _fit(windows, _agreeing(windows, None), terms, spreads)
+    fit = _fit(windows, _agreeing(windows, None), terms, priors, None, widened=False)
     for number in range(2, ROUNDS + 1):
         progress(f"the same about the fit, round {number} of {ROUNDS}")
         windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
-        fit = _fit(windows, _agreeing(windows, fit), terms, spreads)
+        fit = _fit(windows, _agreeing(windows, fit), terms, priors, fit, widened=number == ROUNDS)
     kept = _agreeing(windows, fit)
     return JointResult(
         fit=fit,
@@ -294,9 +294,14 @@ def _fit(
     windows: Sequence[PartWindows],
     kept: Sequence[BoolArray],
     terms: Sequence[ErrorTerm],
-    spreads: Mapping[str, ChangeSpread] | None,
+    priors: Mapping[str, SensorPrior] | None,
+    about: JointFit | None,
+    *,
+    widened: bool,
 ) -> JointFit:
-    return fit_jointly(part_sums(one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, spreads)
+    return fit_jointly(
+        (one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, priors, about=about, widened=widened
+    )
 
 
 def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:

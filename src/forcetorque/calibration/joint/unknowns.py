@@ -112,9 +112,7 @@ class JointFit:
     covariance: FloatArray
     """Covariance of their errors if changes are as large as evidence says; shape (p, p)."""
     prior_root: FloatArray
-    """R, with R R^T the covariance of the unknowns before any data, by evidence; shape (p, p)."""
-    residual: tuple[tuple[str, str, FloatArray], ...]
-    """Part, recording and root mean square of what is left of its equation, shape (6,); N, N m."""
+    """R, with R R^T the covariance of the unknowns before any data, by evidence; shape (p, q)."""
 
     def change(self, sensor: str) -> FloatArray:
         """Give what the wrenches by the prior matrix of a sensor are to be multiplied by.
@@ -153,6 +151,19 @@ class JointFit:
         """
         return readings @ self.change(sensor).T + self.offset(sensor, session)
 
+    def reading(self, sensor: str, session: str, wrenches: FloatArray) -> FloatArray:
+        """Give what a sensor reads of wrenches by its prior matrix.
+
+        Args:
+            sensor: The sensor.
+            session: The session.
+            wrenches: Wrenches; shape (n, 6); N, N m.
+
+        Returns:
+            Readings without offset; shape (n, 6); N, N m.
+        """
+        return np.linalg.solve(self.change(sensor), (wrenches - self.offset(sensor, session)).T).T
+
     def joint_zeros(self) -> dict[str, float]:
         """Give what is to be added to the positions of joints.
 
@@ -188,7 +199,7 @@ class JointFit:
             Covariance, row by row; shape (36, 36); in `UNITS`.
         """
         own = self.places.changes(sensor)
-        root = self.prior_root[own, own]
+        root = self.prior_root[own]
         return root @ root.T
 
     def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:

@@ -60,6 +60,9 @@ class PartWindows:
     """What carries a reading to the left side, at the nodes of every window; shape (w, 3, k, 6, 6)."""
     readings: FloatArray
     """Wrenches by the prior matrices at the nodes; shape (w, 3, k, 6)."""
+    expected: FloatArray
+    """Readings of wrenches that are nearest to those of the fit that is known and make the equation hold; shape
+    (w, 3, k, 6)."""
     errors: FloatArray
     """Coefficients of the errors of the model; shape (w, 6, terms)."""
     right: FloatArray
@@ -84,9 +87,16 @@ class PartWindows:
     @property
     def changes(self) -> FloatArray:
         """Coefficients of D, row by row, of every sensor; shape (w, 6, 36 k)."""
-        weighted = WEIGHTS[:, None, None] * self.readings
-        products = np.einsum("wnkia,wnkb->wikab", self.transmission, weighted, optimize=True)
+        return self._products(self.readings)
+
+    def _products(self, wrenches: FloatArray) -> FloatArray:
+        products = np.einsum("wnkia,wnkb->wikab", self.transmission, WEIGHTS[:, None, None] * wrenches, optimize=True)
         return products.reshape(len(self), LOADS, CHANGES * len(self.sensors))
+
+    @property
+    def expected_changes(self) -> FloatArray:
+        """The same with the expected readings in place of the measured ones; shape (w, 6, 36 k)."""
+        return self._products(self.expected)
 
     @property
     def offsets(self) -> FloatArray:
@@ -127,7 +137,7 @@ class PartWindows:
         return replace(self, **values)
 
 
-_BY_WINDOW = ("time_s", "counts", "transmission", "readings", "errors", "right")
+_BY_WINDOW = ("time_s", "counts", "transmission", "readings", "expected", "errors", "right")
 
 
 def part_windows(
@@ -215,7 +225,7 @@ def _piece_windows(
         for k, term in enumerate(own):
             errors[:, :, k] = columns[term.name] / UNITS
         logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
-        result = _averaged(stretch, equation, windows, logged, errors, zeros, own)
+        result = _averaged(stretch, equation, windows, logged, errors, about, own)
         yield result if equation.part in parts else result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)]))
 
 
@@ -257,10 +267,11 @@ def _averaged(
     windows: WindowNodes,
     logged: FloatArray,
     errors: FloatArray,
-    zeros: Mapping[str, float],
+    about: JointFit | None,
     terms: Sequence[ErrorTerm],
 ) -> PartWindows:
     w, k = len(windows), len(equation.sensors)
+    zeros = {} if about is None else about.joint_zeros()
     known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms])
     transmission, readings = equation.transmission * (UNITS / UNITS[:, None]), logged / UNITS
     transmitted = np.einsum("nkij,nkj->nki", transmission, readings)
@@ -274,6 +285,7 @@ def _averaged(
         counts=windows.counts,
         transmission=transmission.reshape(w, NODES, k, LOADS, LOADS),
         readings=readings.reshape(w, NODES, k, LOADS),
+        expected=_expected(stretch, equation, logged, errors, about, terms).reshape(w, NODES, k, LOADS),
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.node_means(right) + errors @ known,
@@ -286,6 +298,34 @@ def _averaged(
         np.isfinite(values).reshape(w, -1).all(axis=1) for values in (result.right, transmission, readings, errors)
     ]
     return result.kept(np.logical_and.reduce(whole))
+
+
+def _expected(
+    stretch: Stretch,
+    equation: PartEquation,
+    logged: FloatArray,
+    errors: FloatArray,
+    about: JointFit | None,
+    terms: Sequence[ErrorTerm],
+) -> FloatArray:
+    """Readings by the prior matrices of wrenches that add up to what the bodies demand; shape (n, k, 6); in `UNITS`."""
+    transmission, missing, wrenches = equation.transmission * (UNITS / UNITS[:, None]), equation.demand / UNITS, logged
+    if about is not None:
+        # zeros of joints stand in the equation already
+        found = {term.name: 0.0 if term.name.startswith(ZERO) else value for term, value, _ in about.model_errors()}
+        left = errors @ np.array([found[term.name] for term in terms])
+        missing = missing - np.repeat(left, NODES, axis=0)
+        corrected = [about.wrench(name, stretch.session, logged[:, k]) for k, name in enumerate(equation.sensors)]
+        wrenches = np.stack(corrected, axis=1)
+    missing = missing - np.einsum("nkij,nkj->ni", transmission, wrenches / UNITS)
+    # the least change of all wrenches; by a row that is left out none
+    whole = np.einsum("nkij,nklj->nil", transmission, transmission) + np.diag(1.0 - equation.rows)
+    moved = np.einsum("nkij,ni->nkj", transmission, np.linalg.solve(whole, missing[..., None])[..., 0])
+    wrenches = wrenches + moved * UNITS
+    if about is not None:
+        readings = [about.reading(name, stretch.session, wrenches[:, k]) for k, name in enumerate(equation.sensors)]
+        wrenches = np.stack(readings, axis=1)
+    return wrenches / UNITS
 
 
 def _squares(loads: Sequence[FloatArray]) -> FloatArray:

@@ -211,7 +211,7 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) ->
     channels = len(response)
     size = np.sqrt((scaled**2).mean(axis=1))
     accuracy = assumptions.reference_accuracy(matrix)
-    spread = _root(response.T @ response)
+    spread = sensor_root(response)
     if channels == LOADS and in_wrench:
         return Rows(
             space="wrench",
@@ -246,7 +246,14 @@ def _channel_accuracy(response: FloatArray, accuracy: FloatArray, assumptions: A
     return np.sqrt(response**2 @ accuracy**2)
 
 
-def _root(square: FloatArray) -> FloatArray:
-    """L with L L^T the given matrix."""
-    vectors, values, _ = np.linalg.svd(square)
+def sensor_root(response: FloatArray) -> FloatArray:
+    """Give L, with L L^T the covariance of the six coefficients of a row that is off by as much as it is large.
+
+    Args:
+        response: Shares of full scale that loads make of the channels; shape (c, 6).
+
+    Returns:
+        L; shape (6, 6).
+    """
+    vectors, values, _ = np.linalg.svd(response.T @ response)
     return vectors * np.sqrt(values)
