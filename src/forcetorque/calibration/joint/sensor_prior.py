@@ -48,7 +48,7 @@ class SensorPrior:
         channels = matrix.shape[1]
         require_shape(assumptions.full_scale, name="full_scale", shape=(channels,))
         scaled = matrix * assumptions.full_scale
-        response = np.linalg.pinv(scaled)
+        response = np.asarray(np.linalg.pinv(scaled), dtype=np.float64)
         size = np.sqrt((scaled**2).mean(axis=1))
         coefficients = np.zeros((LOADS, LOADS, CHANGES))
         for row in range(LOADS):

@@ -162,7 +162,8 @@ class JointFit:
         Returns:
             Readings without offset; shape (n, 6); N, N m.
         """
-        return np.linalg.solve(self.change(sensor), (wrenches - self.offset(sensor, session)).T).T
+        readings = np.linalg.solve(self.change(sensor), (wrenches - self.offset(sensor, session)).T).T
+        return np.asarray(readings, dtype=np.float64)
 
     def joint_zeros(self) -> dict[str, float]:
         """Give what is to be added to the positions of joints.
