@@ -44,7 +44,7 @@ def _topics(types: Types) -> dict[str, tuple[str, list[Any]]]:
 def test_joints_place_links_as_the_dynamics_do(tmp_path: Path) -> None:
     """A revolute, a prismatic and a mimic joint; between samples the pose is interpolated, outside there is none."""
     with opened_bag(write_bag(tmp_path, "mcap", _topics(Types("mcap")))) as bag:
-        tree = read_frame_tree(bag)
+        tree = read_frame_tree(bag, "/ft")
     assert tree.root("tool") == "base"
     np.testing.assert_array_equal(tree.stamps("tool", "base"), STAMPS)
     rotation, position = tree.poses("tool", "base", STAMPS)
@@ -68,8 +68,33 @@ def test_what_is_no_tree_is_refused(tmp_path: Path) -> None:
     two = {"/tf": topic(("base", "tool")), "/tf_static": topic(("flange", "tool"))}
     refused = pytest.raises(FormatError, match="one parent of frame 'tool', got 'base' of /tf and 'flange'")
     with opened_bag(write_bag(tmp_path / "two", "mcap", two)) as bag, refused:
-        read_frame_tree(bag)
+        read_frame_tree(bag, "/ft")
     with opened_bag(write_bag(tmp_path / "loop", "mcap", {"/tf": topic(("a", "b"), ("b", "a"))})) as bag:
-        tree = read_frame_tree(bag)
+        tree = read_frame_tree(bag, "/ft")
         with pytest.raises(FormatError, match="expected a tree of frames, got a loop at"):
             tree.above("a")
+
+
+def test_frames_of_the_own_robot_are_taken(tmp_path: Path) -> None:
+    """Robots with the same names of frames are told apart by namespaces, or refused; equal frames are one."""
+    types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
+
+    def tf(x: float, child: str, *rows: int) -> tuple[str, list[Any]]:
+        return TF, [types.make(TF, transforms=[types.transform(k, turn, (x, 0, 0), "base", child)]) for k in rows]
+
+    topics = {
+        "/tf": tf(3.0, "tool", 0, 1, 2),
+        "/left/tf": tf(1.0, "tool", 0, 1, 2),
+        "/left/tf_static": tf(4.0, "camera", 0),
+        "/right/tf": tf(2.0, "tool", 0, 1, 2),
+        "/right/tf_static": tf(4.0, "camera", 1),
+    }
+    with opened_bag(write_bag(tmp_path / "all", "mcap", topics)) as bag:
+        wanted = {"/left/ft": 1.0, "/right/hand/ft": 2.0, "/righter/ft": 3.0, "/ft": 3.0}
+        trees = {topic: read_frame_tree(bag, topic) for topic in wanted}
+    for topic, tree in trees.items():
+        assert tree.poses("tool", "base", STAMPS[:3])[1][0, 0] == wanted[topic], topic
+    del topics["/tf"]
+    refused = pytest.raises(FormatError, match="/ft: expected frame 'tool' in one .* in /left/tf and /right/tf; record")
+    with opened_bag(write_bag(tmp_path / "two", "mcap", topics)) as bag, refused:
+        read_frame_tree(bag, "/ft")

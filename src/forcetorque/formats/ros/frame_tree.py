@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -208,27 +208,26 @@ def _poses_at(transform: Transform, at_ns: IntArray) -> tuple[FloatArray, FloatA
     return rotation, at[:, 9:]
 
 
-def read_frame_tree(bag: Bag) -> FrameTree:
+def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
     """Read all frames of a bag.
 
     Args:
         bag: The bag.
+        topic: Topic whose frames are wanted. Of a frame that several topics of tf have, the transform is that of the
+            innermost namespace around this topic, as `/right/tf` for `/right/ft`.
 
     Returns:
         Transforms of tf, and of links that tf lacks those of the joints of `robot_description`.
 
     Raises:
-        FormatError: If a frame has two parents, or a message is damaged.
+        FormatError: If a frame has two parents, several topics have a frame, none of them in a namespace around
+            `topic`, or a message is damaged.
     """
-    found: dict[str, Transform] = {}
-    for topic in sorted(topic for topic, kind in bag.types.items() if kind in TRANSFORM_TYPES):
-        for transform in _sent(bag, topic):
-            other = found.setdefault(transform.child, transform)
-            if other.parent != transform.parent:
-                raise FormatError(
-                    f"{bag.path}: {topic}: expected one parent of frame {transform.child!r}, got {other.parent!r} of "
-                    f"{other.topic} and {transform.parent!r}"
-                )
+    sent: dict[str, list[Transform]] = {}
+    for tf_topic in sorted(name for name, kind in bag.types.items() if kind in TRANSFORM_TYPES):
+        for transform in _sent(bag, tf_topic):
+            sent.setdefault(transform.child, []).append(transform)
+    found = {child: _chosen(bag, topic, several) for child, several in sent.items()}
     unknown: dict[str, str] = {}
     for joint, described in _of_joints(bag, found):
         if described is None:
@@ -236,6 +235,39 @@ def read_frame_tree(bag: Bag) -> FrameTree:
         else:
             found[joint.child] = described
     return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown)
+
+
+def _chosen(bag: Bag, topic: str, sent: Sequence[Transform]) -> Transform:
+    """The transform of a frame that is meant for a topic, a moving one before a fixed one."""
+    depths = [_depth(topic, transform.topic) for transform in sent]
+    nearest = [transform for transform, depth in zip(sent, depths, strict=True) if depth == max(depths)]
+    first, *others = sorted(nearest, key=lambda transform: transform.is_fixed)
+    for other in others:
+        if other.parent != first.parent:
+            raise FormatError(
+                f"{bag.path}: {other.topic}: expected one parent of frame {first.child!r}, got {first.parent!r} of "
+                f"{first.topic} and {other.parent!r}"
+            )
+        if other.is_fixed == first.is_fixed and not _are_equal(other.poses, first.poses):
+            raise FormatError(
+                f"{bag.path}: {topic}: expected frame {first.child!r} in one topic of tf, or in one of the namespace "
+                f"of {topic}, got different poses of it in {first.topic} and {other.topic}; record the robots apart, "
+                "or give their frames different names"
+            )
+    return first
+
+
+def _depth(topic: str, other: str) -> int:
+    """Length of the namespace of another topic; -1 if the topic is not in that namespace."""
+    namespace = f"/{other.strip('/')}".rpartition("/")[0]
+    return len(namespace) if f"/{topic.strip('/')}".startswith(f"{namespace}/") else -1
+
+
+def _are_equal(poses: Stream, others: Stream) -> bool:
+    """Whether poses are the same at the same instants; those of a single one do not count."""
+    names = ("orientation", "translation")
+    same = all(np.array_equal(poses.signal(name).values, others.signal(name).values) for name in names)
+    return same and (len(poses.stamp_ns) == 1 or np.array_equal(poses.stamp_ns, others.stamp_ns))
 
 
 def _sent(bag: Bag, topic: str) -> Iterator[Transform]:
