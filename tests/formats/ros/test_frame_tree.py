@@ -17,7 +17,7 @@ from forcetorque.robot.urdf import read_urdf_text
 
 pytest.importorskip("rosbags")
 from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.formats.ros.frame_tree import read_frame_tree
+from forcetorque.formats.ros.frame_tree import FrameTree, read_frame_tree
 from tests.formats.ros.bags import PERIOD_NS, START_NS, TF, Types, write_bag
 
 URDF = """<robot name="slider"><link name="base"/><link name="turned"/><link name="slid"/><link name="tool"/>
@@ -98,3 +98,27 @@ def test_frames_of_the_own_robot_are_taken(tmp_path: Path) -> None:
     refused = pytest.raises(FormatError, match="/ft: expected frame 'tool' in one .* in /left/tf and /right/tf; record")
     with opened_bag(write_bag(tmp_path / "two", "mcap", topics)) as bag, refused:
         read_frame_tree(bag, "/ft")
+
+
+def test_nothing_is_asked_of_joints_that_tf_makes_needless(tmp_path: Path) -> None:
+    """A joint in two topics, and a description that is cut off, matter only where tf lacks a frame."""
+    types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
+    complete = {("base", "turned"): turn, ("turned", "slid"): turn, ("slid", "tool"): turn}
+    two = _topics(types) | {"/arm/joint_states": _topics(types)["/joint_states"]}
+    cut = {"/robot_description": ("std_msgs/msg/String", [types.text(URDF[:-30])])}
+
+    def tree(name: str, topics: dict[str, tuple[str, list[Any]]], frames: dict[tuple[str, str], Any]) -> FrameTree:
+        tf = {"/tf": (TF, [types.transforms(k, frames) for k in range(3)])} if frames else {}
+        with opened_bag(write_bag(tmp_path / name, "mcap", topics | tf)) as bag:
+            return read_frame_tree(bag, "/ft")
+
+    for name, topics in {"two": two, "cut": cut}.items():
+        assert tree(name, topics, complete).root("tool") == "base", name
+    del complete["slid", "tool"]
+    with pytest.raises(FormatError, match="expected joint 'turn' in one topic, got it in /arm/joint_states and /joint"):
+        tree("two_lacking", two, complete)
+    lacking = tree("cut_lacking", cut, complete)
+    with pytest.raises(FormatError, match="no frame 'tool' .*; robot_description is not read: .*: /robot_description"):
+        lacking.root("tool")
+    with pytest.raises(FormatError, match="/robot_description"):
+        tree("cut_alone", cut, {})

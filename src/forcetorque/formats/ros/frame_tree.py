@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import FormatError, RobotError, known_names
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, decode, transforms
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
@@ -18,7 +18,7 @@ from forcetorque.recording.alignment import Interpolation
 from forcetorque.recording.frames import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.model import Joint, JointType
+from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf_text
 
 _STATES = "joint_states"
@@ -50,12 +50,19 @@ class FrameTree:
     """Poses of frames in their parents, by the frame."""
     unknown_joints: Mapping[str, str]
     """Joints whose positions the bag lacks, by their child links."""
+    description_fault: str
+    """Why `robot_description` cannot be read, for messages about frames that tf lacks; empty if nothing is wrong."""
 
     @property
     def frames(self) -> tuple[str, ...]:
         """Names of all frames, sorted."""
         parents = {transform.parent for transform in self.transforms.values()}
         return tuple(sorted(parents | set(self.transforms) | set(self.unknown_joints)))
+
+    @property
+    def unread(self) -> str:
+        """End of a message about a frame that is missing: that of `description_fault`, if there is one."""
+        return f"; robot_description is not read: {self.description_fault}" if self.description_fault else ""
 
     def above(self, frame: str) -> list[Transform]:
         """Follow a frame to the root of its tree.
@@ -70,7 +77,9 @@ class FrameTree:
             FormatError: If the frame is not in the tree, or its own parent by several steps.
         """
         if frame not in self.frames:
-            raise FormatError(f"{self.place}: no frame {frame!r} in tf or robot_description; {self._known(frame)}")
+            raise FormatError(
+                f"{self.place}: no frame {frame!r} in tf or robot_description; {self._known(frame)}{self.unread}"
+            )
         chain: list[Transform] = []
         while frame in self.transforms:
             chain.append(self.transforms[frame])
@@ -126,7 +135,9 @@ class FrameTree:
         if world not in parents:
             self._require_known(parents[-1] if parents else frame)
             known = ", ".join(map(repr, parents)) or "no frame"
-            raise FormatError(f"{self.place}: expected {world!r} above {frame!r} in the tree of frames, got {known}")
+            raise FormatError(
+                f"{self.place}: expected {world!r} above {frame!r} in the tree of frames, got {known}{self.unread}"
+            )
         return above[: parents.index(world) + 1]
 
     def stamps(self, frame: str, world: str) -> IntArray:
@@ -146,7 +157,7 @@ class FrameTree:
         if not moving:
             raise FormatError(
                 f"{self.place}: expected {frame!r} to move in {world!r}, got fixed frames alone between them; record "
-                "/tf, or /joint_states and /robot_description, too"
+                f"/tf, or /joint_states and /robot_description, too{self.unread}"
             )
         return np.unique(max(moving, key=lambda one: len(one.poses.stamp_ns)).poses.stamp_ns)
 
@@ -221,7 +232,8 @@ def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
 
     Raises:
         FormatError: If a frame has two parents, several topics have a frame, none of them in a namespace around
-            `topic`, or a message is damaged.
+            `topic`, a message is damaged, or a bag without tf has a description that cannot be read.
+        RobotError: If the description of a bag without tf is that of no robot.
     """
     sent: dict[str, list[Transform]] = {}
     for tf_topic in sorted(name for name, kind in bag.types.items() if kind in TRANSFORM_TYPES):
@@ -229,12 +241,19 @@ def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
             sent.setdefault(transform.child, []).append(transform)
     found = {child: _chosen(bag, topic, several) for child, several in sent.items()}
     unknown: dict[str, str] = {}
-    for joint, described in _of_joints(bag, found):
-        if described is None:
+    fault = ""
+    try:
+        described = _description(bag)
+    except (FormatError, RobotError) as error:
+        if not found:
+            raise
+        described, fault = None, str(error)
+    for joint, moved in _of_joints(bag, *described, found) if described is not None else ():
+        if moved is None:
             unknown[joint.child] = joint.name
         else:
-            found[joint.child] = described
-    return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown)
+            found[joint.child] = moved
+    return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown, description_fault=fault)
 
 
 def _chosen(bag: Bag, topic: str, sent: Sequence[Transform]) -> Transform:
@@ -305,32 +324,25 @@ def _stream(frame: str, stamp_ns: IntArray, orientation: FloatArray, translation
     )
 
 
-def _of_joints(bag: Bag, known: Mapping[str, Transform]) -> Iterator[tuple[Joint, Transform | None]]:
-    """Joints of the description whose child tf lacks, each with its transform; None where positions are missing."""
+def _description(bag: Bag) -> tuple[RobotModel, str] | None:
+    """The robot of a bag, and its topic."""
     robot = robot_of_bag(bag)
     if robot.urdf is None:
-        return
-    model = read_urdf_text(robot.urdf, where=f"{bag.path}: {robot.topic}")
-    units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
-    states: dict[str, tuple[Stream, FloatArray, str]] = {}
-    for topic in sorted(topic for topic, kind in bag.types.items() if kind == JOINT_TYPE):
-        if topic.rpartition("/")[2] != _STATES:
-            continue
-        stream = topic_stream(bag, topic, name=topic, frame=None, world=None, joint_units=units).stream
-        position = stream.signals.get("position")
-        for k, name in enumerate(position.columns if position is not None else ()):
-            if position is not None and name in states:
-                raise FormatError(
-                    f"{bag.path}: expected joint {name!r} in one topic, got it in {states[name][2]} and {topic}"
-                )
-            if position is not None:
-                states[name] = (stream, position.values[:, k], topic)
+        return None
+    return read_urdf_text(robot.urdf, where=f"{bag.path}: {robot.topic}"), robot.topic
+
+
+def _of_joints(
+    bag: Bag, model: RobotModel, described_by: str, known: Mapping[str, Transform]
+) -> Iterator[tuple[Joint, Transform | None]]:
+    """Joints of the description whose child tf lacks, each with its transform; None where positions are missing."""
+    states = _positions(bag, model, known)
     for joint in model.joints.values():
         if joint.child in known:
             continue
         if not joint.type.moves:
             zero = np.zeros(1)
-            yield joint, _moved(joint, np.zeros(1, dtype=np.int64), zero, robot.topic, is_fixed=True)
+            yield joint, _moved(joint, np.zeros(1, dtype=np.int64), zero, described_by, is_fixed=True)
             continue
         followed, factor, offset = (
             (joint.name, 1.0, 0.0)
@@ -342,6 +354,30 @@ def _of_joints(bag: Bag, known: Mapping[str, Transform]) -> Iterator[tuple[Joint
             continue
         stream, values, topic = states[followed]
         yield joint, _moved(joint, stream.stamp_ns, factor * values + offset, topic, is_fixed=False)
+
+
+def _positions(
+    bag: Bag, model: RobotModel, known: Mapping[str, Transform]
+) -> dict[str, tuple[Stream, FloatArray, str]]:
+    """Positions of the joints that move links which tf lacks, with stream and topic; rad, m."""
+    moved = [joint for joint in model.joints.values() if joint.child not in known and joint.type.moves]
+    wanted = {joint.name if joint.mimic is None else joint.mimic.leader for joint in moved}
+    units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
+    states: dict[str, tuple[Stream, FloatArray, str]] = {}
+    for topic in sorted(topic for topic, kind in bag.types.items() if kind == JOINT_TYPE):
+        if topic.rpartition("/")[2] != _STATES or not wanted:
+            continue
+        stream = topic_stream(bag, topic, name=topic, frame=None, world=None, joint_units=units).stream
+        position = stream.signals.get("position")
+        for k, name in enumerate(position.columns if position is not None else ()):
+            if position is None or name not in wanted:
+                continue
+            if name in states:
+                raise FormatError(
+                    f"{bag.path}: expected joint {name!r} in one topic, got it in {states[name][2]} and {topic}"
+                )
+            states[name] = (stream, position.values[:, k], topic)
+    return states
 
 
 def _moved(joint: Joint, stamp_ns: IntArray, coordinate: FloatArray, topic: str, *, is_fixed: bool) -> Transform:

@@ -80,6 +80,7 @@ def describe_wrist(bag: Bag, specified: Mapping[str, object]) -> LogDescription:
         raise FormatError(
             f"{bag.path}: {topic}: expected a frame of tf or robot_description, got {frame!r}, {source}; "
             f"{known_names(frame, tree.frames)}; give the frame along whose axes the wrench is by --recording frame=..."
+            f"{tree.unread}"
         )
     world = given.world or tree.root(frame)
     return _described(bag, given, topic, frame, world, tree)
