@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from dataclasses import replace
 from pathlib import Path
 
@@ -172,6 +173,16 @@ def test_a_file_with_open_questions_lists_them(folder: Path, run: Run) -> None:
     outcome = run("run", PARQUET, "-o", "results", "--no-input")
     assert outcome.code == 4
     assert "1 question(s) are open" in " ".join(outcome.out.split())
+
+
+def test_the_next_command_has_all_recordings_and_sensors(folder: Path, run: Run) -> None:
+    """With one of them open, the command that goes on is the one that was typed."""
+    edit(folder / PARQUET, 'serial = "SIM001"', 'serial = "?"  # on its label')
+    typed = ("run", "other one.toml", PARQUET, "-o", "results", "--sensor", "arm_ft")
+    Path("other one.toml").write_bytes((folder / PARQUET).read_bytes().replace(b'"?"', b'"SIM001"'))
+    outcome = run(*typed, "--no-input", "--format", "json")
+    assert outcome.code == 4
+    assert shlex.split(json.loads(outcome.out)["stages"][0]["command"]) == list(typed)
 
 
 @pytest.mark.parametrize("command", [("run",), ("init", "--no-input", "--resume")], ids=["run", "init"])
