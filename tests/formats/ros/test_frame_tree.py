@@ -100,6 +100,24 @@ def test_frames_of_the_own_robot_are_taken(tmp_path: Path) -> None:
         read_frame_tree(bag, "/ft")
 
 
+def test_a_joint_without_positions_is_named(tmp_path: Path) -> None:
+    """One that is not a number throughout, by bag, topic and joint; and a moving frame that is sent once."""
+    types, empty, turn = Types("mcap"), np.empty(0), np.array([0.0, 0.0, 0.0, 1.0])
+    lost = [types.joints(k, list(NAMES), np.array([0.1, np.nan]), empty, empty) for k in range(7)]
+    topics = _topics(types) | {"/joint_states": ("sensor_msgs/msg/JointState", lost)}
+    with opened_bag(write_bag(tmp_path / "lost", "mcap", topics)) as bag:
+        tree = read_frame_tree(bag, "/ft")
+    wanted = "lost.*: expected positions of joint 'slide', which moves 'slid', got 0 of 7 that are numbers in /joint_st"
+    for ask in (lambda: tree.root("tool"), lambda: tree.poses("tool", "base", STAMPS)):
+        with pytest.raises(FormatError, match=wanted):
+            ask()
+    assert tree.is_below("turned", "base")
+    once = {"/tf": (TF, [types.transforms(0, {("base", "tool"): turn})])}
+    refused = pytest.raises(FormatError, match="/tf: expected at least 2 poses of 'tool' in 'base', got 1")
+    with opened_bag(write_bag(tmp_path / "once", "mcap", once)) as bag, refused:
+        read_frame_tree(bag, "/ft").poses("tool", "base", STAMPS)
+
+
 def test_nothing_is_asked_of_joints_that_tf_makes_needless(tmp_path: Path) -> None:
     """A joint in two topics, and a description that is cut off, matter only where tf lacks a frame."""
     types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])

@@ -22,6 +22,8 @@ from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf_text
 
 _STATES = "joint_states"
+_FEWEST = 2
+"""Poses between which one is interpolated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,8 +50,8 @@ class FrameTree:
     """The bag, for messages."""
     transforms: Mapping[str, Transform]
     """Poses of frames in their parents, by the frame."""
-    unknown_joints: Mapping[str, str]
-    """Joints whose positions the bag lacks, by their child links."""
+    unknown_joints: Mapping[str, tuple[str, str]]
+    """Joints whose positions the bag lacks, by their child links: name of the joint, and what the bag has instead."""
     description_fault: str
     """Why `robot_description` cannot be read, for messages about frames that tf lacks; empty if nothing is wrong."""
 
@@ -179,6 +181,12 @@ class FrameTree:
         chain = self.chain(frame, world)
         rotation, position = np.broadcast_to(np.eye(3), (len(at_ns), 3, 3)), np.zeros((len(at_ns), 3))
         for transform in reversed(chain):
+            count = len(transform.poses.stamp_ns)
+            if count < _FEWEST and not transform.is_fixed:
+                raise FormatError(
+                    f"{self.place}: {transform.topic}: expected at least {_FEWEST} poses of {transform.child!r} in "
+                    f"{transform.parent!r}, got {count}"
+                )
             parent_R_child, parent_p_child = _poses_at(transform, at_ns)
             position = position + np.einsum("nij,nj->ni", rotation, parent_p_child)
             rotation = rotation @ parent_R_child
@@ -192,9 +200,10 @@ class FrameTree:
 
     def _require_known(self, root: str) -> None:
         if root in self.unknown_joints:
+            joint, got = self.unknown_joints[root]
             raise FormatError(
-                f"{self.place}: expected positions of joint {self.unknown_joints[root]!r}, which moves {root!r}, got "
-                "none; record /tf or all of /joint_states"
+                f"{self.place}: expected positions of joint {joint!r}, which moves {root!r}, got {got}; record /tf or "
+                "all of /joint_states"
             )
 
     def _known(self, frame: str) -> str:
@@ -240,7 +249,7 @@ def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
         for transform in _sent(bag, tf_topic):
             sent.setdefault(transform.child, []).append(transform)
     found = {child: _chosen(bag, topic, several) for child, several in sent.items()}
-    unknown: dict[str, str] = {}
+    unknown: dict[str, tuple[str, str]] = {}
     fault = ""
     try:
         described = _description(bag)
@@ -249,8 +258,8 @@ def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
             raise
         described, fault = None, str(error)
     for joint, moved in _of_joints(bag, *described, found) if described is not None else ():
-        if moved is None:
-            unknown[joint.child] = joint.name
+        if isinstance(moved, str):
+            unknown[joint.child] = joint.name, moved
         else:
             found[joint.child] = moved
     return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown, description_fault=fault)
@@ -334,8 +343,8 @@ def _description(bag: Bag) -> tuple[RobotModel, str] | None:
 
 def _of_joints(
     bag: Bag, model: RobotModel, described_by: str, known: Mapping[str, Transform]
-) -> Iterator[tuple[Joint, Transform | None]]:
-    """Joints of the description whose child tf lacks, each with its transform; None where positions are missing."""
+) -> Iterator[tuple[Joint, Transform | str]]:
+    """Joints of the description whose child tf lacks, each with its transform, or what there is of its positions."""
     states = _positions(bag, model, known)
     for joint in model.joints.values():
         if joint.child in known:
@@ -350,9 +359,12 @@ def _of_joints(
             else (joint.mimic.leader, joint.mimic.multiplier, joint.mimic.offset)
         )
         if followed not in states:
-            yield joint, None
+            yield joint, "none"
             continue
         stream, values, topic = states[followed]
+        if (count := int(np.isfinite(values).sum())) < _FEWEST:
+            yield joint, f"{count} of {len(values)} that are numbers in {topic}"
+            continue
         yield joint, _moved(joint, stream.stamp_ns, factor * values + offset, topic, is_fixed=False)
 
 
