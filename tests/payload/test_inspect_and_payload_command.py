@@ -218,6 +218,12 @@ def test_what_is_no_log_that_speaks_is_shown_in_every_form(arm: Path, run: Run) 
         for row in run("inspect", arm / "table.csv", "--format", "csv").rows()
     }
     assert seen == {"t": ("", "time"), "fx_N": ("N", ""), "note": ("", "a text")}
+    shown = " ".join(run("inspect", arm / "table.csv").out.split())
+    assert "by their names, time: t the log is read with" in shown
+    assert "because units are missing in 1 of 2 columns of numbers" in shown
+    (arm / "table.csv").write_text("t_s,fx_N\n0,1\n1,2\n", encoding="utf-8")
+    shown = " ".join(run("inspect", arm / "table.csv").out.split())
+    assert "because its headings have units, but state neither frames nor signs" in shown
 
 
 def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:

@@ -160,3 +160,13 @@ def test_a_weight_that_does_not_show_is_asked_for(tmp_path: Path, run: Run) -> N
     refused = run("payload", log, "--recording", "topic=/other").error()
     assert "measure_direction, who acts on whom in the wrench" in refused
     assert run("payload", log, "--recording", "topic=/ft").code == 0
+
+
+def test_readings_before_the_first_pose_do_not_hide_gravity(tmp_path: Path, run: Run) -> None:
+    """A tf that begins after the wrench: the load is that of the rest, and gravity is a number."""
+    topics = dict(_topics("mcap"))
+    topics["/tf"] = (bags.TF, topics["/tf"][1][10:])
+    log = _written(tmp_path, "mcap", topics, "/robot_description", "/joint_states")
+    result = run("payload", log, "--format", "json").result()
+    assert result["arms"][0]["assumed"][2] == "gravity 9.80665 m/s2"
+    assert result["loads"][0]["mass_kg"] == pytest.approx(MASS, abs=0.01)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, get_args
 
-from forcetorque.inspection.file_contents import sketch_text
+from forcetorque.inspection.file_contents import NO_NUMBERS, sketch_text
 from forcetorque.inspection.plausibility.hypotheses import FaultKind
 from forcetorque.inspection.sensor_alone import sensor_answer
 from forcetorque.results.answer import Answer, Concern, typed
@@ -233,7 +233,7 @@ def _columns_answer(inspection: Inspection) -> Answer:
     rows = max(row.rows for row in inspection.unread)
     quantities: dict[str, list[str]] = {}
     for row in inspection.unread:
-        if row.looks_like is not None:
+        if row.looks_like not in (None, NO_NUMBERS):
             quantities.setdefault(row.looks_like, []).append(row.column)
     alike = "; ".join(f"{quantity}: {_few(names)}" for quantity, names in quantities.items())
     return Answer(

@@ -16,6 +16,8 @@ from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.results.table import Row, Shown, Table, Values
 
+NO_NUMBERS = "a text"
+"""What a column of something else than numbers looks like."""
 _MOST_SHOWN = 60
 """Characters of the signals of a stream in the table; JSON has all."""
 
@@ -298,12 +300,18 @@ def sketch_text(rows: Sequence[ColumnRow]) -> str:
     Returns:
         A message.
     """
-    with_unit = sum(row.unit is not None for row in rows)
-    units = f"the headings have {with_unit} unit(s)" if with_unit else "it has no units"
+    numbers = [row for row in rows if row.looks_like != NO_NUMBERS]
+    without = sum(row.unit is None for row in numbers)
+    if not numbers:
+        reason = "no column is known to have numbers"
+    elif without:
+        reason = f"units are missing in {without} of {len(numbers)} columns of numbers"
+    else:
+        reason = "its headings have units, but state neither frames nor signs"
     names = [row.column for row in rows]
     unnamed = names == [str(k) for k in range(1, len(names) + 1)]
     option = "; give a name for each column by --column-names, for the file has no headings" * unnamed
-    return f"the log is read with an experiment file that describes it, because {units}{option}"
+    return f"the log is read with an experiment file that describes it, because {reason}{option}"
 
 
 def _column_row(column: SketchedColumns, looks_like: str | None) -> ColumnRow:
@@ -315,5 +323,5 @@ def _column_row(column: SketchedColumns, looks_like: str | None) -> ColumnRow:
         smallest=column.smallest,
         largest=column.largest,
         mean=column.mean,
-        looks_like=looks_like if column.is_number or column.unit == ISO8601 else "a text",
+        looks_like=looks_like if column.is_number or column.unit == ISO8601 else NO_NUMBERS,
     )

@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import InMemory
@@ -140,12 +142,13 @@ def _load_lines(wrist: LoggedWrist) -> Sequence[str]:
 
 def _assumed(path: Path, wrist: LoggedWrist, experiment: Experiment) -> Sequence[str]:
     gravity = experiment.recording.stream(wrist.stream).signal("gravity").values
-    size = float((gravity[0] ** 2).sum() ** 0.5)
+    known = gravity[np.isfinite(gravity).all(axis=1)]  # readings before the first pose have none
+    size = float((known[0] ** 2).sum() ** 0.5)
     masses = list(dict.fromkeys(declared.mass for declared in wrist.declared if declared.mass > 0.0))
-    known = ", ".join(amount(mass, "kg") for mass in masses)
+    declared_masses = ", ".join(amount(mass, "kg") for mass in masses)
     words = [*wrist.assumed, f"gravity {size:.6g} m/s2"]
     if masses:
-        words.append(f"the declared payload of {known} is part of the load")
+        words.append(f"the declared payload of {declared_masses} is part of the load")
     start, end = wrist.declared[0].start_ns, wrist.declared[-1].end_ns
     moving = sum(last - first for first, last in wrist.moving)
     if moving > _MOST_MOVING * (end - start):

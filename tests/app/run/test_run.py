@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 import forcetorque
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.inspection.draft.draft import Draft, ProposalRow
 from forcetorque.inspection.draft.questions import answer_questions, open_questions
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.workbench.simulated_benches import BenchFaults
@@ -172,6 +174,23 @@ def test_a_file_with_open_questions_lists_them(folder: Path, run: Run) -> None:
     outcome = run("run", PARQUET, "-o", "results", "--no-input")
     assert outcome.code == 4
     assert "1 question(s) are open" in " ".join(outcome.out.split())
+
+
+def test_the_next_command_has_all_recordings_and_sensors(
+    folder: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With a question or a proposal of one of them open, the command that goes on is the one that was typed."""
+    edit(folder / PARQUET, 'serial = "SIM001"', 'serial = "?"  # on its label')
+    typed = ("run", "other one.toml", PARQUET, "-o", "results", "--sensor", "arm_ft")
+    Path("other one.toml").write_bytes((folder / PARQUET).read_bytes().replace(b'"?"', b'"SIM001"'))
+    outcome = run(*typed, "--no-input", "--format", "json")
+    assert outcome.code == 4
+    assert shlex.split(json.loads(outcome.out)["stages"][0]["command"]) == list(typed)
+    row = ProposalRow(line=None, kind="sign", proposal="turn it", residual_before_N=None, residual_after_N=None)
+    draft = Draft(file=PARQUET, format="toml", streams={}, questions=(), proposals=(row,), notes=(), content="")
+    monkeypatch.setattr("forcetorque.inspection.draft.resume.resume_experiment", lambda *_, **__: draft)
+    (stage,) = json.loads(run(*typed, "--no-input", "--format", "json").out)["stages"]
+    assert stage["remedy"].endswith(f"forcetorque {shlex.join(typed)} declines them all")
 
 
 @pytest.mark.parametrize("command", [("run",), ("init", "--no-input", "--resume")], ids=["run", "init"])

@@ -17,7 +17,7 @@ from forcetorque.robot.urdf import read_urdf_text
 
 pytest.importorskip("rosbags")
 from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.formats.ros.frame_tree import read_frame_tree
+from forcetorque.formats.ros.frame_tree import FrameTree, read_frame_tree
 from tests.formats.ros.bags import PERIOD_NS, START_NS, TF, Types, write_bag
 
 URDF = """<robot name="slider"><link name="base"/><link name="turned"/><link name="slid"/><link name="tool"/>
@@ -44,7 +44,7 @@ def _topics(types: Types) -> dict[str, tuple[str, list[Any]]]:
 def test_joints_place_links_as_the_dynamics_do(tmp_path: Path) -> None:
     """A revolute, a prismatic and a mimic joint; between samples the pose is interpolated, outside there is none."""
     with opened_bag(write_bag(tmp_path, "mcap", _topics(Types("mcap")))) as bag:
-        tree = read_frame_tree(bag)
+        tree = read_frame_tree(bag, "/ft")
     assert tree.root("tool") == "base"
     np.testing.assert_array_equal(tree.stamps("tool", "base"), STAMPS)
     rotation, position = tree.poses("tool", "base", STAMPS)
@@ -68,8 +68,75 @@ def test_what_is_no_tree_is_refused(tmp_path: Path) -> None:
     two = {"/tf": topic(("base", "tool")), "/tf_static": topic(("flange", "tool"))}
     refused = pytest.raises(FormatError, match="one parent of frame 'tool', got 'base' of /tf and 'flange'")
     with opened_bag(write_bag(tmp_path / "two", "mcap", two)) as bag, refused:
-        read_frame_tree(bag)
+        read_frame_tree(bag, "/ft")
     with opened_bag(write_bag(tmp_path / "loop", "mcap", {"/tf": topic(("a", "b"), ("b", "a"))})) as bag:
-        tree = read_frame_tree(bag)
+        tree = read_frame_tree(bag, "/ft")
         with pytest.raises(FormatError, match="expected a tree of frames, got a loop at"):
             tree.above("a")
+
+
+def test_frames_of_the_own_robot_are_taken(tmp_path: Path) -> None:
+    """Robots with the same names of frames are told apart by namespaces, or refused; equal frames are one."""
+    types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
+
+    def tf(x: float, child: str, *rows: int) -> tuple[str, list[Any]]:
+        return TF, [types.make(TF, transforms=[types.transform(k, turn, (x, 0, 0), "base", child)]) for k in rows]
+
+    topics = {
+        "/tf": tf(3.0, "tool", 0, 1, 2),
+        "/left/tf": tf(1.0, "tool", 0, 1, 2),
+        "/left/tf_static": tf(4.0, "camera", 0),
+        "/right/tf": tf(2.0, "tool", 0, 1, 2),
+        "/right/tf_static": tf(4.0, "camera", 1),
+    }
+    with opened_bag(write_bag(tmp_path / "all", "mcap", topics)) as bag:
+        wanted = {"/left/ft": 1.0, "/right/hand/ft": 2.0, "/righter/ft": 3.0, "/ft": 3.0}
+        trees = {topic: read_frame_tree(bag, topic) for topic in wanted}
+    for topic, tree in trees.items():
+        assert tree.poses("tool", "base", STAMPS[:3])[1][0, 0] == wanted[topic], topic
+    del topics["/tf"]
+    refused = pytest.raises(FormatError, match="/ft: expected frame 'tool' in one .* in /left/tf and /right/tf; record")
+    with opened_bag(write_bag(tmp_path / "two", "mcap", topics)) as bag, refused:
+        read_frame_tree(bag, "/ft")
+
+
+def test_a_joint_without_positions_is_named(tmp_path: Path) -> None:
+    """One that is not a number throughout, by bag, topic and joint; and a moving frame that is sent once."""
+    types, empty, turn = Types("mcap"), np.empty(0), np.array([0.0, 0.0, 0.0, 1.0])
+    lost = [types.joints(k, list(NAMES), np.array([0.1, np.nan]), empty, empty) for k in range(7)]
+    topics = _topics(types) | {"/joint_states": ("sensor_msgs/msg/JointState", lost)}
+    with opened_bag(write_bag(tmp_path / "lost", "mcap", topics)) as bag:
+        tree = read_frame_tree(bag, "/ft")
+    wanted = "lost.*: expected positions of joint 'slide', which moves 'slid', got 0 of 7 that are numbers in /joint_st"
+    for ask in (lambda: tree.root("tool"), lambda: tree.poses("tool", "base", STAMPS)):
+        with pytest.raises(FormatError, match=wanted):
+            ask()
+    assert tree.is_below("turned", "base")
+    once = {"/tf": (TF, [types.transforms(0, {("base", "tool"): turn})])}
+    refused = pytest.raises(FormatError, match="/tf: expected at least 2 poses of 'tool' in 'base', got 1")
+    with opened_bag(write_bag(tmp_path / "once", "mcap", once)) as bag, refused:
+        read_frame_tree(bag, "/ft").poses("tool", "base", STAMPS)
+
+
+def test_nothing_is_asked_of_joints_that_tf_makes_needless(tmp_path: Path) -> None:
+    """A joint in two topics, and a description that is cut off, matter only where tf lacks a frame."""
+    types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
+    complete = {("base", "turned"): turn, ("turned", "slid"): turn, ("slid", "tool"): turn}
+    two = _topics(types) | {"/arm/joint_states": _topics(types)["/joint_states"]}
+    cut = {"/robot_description": ("std_msgs/msg/String", [types.text(URDF[:-30])])}
+
+    def tree(name: str, topics: dict[str, tuple[str, list[Any]]], frames: dict[tuple[str, str], Any]) -> FrameTree:
+        tf = {"/tf": (TF, [types.transforms(k, frames) for k in range(3)])} if frames else {}
+        with opened_bag(write_bag(tmp_path / name, "mcap", topics | tf)) as bag:
+            return read_frame_tree(bag, "/ft")
+
+    for name, topics in {"two": two, "cut": cut}.items():
+        assert tree(name, topics, complete).root("tool") == "base", name
+    del complete["slid", "tool"]
+    with pytest.raises(FormatError, match="expected joint 'turn' in one topic, got it in /arm/joint_states and /joint"):
+        tree("two_lacking", two, complete)
+    lacking = tree("cut_lacking", cut, complete)
+    with pytest.raises(FormatError, match="no frame 'tool' .*; robot_description is not read: .*: /robot_description"):
+        lacking.root("tool")
+    with pytest.raises(FormatError, match="/robot_description"):
+        tree("cut_alone", cut, {})

@@ -179,6 +179,7 @@ def _write_feather(path: Path, table: pa.Table) -> None:
 ARROW: dict[str, Callable[[Path, pa.Table], None]] = {
     "log.arrow": _write_file,
     "stream.arrow": _write_stream,
+    "STREAM.IPC": _write_stream,
     "log.feather": _write_feather,
 }
 

@@ -77,7 +77,10 @@ def run(
             _begun(files, output, urdf, sensor or (), matrices, between_commas(column_names), force=force)
         ]
     for file in open_files:
-        if (unanswered := _unanswered(file, output, no_input=no_input)) is not None:
+        again = typed(
+            "run", *map(str, files), "-o", str(output), *(w for name in sensor or () for w in ("--sensor", name))
+        )
+        if (unanswered := _unanswered(file, again, no_input=no_input)) is not None:
             _end(unanswered, output_format, details=details, files=files)
     from forcetorque.app.run.run import run as go  # here because open questions need none of its stages
 
@@ -144,7 +147,7 @@ def _begun(
     return file
 
 
-def _unanswered(file: Path, output: Path, *, no_input: bool) -> WholeRun | None:
+def _unanswered(file: Path, again: str, *, no_input: bool) -> WholeRun | None:
     """Ask what only a person can answer, then for proposals; what comes out if something stays open, else None."""
     from forcetorque.app.run.result import Stage, WholeRun
     from forcetorque.inspection.draft.resume import resume_experiment
@@ -156,11 +159,11 @@ def _unanswered(file: Path, output: Path, *, no_input: bool) -> WholeRun | None:
     if listed:
         text = f"{len(listed)} question(s) are open, the first: {listed[0]}"
         remedy = f'put the answers in place of "?" in {file}'
-        command = typed("run", str(file), "-o", str(output))
+        command = again
     elif blocking := [one for one in draft.proposals if one.line is None or not asks]:
         listed = tuple(one.proposal for one in blocking)
         text = f"{len(listed)} proposal(s) are open, the first: {listed[0]}"
-        remedy = f"accept or decline each in a terminal; forcetorque run {file} declines them all"
+        remedy = f"accept or decline each in a terminal; forcetorque {again} declines them all"
         command = typed("init", "--resume", str(file))
     else:
         return None

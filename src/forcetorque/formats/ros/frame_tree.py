@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import FormatError, RobotError, known_names
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, decode, transforms
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
@@ -18,10 +18,12 @@ from forcetorque.recording.alignment import Interpolation
 from forcetorque.recording.frames import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.model import Joint, JointType
+from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf_text
 
 _STATES = "joint_states"
+_FEWEST = 2
+"""Poses between which one is interpolated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,14 +50,21 @@ class FrameTree:
     """The bag, for messages."""
     transforms: Mapping[str, Transform]
     """Poses of frames in their parents, by the frame."""
-    unknown_joints: Mapping[str, str]
-    """Joints whose positions the bag lacks, by their child links."""
+    unknown_joints: Mapping[str, tuple[str, str]]
+    """Joints whose positions the bag lacks, by their child links: name of the joint, and what the bag has instead."""
+    description_fault: str
+    """Why `robot_description` cannot be read, for messages about frames that tf lacks; empty if nothing is wrong."""
 
     @property
     def frames(self) -> tuple[str, ...]:
         """Names of all frames, sorted."""
         parents = {transform.parent for transform in self.transforms.values()}
         return tuple(sorted(parents | set(self.transforms) | set(self.unknown_joints)))
+
+    @property
+    def unread(self) -> str:
+        """End of a message about a frame that is missing: that of `description_fault`, if there is one."""
+        return f"; robot_description is not read: {self.description_fault}" if self.description_fault else ""
 
     def above(self, frame: str) -> list[Transform]:
         """Follow a frame to the root of its tree.
@@ -70,7 +79,9 @@ class FrameTree:
             FormatError: If the frame is not in the tree, or its own parent by several steps.
         """
         if frame not in self.frames:
-            raise FormatError(f"{self.place}: no frame {frame!r} in tf or robot_description; {self._known(frame)}")
+            raise FormatError(
+                f"{self.place}: no frame {frame!r} in tf or robot_description; {self._known(frame)}{self.unread}"
+            )
         chain: list[Transform] = []
         while frame in self.transforms:
             chain.append(self.transforms[frame])
@@ -126,7 +137,9 @@ class FrameTree:
         if world not in parents:
             self._require_known(parents[-1] if parents else frame)
             known = ", ".join(map(repr, parents)) or "no frame"
-            raise FormatError(f"{self.place}: expected {world!r} above {frame!r} in the tree of frames, got {known}")
+            raise FormatError(
+                f"{self.place}: expected {world!r} above {frame!r} in the tree of frames, got {known}{self.unread}"
+            )
         return above[: parents.index(world) + 1]
 
     def stamps(self, frame: str, world: str) -> IntArray:
@@ -146,7 +159,7 @@ class FrameTree:
         if not moving:
             raise FormatError(
                 f"{self.place}: expected {frame!r} to move in {world!r}, got fixed frames alone between them; record "
-                "/tf, or /joint_states and /robot_description, too"
+                f"/tf, or /joint_states and /robot_description, too{self.unread}"
             )
         return np.unique(max(moving, key=lambda one: len(one.poses.stamp_ns)).poses.stamp_ns)
 
@@ -168,6 +181,12 @@ class FrameTree:
         chain = self.chain(frame, world)
         rotation, position = np.broadcast_to(np.eye(3), (len(at_ns), 3, 3)), np.zeros((len(at_ns), 3))
         for transform in reversed(chain):
+            count = len(transform.poses.stamp_ns)
+            if count < _FEWEST and not transform.is_fixed:
+                raise FormatError(
+                    f"{self.place}: {transform.topic}: expected at least {_FEWEST} poses of {transform.child!r} in "
+                    f"{transform.parent!r}, got {count}"
+                )
             parent_R_child, parent_p_child = _poses_at(transform, at_ns)
             position = position + np.einsum("nij,nj->ni", rotation, parent_p_child)
             rotation = rotation @ parent_R_child
@@ -181,9 +200,10 @@ class FrameTree:
 
     def _require_known(self, root: str) -> None:
         if root in self.unknown_joints:
+            joint, got = self.unknown_joints[root]
             raise FormatError(
-                f"{self.place}: expected positions of joint {self.unknown_joints[root]!r}, which moves {root!r}, got "
-                "none; record /tf or all of /joint_states"
+                f"{self.place}: expected positions of joint {joint!r}, which moves {root!r}, got {got}; record /tf or "
+                "all of /joint_states"
             )
 
     def _known(self, frame: str) -> str:
@@ -208,34 +228,74 @@ def _poses_at(transform: Transform, at_ns: IntArray) -> tuple[FloatArray, FloatA
     return rotation, at[:, 9:]
 
 
-def read_frame_tree(bag: Bag) -> FrameTree:
+def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
     """Read all frames of a bag.
 
     Args:
         bag: The bag.
+        topic: Topic whose frames are wanted. Of a frame that several topics of tf have, the transform is that of the
+            innermost namespace around this topic, as `/right/tf` for `/right/ft`.
 
     Returns:
         Transforms of tf, and of links that tf lacks those of the joints of `robot_description`.
 
     Raises:
-        FormatError: If a frame has two parents, or a message is damaged.
+        FormatError: If a frame has two parents, several topics have a frame, none of them in a namespace around
+            `topic`, a message is damaged, or a bag without tf has a description that cannot be read.
+        RobotError: If the description of a bag without tf is that of no robot.
     """
-    found: dict[str, Transform] = {}
-    for topic in sorted(topic for topic, kind in bag.types.items() if kind in TRANSFORM_TYPES):
-        for transform in _sent(bag, topic):
-            other = found.setdefault(transform.child, transform)
-            if other.parent != transform.parent:
-                raise FormatError(
-                    f"{bag.path}: {topic}: expected one parent of frame {transform.child!r}, got {other.parent!r} of "
-                    f"{other.topic} and {transform.parent!r}"
-                )
-    unknown: dict[str, str] = {}
-    for joint, described in _of_joints(bag, found):
-        if described is None:
-            unknown[joint.child] = joint.name
+    sent: dict[str, list[Transform]] = {}
+    for tf_topic in sorted(name for name, kind in bag.types.items() if kind in TRANSFORM_TYPES):
+        for transform in _sent(bag, tf_topic):
+            sent.setdefault(transform.child, []).append(transform)
+    found = {child: _chosen(bag, topic, several) for child, several in sent.items()}
+    unknown: dict[str, tuple[str, str]] = {}
+    fault = ""
+    try:
+        described = _description(bag)
+    except (FormatError, RobotError) as error:
+        if not found:
+            raise
+        described, fault = None, str(error)
+    for joint, moved in _of_joints(bag, *described, found) if described is not None else ():
+        if isinstance(moved, str):
+            unknown[joint.child] = joint.name, moved
         else:
-            found[joint.child] = described
-    return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown)
+            found[joint.child] = moved
+    return FrameTree(place=str(bag.path), transforms=found, unknown_joints=unknown, description_fault=fault)
+
+
+def _chosen(bag: Bag, topic: str, sent: Sequence[Transform]) -> Transform:
+    """The transform of a frame that is meant for a topic, a moving one before a fixed one."""
+    depths = [_depth(topic, transform.topic) for transform in sent]
+    nearest = [transform for transform, depth in zip(sent, depths, strict=True) if depth == max(depths)]
+    first, *others = sorted(nearest, key=lambda transform: transform.is_fixed)
+    for other in others:
+        if other.parent != first.parent:
+            raise FormatError(
+                f"{bag.path}: {other.topic}: expected one parent of frame {first.child!r}, got {first.parent!r} of "
+                f"{first.topic} and {other.parent!r}"
+            )
+        if other.is_fixed == first.is_fixed and not _are_equal(other.poses, first.poses):
+            raise FormatError(
+                f"{bag.path}: {topic}: expected frame {first.child!r} in one topic of tf, or in one of the namespace "
+                f"of {topic}, got different poses of it in {first.topic} and {other.topic}; record the robots apart, "
+                "or give their frames different names"
+            )
+    return first
+
+
+def _depth(topic: str, other: str) -> int:
+    """Length of the namespace of another topic; -1 if the topic is not in that namespace."""
+    namespace = f"/{other.strip('/')}".rpartition("/")[0]
+    return len(namespace) if f"/{topic.strip('/')}".startswith(f"{namespace}/") else -1
+
+
+def _are_equal(poses: Stream, others: Stream) -> bool:
+    """Whether poses are the same at the same instants; those of a single one do not count."""
+    names = ("orientation", "translation")
+    same = all(np.array_equal(poses.signal(name).values, others.signal(name).values) for name in names)
+    return same and (len(poses.stamp_ns) == 1 or np.array_equal(poses.stamp_ns, others.stamp_ns))
 
 
 def _sent(bag: Bag, topic: str) -> Iterator[Transform]:
@@ -273,32 +333,25 @@ def _stream(frame: str, stamp_ns: IntArray, orientation: FloatArray, translation
     )
 
 
-def _of_joints(bag: Bag, known: Mapping[str, Transform]) -> Iterator[tuple[Joint, Transform | None]]:
-    """Joints of the description whose child tf lacks, each with its transform; None where positions are missing."""
+def _description(bag: Bag) -> tuple[RobotModel, str] | None:
+    """The robot of a bag, and its topic."""
     robot = robot_of_bag(bag)
     if robot.urdf is None:
-        return
-    model = read_urdf_text(robot.urdf, where=f"{bag.path}: {robot.topic}")
-    units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
-    states: dict[str, tuple[Stream, FloatArray, str]] = {}
-    for topic in sorted(topic for topic, kind in bag.types.items() if kind == JOINT_TYPE):
-        if topic.rpartition("/")[2] != _STATES:
-            continue
-        stream = topic_stream(bag, topic, name=topic, frame=None, world=None, joint_units=units).stream
-        position = stream.signals.get("position")
-        for k, name in enumerate(position.columns if position is not None else ()):
-            if position is not None and name in states:
-                raise FormatError(
-                    f"{bag.path}: expected joint {name!r} in one topic, got it in {states[name][2]} and {topic}"
-                )
-            if position is not None:
-                states[name] = (stream, position.values[:, k], topic)
+        return None
+    return read_urdf_text(robot.urdf, where=f"{bag.path}: {robot.topic}"), robot.topic
+
+
+def _of_joints(
+    bag: Bag, model: RobotModel, described_by: str, known: Mapping[str, Transform]
+) -> Iterator[tuple[Joint, Transform | str]]:
+    """Joints of the description whose child tf lacks, each with its transform, or what there is of its positions."""
+    states = _positions(bag, model, known)
     for joint in model.joints.values():
         if joint.child in known:
             continue
         if not joint.type.moves:
             zero = np.zeros(1)
-            yield joint, _moved(joint, np.zeros(1, dtype=np.int64), zero, robot.topic, is_fixed=True)
+            yield joint, _moved(joint, np.zeros(1, dtype=np.int64), zero, described_by, is_fixed=True)
             continue
         followed, factor, offset = (
             (joint.name, 1.0, 0.0)
@@ -306,10 +359,37 @@ def _of_joints(bag: Bag, known: Mapping[str, Transform]) -> Iterator[tuple[Joint
             else (joint.mimic.leader, joint.mimic.multiplier, joint.mimic.offset)
         )
         if followed not in states:
-            yield joint, None
+            yield joint, "none"
             continue
         stream, values, topic = states[followed]
+        if (count := int(np.isfinite(values).sum())) < _FEWEST:
+            yield joint, f"{count} of {len(values)} that are numbers in {topic}"
+            continue
         yield joint, _moved(joint, stream.stamp_ns, factor * values + offset, topic, is_fixed=False)
+
+
+def _positions(
+    bag: Bag, model: RobotModel, known: Mapping[str, Transform]
+) -> dict[str, tuple[Stream, FloatArray, str]]:
+    """Positions of the joints that move links which tf lacks, with stream and topic; rad, m."""
+    moved = [joint for joint in model.joints.values() if joint.child not in known and joint.type.moves]
+    wanted = {joint.name if joint.mimic is None else joint.mimic.leader for joint in moved}
+    units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
+    states: dict[str, tuple[Stream, FloatArray, str]] = {}
+    for topic in sorted(topic for topic, kind in bag.types.items() if kind == JOINT_TYPE):
+        if topic.rpartition("/")[2] != _STATES or not wanted:
+            continue
+        stream = topic_stream(bag, topic, name=topic, frame=None, world=None, joint_units=units).stream
+        position = stream.signals.get("position")
+        for k, name in enumerate(position.columns if position is not None else ()):
+            if position is None or name not in wanted:
+                continue
+            if name in states:
+                raise FormatError(
+                    f"{bag.path}: expected joint {name!r} in one topic, got it in {states[name][2]} and {topic}"
+                )
+            states[name] = (stream, position.values[:, k], topic)
+    return states
 
 
 def _moved(joint: Joint, stamp_ns: IntArray, coordinate: FloatArray, topic: str, *, is_fixed: bool) -> Transform:

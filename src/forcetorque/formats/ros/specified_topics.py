@@ -107,10 +107,10 @@ def read_specified(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -
 def _tree(bag: Bag, topic: str, kind: str, frame: str, world: str) -> FrameTree | None:
     """All frames of a bag; None where one transform of tf has the pose, or none of several leads to it."""
     if kind == JOINT_TYPE:
-        return read_frame_tree(bag)
+        return read_frame_tree(bag, topic)
     if is_sent(bag, topic, frame, world):
         return None
-    tree = read_frame_tree(bag)
+    tree = read_frame_tree(bag, topic)
     return tree if tree.is_below(frame, world) else None
 
 
@@ -121,7 +121,7 @@ def _posed_wrench(bag: Bag, entry: RosStream, world: str, place: str) -> StreamR
     wrench = topic_stream(bag, entry.topic, name=entry.name, frame=entry.frame, world=None, joint_units={})
     stream = wrench.stream
     _, signals, findings = pose_signals(
-        read_frame_tree(bag),
+        read_frame_tree(bag, entry.topic),
         _layout_of_pose(place, entry),
         name=entry.name,
         frame=entry.frame,

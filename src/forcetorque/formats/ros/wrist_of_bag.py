@@ -72,7 +72,7 @@ def describe_wrist(bag: Bag, specified: Mapping[str, object]) -> LogDescription:
     frame = given.frame or _frame_of(bag, topic)
     if not frame:
         return _undetermined(bag, {"frame": f"frame of the wrenches of {topic}, whose messages name none"})
-    tree = read_frame_tree(bag)
+    tree = read_frame_tree(bag, topic)
     if not tree.frames:
         return _lacking(bag, f"the wrench {topic} in the frame {frame!r}, and no pose of that frame: {_RECORD}")
     if frame not in tree.frames:
@@ -80,6 +80,7 @@ def describe_wrist(bag: Bag, specified: Mapping[str, object]) -> LogDescription:
         raise FormatError(
             f"{bag.path}: {topic}: expected a frame of tf or robot_description, got {frame!r}, {source}; "
             f"{known_names(frame, tree.frames)}; give the frame along whose axes the wrench is by --recording frame=..."
+            f"{tree.unread}"
         )
     world = given.world or tree.root(frame)
     return _described(bag, given, topic, frame, world, tree)

@@ -18,6 +18,8 @@ from forcetorque.base.input_file import require_unpacked
 
 _FILE, _STREAM = b"ARROW1", b"\xff\xff\xff\xff"
 """What a file and a stream begin with; before version 0.15 of Arrow a stream began with a length."""
+_ENDINGS = (".arrow", ".arrows", ".feather", ".ipc")
+"""Of files with a stream, whose first bytes alone tell little."""
 _NUMBER = 8
 """Bytes of a number."""
 
@@ -35,7 +37,7 @@ def is_arrow_file(path: Path) -> bool:
         start = file.read(len(_FILE))
     if start == _FILE:
         return True
-    return start.startswith(_STREAM) and path.suffix in (".arrow", ".arrows", ".feather")
+    return start.startswith(_STREAM) and path.suffix.lower() in _ENDINGS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
