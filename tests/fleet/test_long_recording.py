@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,9 +18,11 @@ from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.fleet.long_recording import joined_findings, recorded_segments
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.fleet.long_recording import SegmentedSensor, joined_findings, recorded_segments
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import Finding, Interval
 from forcetorque.recording.segments import Segment
 from tests.scenes.studies import CALIBRATION, VALIDATION
 
@@ -152,3 +156,28 @@ def test_a_segment_without_samples_is_left_out(recorded: Path, monkeypatch: pyte
         with pytest.raises(RecordingError, match="no sample in it to use"):
             list(sensor_records(load_experiment(file), AddOptions(), "1"))
     assert len(calls) > 1
+
+
+def test_an_interval_without_samples_is_refused(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where another one has samples: its own reason is the error."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    (first, *others) = experiment.recording.intervals
+    assert not others
+    middle = (first.start_ns + first.end_ns) // 2
+    halves = replace(first, label="early", end_ns=middle), replace(first, label="late", start_ns=middle)
+    recording = replace(experiment.recording, intervals=halves)
+    roles = {half.label: experiment.roles[first.label] for half in halves}
+    experiment = replace(experiment, recording=recording, roles=roles)
+    run = SensorRun(experiment, experiment.sensors[0])
+    samples = SensorRun.interval_samples
+
+    def without_late(run: SensorRun, interval: Interval, **options: Any) -> IntervalSamples:
+        if interval.label == "late":
+            raise RecordingError("'late' has no sample in it to use")
+        return samples(run, interval, **options)
+
+    monkeypatch.setattr(SensorRun, "interval_samples", without_late)
+    sensor = SegmentedSensor(run, block_s=60.0)
+    sensor.add(run)
+    with pytest.raises(RecordingError, match="'late' has no sample"):
+        sensor.moments()

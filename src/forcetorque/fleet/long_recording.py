@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Final
@@ -127,7 +127,8 @@ class SegmentedSensor:
         self._pooled: list[Moments] = []
         self._doubts: list[dict[str, str]] = []
         self._left_out: list[str] = []
-        self._errors: list[RecordingError] = []
+        self._errors: dict[str, RecordingError] = {}  # the first of every interval
+        self._fitted: set[str] = set()
         self._evaluated: dict[str, _Evaluated] = {}
         self._names = evaluated_variables(run)
 
@@ -138,6 +139,7 @@ class SegmentedSensor:
             run: The sensor in the segment.
         """
         fitted = list(self._parts(run, Use.CALIBRATION, [variable.name for variable in self._variables]))
+        self._fitted |= {part.interval.label for part in fitted}
         if fitted:
             self._add_moments(run, fitted)
         for part in self._parts(run, Use.VALIDATION, self._names):
@@ -152,7 +154,7 @@ class SegmentedSensor:
             try:
                 yield run.interval_samples(interval, variables=variables)
             except RecordingError as error:
-                self._errors.append(error)
+                self._errors.setdefault(interval.label, error)
 
     def _add_moments(self, run: SensorRun, parts: Sequence[IntervalSamples]) -> None:
         campaign = Campaign.of(run)
@@ -178,18 +180,15 @@ class SegmentedSensor:
             The moments of the recording; None without a calibration interval.
 
         Raises:
-            RecordingError: If no sample of the calibration intervals can be used.
+            RecordingError: If an interval has no sample that can be used.
         """
         run = self._run
         if not run.has(Use.CALIBRATION):
             return None
+        self._require_samples(Use.CALIBRATION, self._fitted)
         if not self._moments:
-            raise (
-                self._errors[0]
-                if self._errors
-                else RecordingError(
-                    f"sensor {run.sensor.name!r}: expected samples that agree in a calibration interval, got none"
-                )
+            raise RecordingError(
+                f"sensor {run.sensor.name!r}: expected samples that agree in a calibration interval, got none"
             )
         require_moving_load(pooled(self._pooled))
         recording, models = CampaignRecording.of(run), self._models.mapped()
@@ -215,15 +214,14 @@ class SegmentedSensor:
         """
         if not self._run.has(Use.VALIDATION):
             return None
-        intervals = self._run.intervals(Use.VALIDATION)
-        for interval in intervals:
-            if interval.label not in self._evaluated:
-                raise (
-                    self._errors[0]
-                    if self._errors
-                    else RecordingError(f"interval {interval.label!r}: expected samples to evaluate, got none")
-                )
-        return [self._evaluated[one.label].samples(one) for one in intervals]
+        self._require_samples(Use.VALIDATION, self._evaluated)
+        return [self._evaluated[one.label].samples(one) for one in self._run.intervals(Use.VALIDATION)]
+
+    def _require_samples(self, use: Use, seen: Collection[str]) -> None:
+        """Refuse intervals without a sample in any segment, as in a recording that is reduced as a whole."""
+        for interval in self._run.intervals(use):
+            if (label := interval.label) not in seen:
+                raise self._errors.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")
 
 
 def _moves(moments: Moments) -> bool:
