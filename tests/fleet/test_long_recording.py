@@ -116,8 +116,8 @@ def _segments() -> list[Segment]:
     return [Segment(start_ns=k, end_ns=k + 10, recording=recording) for k in (0, 10, 20)]  # type: ignore[arg-type]
 
 
-def _finding(start: int | None, end: int | None, message: str = "", kind: str = "gap") -> Finding:
-    return Finding(stream="ft", kind=kind, message=message, count=1, start_ns=start, end_ns=end)
+def _finding(start: int | None, end: int | None, message: str = "", kind: str = "gap", count: int = 1) -> Finding:
+    return Finding(stream="ft", kind=kind, message=message, count=count, start_ns=start, end_ns=end)
 
 
 def test_a_finding_across_segments_comes_once() -> None:
@@ -126,6 +126,35 @@ def test_a_finding_across_segments_comes_once() -> None:
     longer = _finding(8, 19)
     found = joined_findings(_segments(), [[one, across], [longer], [late]])
     assert [(finding.start_ns, finding.end_ns) for finding in found] == [(3, 4), (8, 19), (25, 26)]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "spans"),
+    [
+        ([], [(8, 12)], [(8, 12)]),  # only the segment behind the border sees it
+        ([(3, 4)], [(8, 12)], [(3, 4), (8, 12)]),  # two events
+        ([(11, 12)], [(9, 13)], [(9, 13)]),  # each sees its start in the other segment
+        ([(8, 12)], [(11, 15)], [(8, 15)]),
+        ([(8, 12)], [(8, 12), (12, 14)], [(8, 12), (12, 14)]),  # gaps behind each other share a stamp
+        ([(-5, -3)], [(-5, -3)], [(-5, -3)]),  # of a reader, before the first sample
+    ],
+)
+def test_findings_at_a_border(
+    first: list[tuple[int, int]], second: list[tuple[int, int]], spans: list[tuple[int, int]]
+) -> None:
+    """None is lost, and none goes on into another one."""
+    found = joined_findings(_segments(), [*([_finding(*span) for span in own] for own in (first, second)), []])
+    assert [(finding.start_ns, finding.end_ns) for finding in found] == spans
+
+
+def test_a_finding_at_a_border_is_that_of_the_segment_with_all_of_it() -> None:
+    """Message and count too; where no segment has all of it, the message says so and the samples are summed."""
+    whole = _finding(8, 14, "for 6 s", count=6)
+    assert joined_findings(_segments(), [[_finding(8, 12, "for 4 s", count=4)], [whole], []]) == (whole,)
+    parts = [[_finding(5, 12, "for 7 s", count=7)], [_finding(8, 22, count=14)], [_finding(18, 25, count=7)]]
+    (frozen,) = joined_findings(_segments(), parts)
+    assert (frozen.start_ns, frozen.end_ns, frozen.count) == (5, 25, 20)
+    assert frozen.message == "for 7 s (in one segment; it goes on in the next)"
 
 
 def test_a_finding_without_a_time_says_in_how_many_segments() -> None:

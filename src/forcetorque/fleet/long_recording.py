@@ -38,6 +38,8 @@ SEGMENT_S: Final = 1800.0
 _LEAST_MARGIN_S, _WINDOWS = 10.0, 4.0
 """Samples around a segment: at least these seconds, and so many of the longest windows of filters."""
 
+_GOES_ON: Final = " (in one segment; it goes on in the next)"
+
 
 def recorded_segments(experiment: Experiment, *, length_s: float = SEGMENT_S) -> list[Segment]:
     """Divide the recording of an experiment.
@@ -76,29 +78,47 @@ def joined_findings(segments: Sequence[Segment], findings: Sequence[Iterable[Fin
         findings: What was found in each, with the samples around it.
 
     Returns:
-        Every finding once, in the order of time: one that goes on in the next segment has its length in both, one
-        without a time is that of the first segment with it.
+        Every finding once, in the order of time. One at a border is that of the segment that has all of it; where none
+        has, it says so, with its length and the number of samples in all. One without a time is that of the first
+        segment with it.
     """
     timed: list[Finding] = []
     untimed: dict[tuple[object, ...], list[Finding]] = {}
     for segment, own in zip(segments, findings, strict=True):
-        before = {_key(one): k for k, one in enumerate(timed)}
+        # the last of every kind before this segment
+        before = {_key(timed[k]): k for k in sorted(range(len(timed)), key=lambda k: timed[k].end_ns or 0)}
         numbers: Counter[tuple[object, ...]] = Counter()
         for one in own:
             key = _key(one)
             if one.start_ns is None or one.end_ns is None:
                 untimed.setdefault((*key, numbers[key]), []).append(one)
                 numbers[key] += 1
-            elif segment.holds(one.start_ns) or one.start_ns < segments[0].start_ns:
-                timed.append(one)
-            elif one.end_ns >= segment.start_ns > one.start_ns and (place := before.get(key)) is not None:
-                timed[place] = replace(timed[place], end_ns=max(timed[place].end_ns or 0, one.end_ns))
+            elif (one.start_ns < segment.end_ns or segment is segments[-1]) and (
+                one.end_ns >= segment.start_ns or segment is segments[0]
+            ):
+                place = before.get(key)
+                if place is None or (timed[place].end_ns or 0) <= one.start_ns:
+                    timed.append(one)
+                else:
+                    timed[place] = _continued(timed[place], one)
     kept = [
         replace(group[0], message=f"{group[0].message}{_share(len(group), len(segments))}")
         for group in untimed.values()
         if group[0].kind != "not_compared" or len(group) == len(segments)
     ]
     return tuple(sorted([*kept, *timed], key=lambda finding: finding.start_ns or 0))
+
+
+def _continued(first: Finding, second: Finding) -> Finding:
+    """One event that two segments see, the second more of its end."""
+    first_start, first_end, start, end = (stamp or 0 for one in (first, second) for stamp in (one.start_ns, one.end_ns))
+    if end <= first_end:
+        return first
+    if start <= first_start:
+        return second
+    part = (end - first_end) / (end - start)
+    message = first.message if first.message.endswith(_GOES_ON) else f"{first.message}{_GOES_ON}"
+    return replace(first, message=message, count=first.count + round(part * second.count), end_ns=end)
 
 
 def _key(finding: Finding) -> tuple[object, ...]:
