@@ -210,3 +210,23 @@ def test_an_interval_without_samples_is_refused(recorded: Path, monkeypatch: pyt
     sensor.add(run)
     with pytest.raises(RecordingError, match="'late' has no sample"):
         sensor.moments()
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_an_event_across_segments_is_one_warning(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the time of all of it, though a segment sees of it what its own samples show."""
+    file, seen = recorded / CALIBRATION[0], []
+    start_ns = load_experiment(file).recording.start_ns
+
+    def inspected(experiment: Experiment, **_: object) -> tuple[Finding, ...]:
+        stamps = experiment.recording.stream(experiment.sensors[0].stream).stamp_ns - start_ns
+        start, end = max(4 * 10**9, int(stamps[0])), min(13 * 10**9, int(stamps[-1]))
+        seen.append((start, end))
+        return (_finding(start + start_ns, end + start_ns, "no sample"),) if start < end else ()
+
+    monkeypatch.setattr("forcetorque.fleet.sensor_record.inspect_experiment", inspected)
+    monkeypatch.setattr("forcetorque.inspection.findings.inspect_experiment", inspected)
+    whole, segmented = _records(file, monkeypatch)
+    assert len(set(seen)) > 2
+    assert len(whole.warnings) == 1
+    assert segmented.warnings == whole.warnings
