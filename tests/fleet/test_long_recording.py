@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -11,10 +13,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.contact_windows import Disagreeing
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
+from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -230,3 +235,33 @@ def test_an_event_across_segments_is_one_warning(recorded: Path, monkeypatch: py
     assert len(set(seen)) > 2
     assert len(whole.warnings) == 1
     assert segmented.warnings == whole.warnings
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A contact that begins gently before the border leaves out the same samples as in the whole recording."""
+    file = recorded / CALIBRATION[0]
+    border_s = recorded_segments(load_experiment(file), length_s=_SEGMENT_S)[1].start_ns * 1e-9
+
+    def agreeing(
+        data_sets: Sequence[DataSet], *_: object, **__: object
+    ) -> tuple[list[BoolArray], tuple[Disagreeing, ...]]:
+        touched = [bool((data.time_s > border_s + 0.5).any()) for data in data_sets]
+        near = [np.abs(data.time_s - border_s) < 1.0 for data in data_sets]
+        times = [data.time_s[marks & seen] for data, marks, seen in zip(data_sets, near, touched, strict=True)]
+        spans = [
+            Disagreeing(label=data.label, start_s=own[0], end_s=own[-1], force_N=1.0, moment_Nm=1.0)
+            for data, own in zip(data_sets, times, strict=True)
+            if len(own)
+        ]
+        return [~(marks & seen) for marks, seen in zip(near, touched, strict=True)], tuple(spans)
+
+    monkeypatch.setattr("forcetorque.calibration.moments.agreeing_samples", agreeing)
+    records = _records(file, monkeypatch)
+    (whole,), (segmented,) = map(_intervals, records)
+    assert whole.dropped > 0
+    assert (whole.samples, whole.dropped) == (segmented.samples, segmented.dropped)
+    said = [text for record in records if record.moments for text in record.moments.warnings if "left out" in text]
+    border = border_s - load_experiment(file).recording.start_ns * 1e-9
+    ends = [[float(end) for end in re.findall(r"\d+\.\d+", text)[:2]] for text in said]
+    assert np.abs(np.array(ends) - border - [[-1.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]).max() < 0.03

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 from typing import Final
@@ -17,12 +18,12 @@ from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages
 from forcetorque.calibration.moments import agreeing_moments, moments_of
 from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.model_error import ErrorTerm
-from forcetorque.experiment.calibration.moments import Moments, pooled
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.provenance import Content
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
 from forcetorque.experiment.campaign import Campaign
-from forcetorque.experiment.campaign_intervals import CampaignRecording
+from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
@@ -38,6 +39,8 @@ SEGMENT_S: Final = 1800.0
 _LEAST_MARGIN_S, _WINDOWS = 10.0, 4.0
 """Samples around a segment: at least these seconds, and so many of the longest windows of filters."""
 
+_BESIDE_NS: Final = 2 * 10**9
+"""Samples beside a part of an interval by which it is told which agree: two windows; ns."""
 _GOES_ON: Final = " (in one segment; it goes on in the next)"
 
 
@@ -185,13 +188,33 @@ class SegmentedSensor:
             doubts = examine(data, run.sensor.prior, run.sensor.full_scale)
             turned = {f"mount {k}": text for k, text in enumerate(mount_doubts(campaign, intervals))}
             self._doubts.append({doubt.kind: doubt.message for doubt in doubts} | turned)
-        kept, left_out = agreeing_moments(run, intervals, variables=self._variables, block_s=self._block_s)
+        around = [self._with_surroundings(run, interval) for interval in intervals]
+        kept, left_out = agreeing_moments(
+            run, intervals, variables=self._variables, block_s=self._block_s, around=around
+        )
         self._left_out += left_out
         for block in kept:
             own = self._moments.setdefault(block.interval.label, [])
             own.append((block.model_copy(update={"model": None}), len(self._models)))
             if block.model is not None:
                 self._models.append(block.model.ravel())
+
+    def _with_surroundings(self, run: SensorRun, interval: CampaignInterval) -> DataSet:
+        """Samples of a part of an interval, and those of the same interval beside the part."""
+        part, data = interval.part.interval, interval.data_set
+        (whole,) = (one for one in self._run.intervals(Use.CALIBRATION) if one.label == part.label)
+        starts = max(whole.start_ns, part.start_ns - _BESIDE_NS), part.start_ns, part.end_ns
+        ends = part.start_ns, part.end_ns, min(whole.end_ns, part.end_ns + _BESIDE_NS)
+        pieces = []
+        for start_ns, end_ns in zip(starts, ends, strict=True):
+            if (start_ns, end_ns) == (part.start_ns, part.end_ns):
+                pieces.append(data)
+            elif start_ns < end_ns:
+                beside = replace(part, start_ns=start_ns, end_ns=end_ns)
+                with suppress(RecordingError):  # no sample beside it
+                    names = [variable.name for variable in self._variables]
+                    pieces.append(run.interval_samples(beside, variables=names).data_set)
+        return _concatenated(data, pieces)
 
     def moments(self) -> RecordingMoments | None:
         """Put together what a calibration needs.
@@ -242,6 +265,16 @@ class SegmentedSensor:
         for interval in self._run.intervals(use):
             if (label := interval.label) not in seen:
                 raise self._errors.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")
+
+
+def _concatenated(data: DataSet, pieces: Sequence[DataSet]) -> DataSet:
+    """Data with the samples of pieces one after the other."""
+    columns = {
+        name: np.concatenate([getattr(piece, name) for piece in pieces])
+        for name in ("raw", "reference", "variables", "time_s", "flattening")
+        if getattr(data, name) is not None
+    }
+    return replace(data, **columns)
 
 
 def _moves(moments: Moments) -> bool:
