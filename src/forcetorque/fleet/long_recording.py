@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -269,7 +269,7 @@ class SegmentedSensor:
 
 def _concatenated(data: DataSet, pieces: Sequence[DataSet]) -> DataSet:
     """Data with the samples of pieces one after the other."""
-    columns = {
+    columns: dict[str, Any] = {
         name: np.concatenate([getattr(piece, name) for piece in pieces])
         for name in ("raw", "reference", "variables", "time_s", "flattening")
         if getattr(data, name) is not None
