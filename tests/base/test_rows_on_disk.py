@@ -3,8 +3,12 @@
 
 from __future__ import annotations
 
+import errno
+import mmap
+import os
 import tempfile
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 import pytest
@@ -16,9 +20,10 @@ from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated, forget_pages
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.int64])
-def test_rows_are_those_that_were_written(dtype: type) -> None:
+def test_rows_are_those_that_were_written(monkeypatch: pytest.MonkeyPatch, dtype: type) -> None:
     """Of any parts, read-only, with views that keep the file; an array in memory has nothing to forget."""
     written: FloatArray | IntArray = (np.random.default_rng(1).normal(size=(1000, 3)) * 1e6).astype(dtype)
+    monkeypatch.setattr(rows_on_disk, "_WITHOUT_FILE", 0)
     rows = RowsOnDisk((3,), dtype)
     for part in np.array_split(written, 7):
         rows.append(part)
@@ -30,6 +35,43 @@ def test_rows_are_those_that_were_written(dtype: type) -> None:
     forget_pages([mapped, view, written])
     assert np.array_equal(mapped, written)
     assert np.array_equal(view, written[100:200])
+
+
+def test_few_rows_need_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of many intervals each has few; they are copies, and come first in the file when there are more."""
+    made: list[IO[bytes]] = []
+    temporary_file = tempfile.TemporaryFile
+
+    def counted() -> IO[bytes]:
+        made.append(temporary_file())
+        return made[-1]
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", counted)
+    few = np.arange(30.0).reshape(10, 3)
+    rows, again = RowsOnDisk((3,)), RowsOnDisk((3,))
+    for one in (rows, again):
+        one.append(few)
+    few += 1.0
+    assert np.array_equal(rows.mapped(), few - 1.0)
+    assert is_frozen(rows.mapped())
+    assert not made
+    again.append(np.ones((1 << 17, 3)))
+    assert np.array_equal(again.mapped()[:11], [*(few - 1.0), np.ones(3)])
+    assert len(made) == 1
+
+
+@pytest.mark.parametrize("place", ["TemporaryFile", "mmap"])
+def test_too_many_open_files_are_no_full_disk(monkeypatch: pytest.MonkeyPatch, place: str) -> None:
+    """Where a file is made, and where it is mapped."""
+
+    class NoMore(mmap.mmap):
+        def __new__(cls, *_: object, **__: object) -> NoMore:
+            raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+
+    monkeypatch.setattr(rows_on_disk, "IN_MEMORY", 1 << 20)
+    monkeypatch.setattr(tempfile if place == "TemporaryFile" else mmap, place, NoMore)
+    with pytest.raises(OutputError, match=r"expected one more temporary file .* Too many open files; .*ulimit -n"):
+        concatenated([np.zeros(1 << 18)])
 
 
 def test_no_rows_are_an_empty_array() -> None:

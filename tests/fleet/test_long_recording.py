@@ -3,22 +3,31 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.calibration.contact_windows import Disagreeing
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
+from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.fleet.long_recording import joined_findings, recorded_segments
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.fleet.long_recording import SegmentedSensor, joined_findings, recorded_segments
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import Finding, Interval
 from forcetorque.recording.segments import Segment
 from tests.scenes.studies import CALIBRATION, VALIDATION
 
@@ -112,8 +121,8 @@ def _segments() -> list[Segment]:
     return [Segment(start_ns=k, end_ns=k + 10, recording=recording) for k in (0, 10, 20)]  # type: ignore[arg-type]
 
 
-def _finding(start: int | None, end: int | None, message: str = "", kind: str = "gap") -> Finding:
-    return Finding(stream="ft", kind=kind, message=message, count=1, start_ns=start, end_ns=end)
+def _finding(start: int | None, end: int | None, message: str = "", kind: str = "gap", count: int = 1) -> Finding:
+    return Finding(stream="ft", kind=kind, message=message, count=count, start_ns=start, end_ns=end)
 
 
 def test_a_finding_across_segments_comes_once() -> None:
@@ -122,6 +131,35 @@ def test_a_finding_across_segments_comes_once() -> None:
     longer = _finding(8, 19)
     found = joined_findings(_segments(), [[one, across], [longer], [late]])
     assert [(finding.start_ns, finding.end_ns) for finding in found] == [(3, 4), (8, 19), (25, 26)]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "spans"),
+    [
+        ([], [(8, 12)], [(8, 12)]),  # only the segment behind the border sees it
+        ([(3, 4)], [(8, 12)], [(3, 4), (8, 12)]),  # two events
+        ([(11, 12)], [(9, 13)], [(9, 13)]),  # each sees its start in the other segment
+        ([(8, 12)], [(11, 15)], [(8, 15)]),
+        ([(8, 12)], [(8, 12), (12, 14)], [(8, 12), (12, 14)]),  # gaps behind each other share a stamp
+        ([(-5, -3)], [(-5, -3)], [(-5, -3)]),  # of a reader, before the first sample
+    ],
+)
+def test_findings_at_a_border(
+    first: list[tuple[int, int]], second: list[tuple[int, int]], spans: list[tuple[int, int]]
+) -> None:
+    """None is lost, and none goes on into another one."""
+    found = joined_findings(_segments(), [*([_finding(*span) for span in own] for own in (first, second)), []])
+    assert [(finding.start_ns, finding.end_ns) for finding in found] == spans
+
+
+def test_a_finding_at_a_border_is_that_of_the_segment_with_all_of_it() -> None:
+    """Message and count too; where no segment has all of it, the message says so and the samples are summed."""
+    whole = _finding(8, 14, "for 6 s", count=6)
+    assert joined_findings(_segments(), [[_finding(8, 12, "for 4 s", count=4)], [whole], []]) == (whole,)
+    parts = [[_finding(5, 12, "for 7 s", count=7)], [_finding(8, 22, count=14)], [_finding(18, 25, count=7)]]
+    (frozen,) = joined_findings(_segments(), parts)
+    assert (frozen.start_ns, frozen.end_ns, frozen.count) == (5, 25, 20)
+    assert frozen.message == "for 7 s (in one segment; it goes on in the next)"
 
 
 def test_a_finding_without_a_time_says_in_how_many_segments() -> None:
@@ -152,3 +190,78 @@ def test_a_segment_without_samples_is_left_out(recorded: Path, monkeypatch: pyte
         with pytest.raises(RecordingError, match="no sample in it to use"):
             list(sensor_records(load_experiment(file), AddOptions(), "1"))
     assert len(calls) > 1
+
+
+def test_an_interval_without_samples_is_refused(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where another one has samples: its own reason is the error."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    (first, *others) = experiment.recording.intervals
+    assert not others
+    middle = (first.start_ns + first.end_ns) // 2
+    halves = replace(first, label="early", end_ns=middle), replace(first, label="late", start_ns=middle)
+    recording = replace(experiment.recording, intervals=halves)
+    roles = {half.label: experiment.roles[first.label] for half in halves}
+    experiment = replace(experiment, recording=recording, roles=roles)
+    run = SensorRun(experiment, experiment.sensors[0])
+    samples = SensorRun.interval_samples
+
+    def without_late(run: SensorRun, interval: Interval, **options: Any) -> IntervalSamples:
+        if interval.label == "late":
+            raise RecordingError("'late' has no sample in it to use")
+        return samples(run, interval, **options)
+
+    monkeypatch.setattr(SensorRun, "interval_samples", without_late)
+    sensor = SegmentedSensor(run, block_s=60.0)
+    sensor.add(run)
+    with pytest.raises(RecordingError, match="'late' has no sample"):
+        sensor.moments()
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_an_event_across_segments_is_one_warning(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the time of all of it, though a segment sees of it what its own samples show."""
+    file, seen = recorded / CALIBRATION[0], []
+    start_ns = load_experiment(file).recording.start_ns
+
+    def inspected(experiment: Experiment, **_: object) -> tuple[Finding, ...]:
+        stamps = experiment.recording.stream(experiment.sensors[0].stream).stamp_ns - start_ns
+        start, end = max(4 * 10**9, int(stamps[0])), min(13 * 10**9, int(stamps[-1]))
+        seen.append((start, end))
+        return (_finding(start + start_ns, end + start_ns, "no sample"),) if start < end else ()
+
+    monkeypatch.setattr("forcetorque.fleet.sensor_record.inspect_experiment", inspected)
+    monkeypatch.setattr("forcetorque.inspection.findings.inspect_experiment", inspected)
+    whole, segmented = _records(file, monkeypatch)
+    assert len(set(seen)) > 2
+    assert len(whole.warnings) == 1
+    assert segmented.warnings == whole.warnings
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A contact that begins gently before the border leaves out the same samples as in the whole recording."""
+    file = recorded / CALIBRATION[0]
+    border_s = recorded_segments(load_experiment(file), length_s=_SEGMENT_S)[1].start_ns * 1e-9
+
+    def agreeing(
+        data_sets: Sequence[DataSet], *_: object, **__: object
+    ) -> tuple[list[BoolArray], tuple[Disagreeing, ...]]:
+        touched = [bool((data.time_s > border_s + 0.5).any()) for data in data_sets]
+        near = [np.abs(data.time_s - border_s) < 1.0 for data in data_sets]
+        times = [data.time_s[marks & seen] for data, marks, seen in zip(data_sets, near, touched, strict=True)]
+        spans = [
+            Disagreeing(label=data.label, start_s=own[0], end_s=own[-1], force_N=1.0, moment_Nm=1.0)
+            for data, own in zip(data_sets, times, strict=True)
+            if len(own)
+        ]
+        return [~(marks & seen) for marks, seen in zip(near, touched, strict=True)], tuple(spans)
+
+    monkeypatch.setattr("forcetorque.calibration.moments.agreeing_samples", agreeing)
+    records = _records(file, monkeypatch)
+    (whole,), (segmented,) = map(_intervals, records)
+    assert whole.dropped > 0
+    assert (whole.samples, whole.dropped) == (segmented.samples, segmented.dropped)
+    said = [text for record in records if record.moments for text in record.moments.warnings if "left out" in text]
+    border = border_s - load_experiment(file).recording.start_ns * 1e-9
+    ends = [[float(end) for end in re.findall(r"\d+\.\d+", text)[:2]] for text in said]
+    assert np.abs(np.array(ends) - border - [[-1.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]).max() < 0.03

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import errno
+import math
 import mmap
 import tempfile
 import weakref
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Final
+from typing import IO, Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +19,8 @@ from forcetorque.base.errors import OutputError
 
 IN_MEMORY: Final = 1 << 26
 """Bytes of a stream up to which it is held in memory."""
+_WITHOUT_FILE: Final = 1 << 20
+"""Bytes of rows up to which they need no file, of which a process may have a limited number open."""
 
 
 class RowsInMemory:
@@ -55,15 +59,15 @@ class RowsOnDisk:
     """Rows that are written one after the other, then read as one array; nothing of them is left when it is gone."""
 
     def __init__(self, shape: tuple[int, ...] = (), dtype: npt.DTypeLike = np.float64) -> None:
-        """Make the file, in the folder for temporary files.
+        """Begin; a file in the folder for temporary files is made when there are many rows.
 
         Args:
             shape: Shape of a row.
             dtype: Kind of the numbers.
         """
         self._shape, self._dtype, self._rows = shape, np.dtype(dtype), 0
-        self._file = tempfile.TemporaryFile()  # noqa: SIM115 closed when it is mapped, or no longer wanted
-        self._close = weakref.finalize(self, self._file.close)
+        self._held: list[npt.NDArray[Any]] = []
+        self._file: IO[bytes] | None = None
 
     def __len__(self) -> int:
         return self._rows
@@ -75,12 +79,20 @@ class RowsOnDisk:
             rows: Numbers; shape (n, *shape).
 
         Raises:
-            OutputError: If the disk is full.
+            OutputError: If the disk is full, or no more files can be open.
         """
-        with _named_folder():
-            for part in np.array_split(rows, max(rows.nbytes // IN_MEMORY, 1)):
-                self._file.write(np.ascontiguousarray(part, dtype=self._dtype).tobytes())
         self._rows += len(rows)
+        if self._file is None and self._rows * self._dtype.itemsize * math.prod(self._shape) <= _WITHOUT_FILE:
+            self._held.append(np.array(rows, dtype=self._dtype))
+            return
+        with _named_folder():
+            if self._file is None:
+                self._file = tempfile.TemporaryFile()  # noqa: SIM115 closed when it is mapped, or no longer wanted
+                self._close = weakref.finalize(self, self._file.close)
+            for few in (*self._held, rows):
+                for part in np.array_split(few, max(few.nbytes // IN_MEMORY, 1)):
+                    self._file.write(np.ascontiguousarray(part, dtype=self._dtype).tobytes())
+        self._held = []
 
     def mapped(self) -> npt.NDArray[Any]:
         """Read all rows; no more can be written.
@@ -89,16 +101,15 @@ class RowsOnDisk:
             The rows, read-only; shape (n, *shape).
 
         Raises:
-            OutputError: If the disk is full.
+            OutputError: If the disk is full, or no more files can be open.
         """
-        if not self._rows:
-            self._close()
-            empty = np.zeros((0, *self._shape), dtype=self._dtype)
-            empty.setflags(write=False)
-            return empty
+        if self._file is None:
+            rows = np.concatenate([np.zeros((0, *self._shape), dtype=self._dtype), *self._held])
+            rows.setflags(write=False)
+            return rows
         with _named_folder():
             self._file.flush()
-        pages = mmap.mmap(self._file.fileno(), 0, access=mmap.ACCESS_READ)
+            pages = mmap.mmap(self._file.fileno(), 0, access=mmap.ACCESS_READ)
         self._close()
         return np.frombuffer(pages, dtype=self._dtype).reshape(-1, *self._shape)
 
@@ -127,10 +138,24 @@ def _named_folder() -> Iterator[None]:
     try:
         yield
     except OSError as error:
+        expected, remedy = _EXPECTED.get(error.errno or 0, _A_FILE)
+        folder = tempfile.tempdir or "folder for temporary files"
+        got = error.strerror or error
         raise OutputError(
-            f"{tempfile.gettempdir()}: expected room for a long recording while it is read, got {error.strerror}; name "
-            "a folder of a larger disk in the environment variable TMPDIR"
+            f"{folder}: expected {expected} for a long recording while it is read, got {got}; {remedy}"
         ) from error
+
+
+_ROOM: Final = "room", "name a folder of a larger disk in the environment variable TMPDIR"
+_A_FILE: Final = "a temporary file", "name another folder in the environment variable TMPDIR"
+_ONE_MORE: Final = "one more temporary file", "allow more open files (ulimit -n), or state fewer validation intervals"
+_EXPECTED: Final = {
+    errno.ENOSPC: _ROOM,
+    errno.EDQUOT: _ROOM,
+    errno.EMFILE: _ONE_MORE,
+    errno.ENFILE: _ONE_MORE,
+}
+"""What was expected, and what to do, by the number of an error."""
 
 
 def forget_pages(arrays: Iterable[npt.NDArray[Any]]) -> None:

@@ -38,7 +38,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
-from forcetorque.recording.recording import Use
+from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.results.answer import Answer
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
@@ -424,27 +424,54 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         the file, one per interval in which the file says that something touches the robot beyond it, and one per
         finding in a fitted interval; of many of one kind the first few, and how many more there are.
     """
-    experiment = run.experiment
-    if (loads := wrist_loads(experiment)) is not None and not loads.are_stated:
+    sensors = (run.sensor.name,)
+    yield from doubts_of_samples(run)
+    found = unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors, computed=run)
+    yield from doubts_of_intervals(run, found, by_model=by_model)
+
+
+def doubts_of_samples(run: SensorRun) -> Iterator[str]:
+    """Say what makes any fit doubtful by the loads, and what the samples say about them.
+
+    Args:
+        run: The sensor, in a recording or a segment of one.
+
+    Yields:
+        The first sentences of `data_doubts`.
+    """
+    if (loads := wrist_loads(run.experiment)) is not None and not loads.are_stated:
         yield (
             "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
             "give mass_kg and centre_of_mass_m to judge it"
         )
     yield from contradicted_statements(run)
     yield from load_doubts(run)
+
+
+def doubts_of_intervals(
+    run: SensorRun, found: Sequence[tuple[Interval, Finding]], *, by_model: bool = True
+) -> Iterator[str]:
+    """Say which intervals are doubtful, without a look at samples.
+
+    Args:
+        run: The sensor in the whole recording.
+        found: Findings in its calibration intervals, as of `unreliable_intervals`.
+        by_model: As of `data_doubts`.
+
+    Yields:
+        The other sentences of `data_doubts`.
+    """
     if by_model:
         yield from _touched(run)
         if (sentence := possible_touch(run)) is not None:
             yield sentence
-    yield from added_to(experiment.recording)
-    yield from _found(run, by_model=by_model)
+    yield from added_to(run.experiment.recording)
+    yield from _found(run.experiment.recording.start_ns, found)
 
 
-def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
+def _found(start_ns: int, found: Sequence[tuple[Interval, Finding]]) -> Iterator[str]:
     """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
-    start_ns, sensors = run.experiment.recording.start_ns, (run.sensor.name,)
     alike: dict[str, list[str]] = {}
-    found = unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors, computed=run)
     for interval, finding in found:
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
         kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"

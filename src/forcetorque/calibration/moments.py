@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.contact_windows import agreeing_samples
+from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
 from forcetorque.calibration.model_error_derivatives import model_columns
 from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moment_blocks import in_blocks
+from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, VariableDescription
@@ -106,6 +108,7 @@ def agreeing_moments(
     *,
     variables: Sequence[LinearVariable],
     block_s: float | None = None,
+    around: Sequence[DataSet] | None = None,
 ) -> tuple[list[IntervalMoments], list[str]]:
     """Reduce intervals of a recording, without the samples that disagree with all others.
 
@@ -116,14 +119,23 @@ def agreeing_moments(
         intervals: Samples of its calibration intervals.
         variables: Linear variables that are fitted.
         block_s: As of `recording_moments`.
+        around: The same samples with those beside each interval, of parts that something may touch across their ends;
+            None for the intervals alone.
 
     Returns:
         What is kept of the intervals, and a sentence per span that was left out.
     """
     recording, data_sets = CampaignRecording.of(run), [interval.data_set for interval in intervals]
-    agree, spans = agreeing_samples(
-        data_sets, recording.sensor.prior, assumptions_of(recording), variables=variables, drift=recording.options.drift
+    compared = data_sets if around is None else around
+    of_compared, spans = agreeing_samples(
+        compared, recording.sensor.prior, assumptions_of(recording), variables=variables, drift=recording.options.drift
     )
+    if around is None:
+        agree = of_compared
+    else:
+        pairs = zip(data_sets, around, of_compared, strict=True)
+        agree = [np.isin(data.time_s, wider.time_s[marks]) for data, wider, marks in pairs]
+        spans = tuple(_within(data_sets, spans))
     kept: list[IntervalMoments] = []
     for interval, data, marks in zip(intervals, data_sets, agree, strict=True):
         if marks.any():
@@ -139,6 +151,15 @@ def agreeing_moments(
         "something touched the distal links; `inspect` shows contacts"
         for span in spans
     ]
+
+
+def _within(data_sets: Sequence[DataSet], spans: Sequence[Disagreeing]) -> Iterator[Disagreeing]:
+    """Spans cut at the first and last sample of their intervals."""
+    times = {data.label: data.time_s for data in data_sets}
+    for span in spans:
+        first_s, last_s = (float(times[span.label][place]) for place in (0, -1))
+        if span.start_s <= last_s and span.end_s >= first_s:
+            yield replace(span, start_s=max(span.start_s, first_s), end_s=min(span.end_s, last_s))
 
 
 def assumptions_of(recording: CampaignRecording) -> Assumptions:

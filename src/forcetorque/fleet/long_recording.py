@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -17,12 +18,12 @@ from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages
 from forcetorque.calibration.moments import agreeing_moments, moments_of
 from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.model_error import ErrorTerm
-from forcetorque.experiment.calibration.moments import Moments, pooled
+from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.provenance import Content
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
 from forcetorque.experiment.campaign import Campaign
-from forcetorque.experiment.campaign_intervals import CampaignRecording
+from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
@@ -37,6 +38,10 @@ SEGMENT_S: Final = 1800.0
 """Length of a segment: long against what is done once in each, and small in memory; s."""
 _LEAST_MARGIN_S, _WINDOWS = 10.0, 4.0
 """Samples around a segment: at least these seconds, and so many of the longest windows of filters."""
+
+_BESIDE_NS: Final = 2 * 10**9
+"""Samples beside a part of an interval by which it is told which agree: two windows; ns."""
+_GOES_ON: Final = " (in one segment; it goes on in the next)"
 
 
 def recorded_segments(experiment: Experiment, *, length_s: float = SEGMENT_S) -> list[Segment]:
@@ -76,29 +81,47 @@ def joined_findings(segments: Sequence[Segment], findings: Sequence[Iterable[Fin
         findings: What was found in each, with the samples around it.
 
     Returns:
-        Every finding once, in the order of time: one that goes on in the next segment has its length in both, one
-        without a time is that of the first segment with it.
+        Every finding once, in the order of time. One at a border is that of the segment that has all of it; where none
+        has, it says so, with its length and the number of samples in all. One without a time is that of the first
+        segment with it.
     """
     timed: list[Finding] = []
     untimed: dict[tuple[object, ...], list[Finding]] = {}
     for segment, own in zip(segments, findings, strict=True):
-        before = {_key(one): k for k, one in enumerate(timed)}
+        # the last of every kind before this segment
+        before = {_key(timed[k]): k for k in sorted(range(len(timed)), key=lambda k: timed[k].end_ns or 0)}
         numbers: Counter[tuple[object, ...]] = Counter()
         for one in own:
             key = _key(one)
             if one.start_ns is None or one.end_ns is None:
                 untimed.setdefault((*key, numbers[key]), []).append(one)
                 numbers[key] += 1
-            elif segment.holds(one.start_ns) or one.start_ns < segments[0].start_ns:
-                timed.append(one)
-            elif one.end_ns >= segment.start_ns > one.start_ns and (place := before.get(key)) is not None:
-                timed[place] = replace(timed[place], end_ns=max(timed[place].end_ns or 0, one.end_ns))
+            elif (one.start_ns < segment.end_ns or segment is segments[-1]) and (
+                one.end_ns >= segment.start_ns or segment is segments[0]
+            ):
+                place = before.get(key)
+                if place is None or (timed[place].end_ns or 0) <= one.start_ns:
+                    timed.append(one)
+                else:
+                    timed[place] = _continued(timed[place], one)
     kept = [
         replace(group[0], message=f"{group[0].message}{_share(len(group), len(segments))}")
         for group in untimed.values()
         if group[0].kind != "not_compared" or len(group) == len(segments)
     ]
     return tuple(sorted([*kept, *timed], key=lambda finding: finding.start_ns or 0))
+
+
+def _continued(first: Finding, second: Finding) -> Finding:
+    """One event that two segments see, the second more of its end."""
+    first_start, first_end, start, end = (stamp or 0 for one in (first, second) for stamp in (one.start_ns, one.end_ns))
+    if end <= first_end:
+        return first
+    if start <= first_start:
+        return second
+    part = (end - first_end) / (end - start)
+    message = first.message if first.message.endswith(_GOES_ON) else f"{first.message}{_GOES_ON}"
+    return replace(first, message=message, count=first.count + round(part * second.count), end_ns=end)
 
 
 def _key(finding: Finding) -> tuple[object, ...]:
@@ -127,7 +150,8 @@ class SegmentedSensor:
         self._pooled: list[Moments] = []
         self._doubts: list[dict[str, str]] = []
         self._left_out: list[str] = []
-        self._errors: list[RecordingError] = []
+        self._errors: dict[str, RecordingError] = {}  # the first of every interval
+        self._fitted: set[str] = set()
         self._evaluated: dict[str, _Evaluated] = {}
         self._names = evaluated_variables(run)
 
@@ -138,6 +162,7 @@ class SegmentedSensor:
             run: The sensor in the segment.
         """
         fitted = list(self._parts(run, Use.CALIBRATION, [variable.name for variable in self._variables]))
+        self._fitted |= {part.interval.label for part in fitted}
         if fitted:
             self._add_moments(run, fitted)
         for part in self._parts(run, Use.VALIDATION, self._names):
@@ -152,7 +177,7 @@ class SegmentedSensor:
             try:
                 yield run.interval_samples(interval, variables=variables)
             except RecordingError as error:
-                self._errors.append(error)
+                self._errors.setdefault(interval.label, error)
 
     def _add_moments(self, run: SensorRun, parts: Sequence[IntervalSamples]) -> None:
         campaign = Campaign.of(run)
@@ -163,13 +188,33 @@ class SegmentedSensor:
             doubts = examine(data, run.sensor.prior, run.sensor.full_scale)
             turned = {f"mount {k}": text for k, text in enumerate(mount_doubts(campaign, intervals))}
             self._doubts.append({doubt.kind: doubt.message for doubt in doubts} | turned)
-        kept, left_out = agreeing_moments(run, intervals, variables=self._variables, block_s=self._block_s)
+        around = [self._with_surroundings(run, interval) for interval in intervals]
+        kept, left_out = agreeing_moments(
+            run, intervals, variables=self._variables, block_s=self._block_s, around=around
+        )
         self._left_out += left_out
         for block in kept:
             own = self._moments.setdefault(block.interval.label, [])
             own.append((block.model_copy(update={"model": None}), len(self._models)))
             if block.model is not None:
                 self._models.append(block.model.ravel())
+
+    def _with_surroundings(self, run: SensorRun, interval: CampaignInterval) -> DataSet:
+        """Samples of a part of an interval, and those of the same interval beside the part."""
+        part, data = interval.part.interval, interval.data_set
+        (whole,) = (one for one in self._run.intervals(Use.CALIBRATION) if one.label == part.label)
+        starts = max(whole.start_ns, part.start_ns - _BESIDE_NS), part.start_ns, part.end_ns
+        ends = part.start_ns, part.end_ns, min(whole.end_ns, part.end_ns + _BESIDE_NS)
+        pieces = []
+        for start_ns, end_ns in zip(starts, ends, strict=True):
+            if (start_ns, end_ns) == (part.start_ns, part.end_ns):
+                pieces.append(data)
+            elif start_ns < end_ns:
+                beside = replace(part, start_ns=start_ns, end_ns=end_ns)
+                with suppress(RecordingError):  # no sample beside it
+                    names = [variable.name for variable in self._variables]
+                    pieces.append(run.interval_samples(beside, variables=names).data_set)
+        return _concatenated(data, pieces)
 
     def moments(self) -> RecordingMoments | None:
         """Put together what a calibration needs.
@@ -178,18 +223,15 @@ class SegmentedSensor:
             The moments of the recording; None without a calibration interval.
 
         Raises:
-            RecordingError: If no sample of the calibration intervals can be used.
+            RecordingError: If an interval has no sample that can be used.
         """
         run = self._run
         if not run.has(Use.CALIBRATION):
             return None
+        self._require_samples(Use.CALIBRATION, self._fitted)
         if not self._moments:
-            raise (
-                self._errors[0]
-                if self._errors
-                else RecordingError(
-                    f"sensor {run.sensor.name!r}: expected samples that agree in a calibration interval, got none"
-                )
+            raise RecordingError(
+                f"sensor {run.sensor.name!r}: expected samples that agree in a calibration interval, got none"
             )
         require_moving_load(pooled(self._pooled))
         recording, models = CampaignRecording.of(run), self._models.mapped()
@@ -215,15 +257,24 @@ class SegmentedSensor:
         """
         if not self._run.has(Use.VALIDATION):
             return None
-        intervals = self._run.intervals(Use.VALIDATION)
-        for interval in intervals:
-            if interval.label not in self._evaluated:
-                raise (
-                    self._errors[0]
-                    if self._errors
-                    else RecordingError(f"interval {interval.label!r}: expected samples to evaluate, got none")
-                )
-        return [self._evaluated[one.label].samples(one) for one in intervals]
+        self._require_samples(Use.VALIDATION, self._evaluated)
+        return [self._evaluated[one.label].samples(one) for one in self._run.intervals(Use.VALIDATION)]
+
+    def _require_samples(self, use: Use, seen: Collection[str]) -> None:
+        """Refuse intervals without a sample in any segment, as in a recording that is reduced as a whole."""
+        for interval in self._run.intervals(use):
+            if (label := interval.label) not in seen:
+                raise self._errors.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")
+
+
+def _concatenated(data: DataSet, pieces: Sequence[DataSet]) -> DataSet:
+    """Data with the samples of pieces one after the other."""
+    columns: dict[str, Any] = {
+        name: np.concatenate([getattr(piece, name) for piece in pieces])
+        for name in ("raw", "reference", "variables", "time_s", "flattening")
+        if getattr(data, name) is not None
+    }
+    return replace(data, **columns)
 
 
 def _moves(moments: Moments) -> bool:

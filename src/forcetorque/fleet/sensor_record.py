@@ -18,7 +18,7 @@ from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.calibration.calibrate import data_doubts
+from forcetorque.calibration.calibrate import data_doubts, doubts_of_intervals, doubts_of_samples
 from forcetorque.calibration.moments import recording_moments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
@@ -29,7 +29,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.long_recording import SegmentedSensor, forget_recording, joined_findings, recorded_segments
-from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.inspection.findings import inspect_experiment, unreliable_among
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
 
@@ -170,23 +170,28 @@ def sensor_records(
     sensors = [SegmentedSensor(run, block_s=options.block_s) for run in runs]
     findings: list[Sequence[Finding]] = []
     warnings: list[dict[str, None]] = [{} for _ in runs]
+    of_fits: list[list[Sequence[Finding]]] = [[] for _ in runs]
     left = TimeLeft(progress, f"adding {experiment.name}", len(segments) * len(runs))
     for number, segment in enumerate(segments):
         part, found_in = replace(experiment, recording=segment.recording), []
-        for place, (run, sensor, said) in enumerate(zip(runs, sensors, warnings, strict=True)):
+        for place, (run, sensor, said, of_fit) in enumerate(zip(runs, sensors, warnings, of_fits, strict=True)):
             own = SensorRun(part, run.sensor)
             sensor.add(own)
             found_in.append(_findings(own))
+            of_fit.append(_findings_of_fit(own) if run.has(Use.CALIBRATION) else ())
             if own.has(Use.CALIBRATION):
-                said |= dict.fromkeys(data_doubts(own))
+                said |= dict.fromkeys(doubts_of_samples(own))
             left.at(number * len(runs) + place + 1)
         findings.append(_joined(found_in))
         forget_recording(experiment)
     found_in_all = joined_findings(segments, findings)
-    for run, said in zip(runs, warnings, strict=True):
+    for run, said, of_fit in zip(runs, warnings, of_fits, strict=True):
         sensor = sensors.pop(0)  # what is kept of it is let go with its record
         evaluated = sensor.evaluated()
         evaluation = None if evaluated is None else StoredEvaluation.of(run, evaluated)
+        if run.has(Use.CALIBRATION):
+            among = unreliable_among(joined_findings(segments, of_fit), run.experiment, Use.CALIBRATION)
+            said |= dict.fromkeys(doubts_of_intervals(run, among))
         whole = _Reduced(moments=sensor.moments(), evaluation=evaluation, warnings=tuple(said), findings=())
         yield _record(run, found_in_all, whole, code_version)
 
@@ -215,6 +220,11 @@ def _findings(run: SensorRun) -> list[Finding]:
     others = {sensor.stream for sensor in experiment.sensors} - {run.sensor.stream}
     found = inspect_experiment(experiment, sensors=[run.sensor.name], computed=run)
     return [finding for finding in found if finding.stream not in others]
+
+
+def _findings_of_fit(run: SensorRun) -> Sequence[Finding]:
+    """The findings of which `data_doubts` warns; a fit checks the causes by itself."""
+    return inspect_experiment(run.experiment, with_causes=False, sensors=[run.sensor.name], computed=run)
 
 
 def _joined(findings: Sequence[Iterable[Finding]]) -> list[Finding]:

@@ -131,6 +131,22 @@ def unreliable_intervals(
     """
     # a fit checks the causes by itself
     found = inspect_experiment(experiment, by_model=by_model, with_causes=False, sensors=sensors, computed=computed)
+    return unreliable_among(found, experiment, use)
+
+
+def unreliable_among(
+    found: Sequence[Finding], experiment: Experiment, use: Use
+) -> tuple[tuple[Interval, Finding], ...]:
+    """Select findings inside the intervals of one use.
+
+    Args:
+        found: Findings of `inspect_experiment`.
+        experiment: The experiment, with its intervals.
+        use: Use of the intervals.
+
+    Returns:
+        Interval and finding, for findings that make its samples unreliable.
+    """
     findings = [finding for finding in found if finding.kind in _UNRELIABLE]
     return tuple(
         (interval, finding)

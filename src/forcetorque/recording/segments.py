@@ -34,17 +34,6 @@ class Segment:
     recording: Recording
     """Its samples with those around it; intervals are the parts of intervals that lie in it, by the same labels."""
 
-    def holds(self, stamp_ns: int) -> bool:
-        """Tell whether an instant lies in the segment.
-
-        Args:
-            stamp_ns: The instant; ns.
-
-        Returns:
-            Whether it does.
-        """
-        return self.start_ns <= stamp_ns < self.end_ns
-
 
 def segments_of(recording: Recording, *, length_s: float, margin_s: float) -> list[Segment]:
     """Divide a recording.
