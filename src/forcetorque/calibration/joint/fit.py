@@ -27,7 +27,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.slow_noise import CANDIDATES, Timeline
+from forcetorque.base.noise.slow_noise import CANDIDATES
 from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer
 from forcetorque.calibration.generative.whitening import Border, Whitened
 from forcetorque.calibration.joint.sensor_prior import EVEN, SensorPrior
@@ -170,23 +170,17 @@ class _Unknowns:
 def _rows(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> list[tuple[RowData, IntArray]]:
     """The rows of one part in one interval, with the places of their unknowns."""
     basis, own = unknowns.of_part(windows)
-    deviations = {term.name: term.deviation for term in unknowns.places.terms}
-    expected, right = windows.expected_changes, windows.right
-    if about is not None:
-        known = np.concatenate([about.mean[about.places.changes(name)] for name in windows.sensors])
-        right = right - (windows.changes - expected) @ known
-    errors = windows.errors * np.array([deviations[name] for name in windows.terms])
-    columns = np.concatenate([expected, windows.offsets, errors], axis=2)
-    line = Timeline.of(windows.time_s, share=np.full(len(windows), 1.0 / _REPEATS))
+    products = _products(windows, unknowns.places.terms, about)
+    offsets = np.arange(len(basis) - LOADS * len(windows.sensors), len(basis))
     return [
         (
             RowData(
-                data=[_whitened(line, np.c_[columns[:, row], right[:, row]])],
+                data=[_whitened(products[row], len(windows))],
                 basis=basis,
                 terms=np.arange(len(windows.terms)),
                 accuracy=0.0,
                 freedom=max(round(len(windows) / _REPEATS), 1),
-                start=_unexplained(windows.offsets[:, row], right[:, row]),
+                start=_unexplained(products[row], offsets),
                 least=_LEAST**2,
             ),
             own,
@@ -195,22 +189,37 @@ def _rows(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> 
     ]
 
 
-def _unexplained(columns: FloatArray, response: FloatArray) -> float:
+def _products(windows: PartWindows, terms: Sequence[ErrorTerm], about: JointFit | None) -> FloatArray:
+    """Products of the columns of every row, the right side last, each window counted for its share of one; by block."""
+    deviations = {term.name: term.deviation for term in terms}
+    size = np.array([deviations[name] for name in windows.terms])
+    total: FloatArray | float = 0.0
+    for block in windows.blocks():
+        expected, right = block.expected_changes, block.right
+        if about is not None:
+            known = np.concatenate([about.mean[about.places.changes(name)] for name in windows.sensors])
+            right = right - (block.changes - expected) @ known
+        stacked = np.concatenate([expected, block.offsets, block.errors * size, right[:, :, None]], axis=2)
+        by_row = stacked.transpose(1, 2, 0)
+        total = total + by_row @ by_row.transpose(0, 2, 1)
+    return np.asarray(total, dtype=np.float64) / _REPEATS
+
+
+def _unexplained(products: FloatArray, columns: IntArray) -> float:
     """Share of a response that columns do not explain."""
-    left = response - columns @ np.linalg.lstsq(columns, response, rcond=None)[0]
-    total = float(response @ response)
-    return float(left @ left) / total if total else 1.0
+    total, shared = float(products[-1, -1]), products[columns, -1]
+    explained = float(shared @ np.linalg.pinv(products[np.ix_(columns, columns)], hermitian=True) @ shared)
+    return max(1.0 - explained / total, 0.0) if total else 1.0
 
 
-def _whitened(line: Timeline, stacked: FloatArray) -> Whitened:
+def _whitened(products: FloatArray, count: int) -> Whitened:
     """Products of columns, the response last, under white noise."""
-    product, log_determinant = line.product(stacked, _WHITE)
     return Whitened(
         noise=_WHITE,
-        log_determinant=log_determinant,
-        columns=product[:-1, :-1],
-        shared=product[:-1, -1],
-        response=float(product[-1, -1]),
+        log_determinant=count * float(np.log(_REPEATS)),
+        columns=products[:-1, :-1],
+        shared=products[:-1, -1],
+        response=float(products[-1, -1]),
         free=np.zeros((0, 0)),
         border=_NO_CELLS,
     )
