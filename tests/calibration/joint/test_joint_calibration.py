@@ -214,7 +214,7 @@ def test_parts_of_another_day_are_closed_by_the_calibrations(stance: Path) -> No
     (leg,) = (
         SubModelRow.of(one)
         for one in part_residuals(load_experiment(stance / "sway_day2.toml"), swapped, Use.VALIDATION)
-        if one.sub_model == "l_leg_ft"
+        if one.part == "l_leg_ft"
     )
     assert leg.force_after_N > 0.5 * leg.force_before_N
 

@@ -22,10 +22,12 @@ from forcetorque.results.table import Row, Shown, Table, table_of
 
 _GAIN_PERCENT = 3.0
 """Error of a gain from which it counts as not determined: as large as that of the masses that tell it."""
+_SMALL_GAIN_PERCENT = 1.0
+"""Error of a gain up to which it need not be told by the recordings."""
 _OFFSET_SHARE, _OFFSET_N = 0.1, 5.0
 """Error of the load itself from which an offset counts as not determined: a share of the load, and the least of it."""
 _KNOWN = 0.5
-"""Share of the uncertainty before below which an error of the model counts as told by the recordings."""
+"""Share of the uncertainty before below which a gain or an error of the model counts as told by the recordings."""
 _FAR = 3.0
 """Standard deviations from which an error of the model is a finding: by chance one in 400 is as far."""
 _TOLD = 0.2
@@ -54,7 +56,9 @@ class SensorErrorRow(Row):
     @property
     def gain_known(self) -> bool:
         """Whether it is known what the sensor makes of the weight that it bears."""
-        return self.gain_error_after_percent < _GAIN_PERCENT
+        after = self.gain_error_after_percent
+        told = after < max(_KNOWN * self.gain_error_before_percent, _SMALL_GAIN_PERCENT)
+        return told and after < _GAIN_PERCENT
 
     @property
     def offset_known(self) -> bool:
@@ -185,6 +189,11 @@ class ModelErrorRow(Row):
         )  # variance of what is found, if the tolerance is right
         return found_variance > _TOLD * self.prior_deviation**2 and self.value**2 > _FAR**2 * found_variance
 
+    @property
+    def is_wide(self) -> bool:
+        """Whether evidence finds errors of its kind so large that even what the recordings leave is far above it."""
+        return self.deviation > _FAR * self.prior_deviation
+
     @classmethod
     def of(cls, term: ErrorTerm, value: float, deviation: float) -> Self:
         """Hold an error of the model.
@@ -300,6 +309,7 @@ class JointOutcome(Row):
         """
         yield from _open_loads(self.sensors)
         yield from _far_errors(self.model_errors)
+        yield from _wide_errors(self.model_errors, [row.root_link for row in self.sub_models])
         for interval, rows in groupby(self.sub_models, key=lambda row: row.interval):
             yield from _disagreeing(interval, [row for row in rows if row.mass_kg > _LIGHT_KG])
 
@@ -310,6 +320,7 @@ def _open_loads(sensors: Sequence[SensorErrorRow]) -> Iterator[str]:
         "with all joints of torso and arms logged, or stand on one foot"
     )
     if unknown := [row for row in sensors if not row.gain_known]:
+        unknown.sort(key=lambda row: row.gain_error_after_percent < _GAIN_PERCENT)  # those beyond the limit first
         words = ", ".join(f"{row.sensor} (± {row.gain_error_after_percent:.1f} %)" for row in unknown)
         yield f"stance gain not determined: {words} of the weight that they bear, mostly by their priors; {advice}"
     if unknown := [row for row in sensors if not row.offset_known]:
@@ -327,6 +338,25 @@ def _far_errors(errors: Sequence[ModelErrorRow]) -> Iterator[str]:
             )
 
 
+def _wide_errors(errors: Sequence[ModelErrorRow], roots: Sequence[str]) -> Iterator[str]:
+    wide = sorted((row for row in errors if row.is_wide), key=lambda row: row.prior_deviation / row.deviation)
+    if wide:
+        worst = wide[0]
+        others = f", and of {len(wide) - 1} more numbers" if len(wide) > 1 else ""
+        yield (
+            f"errors of the robot model are found far above their tolerances: {worst.name} "
+            f"{worst.deviation / worst.prior_deviation:.0f} times{others}. "
+            f"The model, or the motion, is not that of the robot. {_imu_question(roots)}"
+        )
+
+
+def _imu_question(roots: Sequence[str]) -> str:
+    links = " and ".join(dict.fromkeys(roots))
+    return (
+        f"Gravity and motion come from {links}: is the IMU on that link, with those axes, or does it stand still there?"
+    )
+
+
 def _disagreeing(interval: str, rows: Sequence[SubModelRow]) -> Iterator[str]:
     far = [row for row in rows if row.share_of_weight > _DOUBTFUL_SHARE]
     if not far:
@@ -334,8 +364,8 @@ def _disagreeing(interval: str, rows: Sequence[SubModelRow]) -> Iterator[str]:
     words = ", ".join(f"{row.sub_model} ({row.force_after_N:.1f} N of {row.weight_N:.0f} N)" for row in far)
     if 2 * len(far) > len(rows) > 1:
         yield (
-            f"interval {interval!r}: forces of most parts do not agree with their motion: {words}. Gravity and motion "
-            f"come from {rows[0].root_link}: is the IMU on that link, with those axes, or does it stand still there?"
+            f"interval {interval!r}: forces of most parts do not agree with their motion: {words}. "
+            f"{_imu_question([rows[0].root_link])}"
         )
     else:
         yield (
