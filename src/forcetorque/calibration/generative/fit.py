@@ -25,15 +25,15 @@ from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 
 
-def frame_changes() -> FloatArray:
-    """Give what rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
+def _frame_changes() -> FloatArray:
     skew = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)
     changes = np.zeros((LOADS, LOADS, LOADS))
     changes[:3, :3, :3] = changes[:3, 3:, 3:] = changes[3:, 3:, :3] = skew
     return changes
 
 
-_FRAME_CHANGES: Final = frame_changes()
+FRAME_CHANGES: Final = _frame_changes()
+"""What rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -593,7 +593,7 @@ def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variable
         basis[:LOADS, layout.reference] = rows.frame_root[row]
         return basis
     basis[:LOADS, layout.gains] = (rows.from_raw[row][:, None] * np.linalg.pinv(matrix)).T
-    moved = np.einsum("c,kcd->dk", rows.from_load[row], _FRAME_CHANGES)
+    moved = np.einsum("c,kcd->dk", rows.from_load[row], FRAME_CHANGES)
     basis[:LOADS, layout.rotation], basis[:LOADS, layout.shift] = moved[:, :3], moved[:, 3:]
     return basis
 

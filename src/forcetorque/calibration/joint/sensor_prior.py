@@ -9,7 +9,7 @@ from typing import Final, Self
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, require_shape
-from forcetorque.calibration.generative.fit import frame_changes
+from forcetorque.calibration.generative.fit import FRAME_CHANGES
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS
 from forcetorque.experiment.calibration.assumptions import (
     COEFFICIENTS,
@@ -54,7 +54,7 @@ class SensorPrior:
         for row in range(LOADS):
             coefficients[row, :, LOADS * row : LOADS * (row + 1)] = size[row] * sensor_root(response)
         gains = np.einsum("kc,cd->kdc", scaled, response)
-        moved = frame_changes().transpose(1, 2, 0)
+        moved = FRAME_CHANGES.transpose(1, 2, 0)
         basis = np.concatenate([coefficients, gains, moved], axis=2) * UNITS[:, None] / UNITS[:, None, None]
         return cls(
             basis=basis.reshape(CHANGES, -1),

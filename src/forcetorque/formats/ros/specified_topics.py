@@ -69,13 +69,16 @@ class RosLog(LogTable):
     """What is read."""
 
 
-def read_specified(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> StreamReading:
+def read_specified(
+    bag: Bag, entry: RosStream, joint_units: Mapping[str, str], *, tree: FrameTree | None = None
+) -> StreamReading:
     """Read what is specified of a topic.
 
     Args:
         bag: The bag.
         entry: Topic, name and frames.
         joint_units: Unit of joints, rad or m; rad where a joint is missing.
+        tree: Frames of the bag for this topic; None to read them where they are needed.
 
     Returns:
         The stream, and findings.
@@ -92,10 +95,10 @@ def read_specified(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -
     place = f"{bag.path}: {entry.topic}"
     frame, world = entry.frame, entry.world
     if kind == WRENCH_TYPE and world is not None:
-        return _posed_wrench(bag, entry, world, place)
+        return _posed_wrench(bag, entry, world, place, tree)
     layout = _layout(place, kind, entry)
     if layout is not None and frame is not None and world is not None and kind in (JOINT_TYPE, *TRANSFORM_TYPES):
-        tree = _tree(bag, entry.topic, kind, frame, world)
+        tree = _tree(bag, entry.topic, kind, frame, world) if tree is None else tree
         if tree is not None:
             stamps, signals, findings = pose_signals(tree, layout, name=entry.name, frame=frame, world=world)
             return StreamReading(Stream(name=entry.name, clock=CLOCK, stamp_ns=stamps, signals=signals), findings)
@@ -114,14 +117,14 @@ def _tree(bag: Bag, topic: str, kind: str, frame: str, world: str) -> FrameTree 
     return tree if tree.is_below(frame, world) else None
 
 
-def _posed_wrench(bag: Bag, entry: RosStream, world: str, place: str) -> StreamReading:
+def _posed_wrench(bag: Bag, entry: RosStream, world: str, place: str, tree: FrameTree | None) -> StreamReading:
     """Wrenches, with the pose of their frame at their instants."""
     if entry.frame is None:
         raise FormatError(f"{place}: expected frame beside world, the frame of tf along whose axes the wrenches are")
     wrench = topic_stream(bag, entry.topic, name=entry.name, frame=entry.frame, world=None, joint_units={})
     stream = wrench.stream
     _, signals, findings = pose_signals(
-        read_frame_tree(bag, entry.topic),
+        read_frame_tree(bag, entry.topic) if tree is None else tree,
         _layout_of_pose(place, entry),
         name=entry.name,
         frame=entry.frame,

@@ -102,7 +102,7 @@ def _described(bag: Bag, given: WristTable, topic: str, frame: str, world: str, 
     gravity = RosOrientation(gravity_direction=given.gravity_direction, gravity=given.gravity) if turned else None
     # the frame is left to the name of the sensor, as of any topic
     entry = RosStream(name=topic, topic=topic, world=world, orientation=gravity)
-    reading = read_specified(bag, entry.model_copy(update={"frame": frame}), {})
+    reading = read_specified(bag, entry.model_copy(update={"frame": frame}), {}, tree=tree)
     stream = reading.stream
     turn, place = (stream.signal(quantity).values for quantity in ("orientation", "translation"))
     moving = motions(stream.stamp_ns, turn.reshape(-1, 3, 3), place)
