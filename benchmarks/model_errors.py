@@ -353,15 +353,28 @@ def _line(label: str, cases: Sequence[Case]) -> Iterator[str]:
     )  # fmt: skip
 
 
-def main() -> None:
-    """Measure all cases, print the table and write every case."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+def case_arguments(description: str) -> argparse.ArgumentParser:
+    """Begin the arguments of a benchmark over simulated cases.
+
+    Args:
+        description: What the benchmark measures, in its first line.
+
+    Returns:
+        A parser of seeds, families, limbs, motions and number of processes.
+    """
+    parser = argparse.ArgumentParser(description=description.partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=1, help="how many")
     parser.add_argument("--first-seed", type=int, default=1)
     parser.add_argument("--families", nargs="+", choices=FAMILIES, default=list(FAMILIES), metavar="FAMILY")
     parser.add_argument("--limbs", nargs="+", choices=LIMBS, default=LIMBS)
     parser.add_argument("--motions", nargs="+", choices=MOTIONS, default=list(MOTIONS))
     parser.add_argument("--processes", type=int, default=2, help="set OMP_NUM_THREADS=1 beside it")
+    return parser
+
+
+def main() -> None:
+    """Measure all cases, print the table and write every case."""
+    parser = case_arguments(__doc__ or "")
     parser.add_argument("--exact", action="store_true", help="state no tolerance: the robot model is taken as exact")
     parser.add_argument("--quick", action="store_true", help="one seed, one limb, the motion grid")
     parser.add_argument("--json", type=Path, help="file for every case")

@@ -23,7 +23,6 @@ cases share the calibration, so verdicts are not independent; a bootstrap over s
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -38,9 +37,9 @@ import numpy as np
 from benchmarks.harness import write_cases
 from benchmarks.model_errors import (
     FAMILIES,
-    LIMBS,
     MOTIONS,
     Robot,
+    case_arguments,
     powered_up,
     sensor_runs,
     specimen,
@@ -274,13 +273,7 @@ def bootstrap_interval(found: Sequence[Outcome], figure: Figure) -> FloatArray:
 
 def main() -> None:
     """Measure all verdicts, print the table and write every verdict."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--seeds", type=int, default=1, help="how many")
-    parser.add_argument("--first-seed", type=int, default=1)
-    parser.add_argument("--families", nargs="+", choices=FAMILIES, default=list(FAMILIES), metavar="FAMILY")
-    parser.add_argument("--limbs", nargs="+", choices=LIMBS, default=LIMBS)
-    parser.add_argument("--motions", nargs="+", choices=MOTIONS, default=list(MOTIONS))
-    parser.add_argument("--processes", type=int, default=2, help="set OMP_NUM_THREADS=1 beside it")
+    parser = case_arguments(__doc__ or "")
     parser.add_argument("--json", type=Path, help="file for every verdict")
     options = parser.parse_args()
     robots = dict.fromkeys(FAMILIES[family].robot for family in options.families)
