@@ -326,18 +326,37 @@ def test_recordings_that_say_different_things_of_one_tool_are_refused(
         weigh_load([_run(arm[0] / "weight.toml"), _run(other)])
 
 
+EXACT = "[robot]\ntolerance = " + (
+    "{ mass_relative = 0, centre_m = 0, joint_zero_deg = 0, tilt_deg = 0, delay_s = 0, mount_deg = 0, mount_m = 0 }\n"
+)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("tools", "weighed", "worse"),
-    [(("gripper",), (), (5, 5)), (("gripper", "weight"), (), (0, 1)), (("gripper", "weight"), ("weight",), (0, 0))],
+    ("tools", "weighed", "robot", "worse", "most"),
+    [
+        (("gripper",), (), EXACT, (5, 5), 1.25),
+        (("gripper",), (), "[robot]\n", (5, 10), 1.15),
+        (("gripper", "weight"), (), "[robot]\n", (0, 1), 1.05),
+        (("gripper", "weight"), ("weight",), "[robot]\n", (0, 0), 1.0),
+    ],
+    ids=["exact robot", "one tool", "two tools", "one of two weighed"],
 )
 def test_pushes_are_read_better_on_many_sensors(
-    example: SimpleNamespace, tmp_path: Path, tools: tuple[str, ...], weighed: tuple[str, ...], worse: tuple[int, int]
+    example: SimpleNamespace,
+    tmp_path: Path,
+    tools: tuple[str, ...],
+    weighed: tuple[str, ...],
+    robot: str,
+    worse: tuple[int, int],
+    most: float,
 ) -> None:
     """Of forty sensors force and moment of few are read worse than by the maker's matrix, after one tool too.
 
-    That nobody weighed it: of a rate of one in twenty, which was measured, six of forty or more in 1 of 70 runs; of one
-    in four, as while the tool was taken for a point, five or fewer in 1 of 25.
+    That nobody weighed it, on a robot stated as exact: of a rate of one in twenty, which was measured, six of forty or
+    more in 1 of 70 runs; of one in four, as while the tool was taken for a point, five or fewer in 1 of 25. Where the
+    robot may be wrong more moments stay as they were, within 5 %: eleven of forty or more of a rate of three in twenty
+    in 1 of 35 runs, ten or fewer of one in two in 1 of 900.
     """
     ratios = []
     for seed in range(5000, 5040):
@@ -348,11 +367,15 @@ def test_pushes_are_read_better_on_many_sensors(
             weighed=weighed,
             tools={tool: TRUTH[tool] for tool in tools},
         )
+        for tool in tools:
+            file = tmp_path / str(seed) / f"{tool}.toml"
+            file.write_text(file.read_text(encoding="utf-8").replace("[robot]\n", robot), encoding="utf-8")
         inverse = np.linalg.inv(truth)
         matrix = example.calibrated(tmp_path / str(seed), tools)
         ratios.append(np.divide(example.push_errors(matrix @ inverse), example.push_errors(inverse)))
     ratio = np.array(ratios)
     assert ((ratio >= 1.0).sum(axis=0) <= worse).all(), (ratio >= 1.0).sum(axis=0)
+    assert ratio.max() < most
     assert (ratio.mean(axis=0) < (0.9 if len(tools) == 1 else 0.6)).all(), ratio.mean(axis=0)
 
 
