@@ -46,6 +46,7 @@ CAPABILITIES = (
     "plates",
     "device",
     "locomotion",
+    "collisions",
     "skin",
     "simulation",
     "study",

@@ -75,6 +75,7 @@ COMMANDS = _of_experiments() | {
     "robot balance": ("robot", "balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
     "robot coherence": ("robot", "coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
+    "robot collisions": ("robot", "collisions", PARQUET, "--free", "fit"),
     "study compare": ("study", "compare", PARQUET, "-c", "fitted.json"),
     "dataset check": ("dataset", "check", "learning/frames", "--sense", "sensor_to_world"),
     "bench device": ("bench", "device"),

@@ -47,8 +47,8 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
         },
     ),
     "robot": (
-        "Examine a whole robot: feet, net force, motion, torque loops.",
-        {name: name for name in ("balance", "coherence", "motion", "torque-loop")},
+        "Examine a whole robot: feet, net force, collisions, motion, torque loops.",
+        {name: name for name in ("balance", "coherence", "collisions", "motion", "torque-loop")},
     ),
     "dataset": (
         "Examine and compensate the forces of datasets for learning.",

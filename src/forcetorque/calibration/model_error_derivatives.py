@@ -180,7 +180,34 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
         or where a load stands in for the robot.
     """
     picked, window = _picked(data)
-    nothing = ModelColumns(terms=(), columns=np.zeros((int(window[-1]) + 1, 6, 0)))
+    at_ns = np.round(data.time_s[picked] * 1e9).astype(np.int64)
+    terms, columns = derivatives_at(run, interval, data.recording, at_ns, _rates(data)[picked])
+    means = _means(columns, window[picked], int(window[-1]) + 1)
+    effect = np.abs(means).max(axis=(0, 1)) * [term.deviation for term in terms]
+    moved = effect > _ROUNDING * effect.max(initial=0.0)
+    return ModelColumns(
+        terms=tuple(term for term, used in zip(terms, moved, strict=True) if used),
+        columns=means[:, :, moved],
+    )
+
+
+def derivatives_at(
+    run: SensorRun, interval: Interval, recording: str, at_ns: IntArray, rates: FloatArray
+) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
+    """Differentiate the expected wrench of a sensor at instants by what the robot model may have wrong.
+
+    Args:
+        run: The sensor.
+        interval: An interval of it.
+        recording: Name of the recording, as `UncertainPart.terms_in` takes it.
+        at_ns: Instants; shape (n,); ns.
+        rates: Rates of change of the expected wrench at these; shape (n, 6); N/s, N m/s.
+
+    Returns:
+        The numbers, and derivatives by them; shape (n, 6, terms); N, N m per unit of the term; NaN in gaps. No terms in
+        the cases that `model_columns` names.
+    """
+    nothing = ((), np.zeros((len(at_ns), 6, 0)))
     experiment, support, loads = run.experiment, interval.support, run.experiment.loads
     tolerance = experiment.fit_options.tolerance
     of_load = loads is not None and (loads.applied is not None or loads.in_place_of_robot)
@@ -193,7 +220,7 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
         return nothing
     if not _measured_at_root(run, support, tree):
         uncertain = uncertain.without(TermKind.ACCELERATION)
-    terms = uncertain.terms_in(data.recording)
+    terms = uncertain.terms_in(recording)
     if not terms:
         return nothing
     joints, root = robot_motion_at(
@@ -202,17 +229,10 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
         support,
         uncertain.joints,
         run.stream,
-        np.round(data.time_s[picked] * 1e9).astype(np.int64),
+        at_ns,
         processing=experiment.processing,
     )
-    columns = uncertain.derivatives(joints, root, _rates(data)[picked])
-    means = _means(columns, window[picked], len(nothing.columns))
-    effect = np.abs(means).max(axis=(0, 1)) * [term.deviation for term in terms]
-    moved = effect > _ROUNDING * effect.max(initial=0.0)
-    return ModelColumns(
-        terms=tuple(term for term, used in zip(terms, moved, strict=True) if used),
-        columns=means[:, :, moved],
-    )
+    return terms, uncertain.derivatives(joints, root, rates)
 
 
 def _measured_at_root(run: SensorRun, support: Support | MovingSupport, tree: BodyTree) -> bool:

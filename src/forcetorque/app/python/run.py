@@ -12,6 +12,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.labelled_arrays import wrench_array, xarray_dataset
 from forcetorque.base.lazy import LazyMethod
+from forcetorque.collisions import command as _collisions
 from forcetorque.evaluation import commands as _evaluation
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -126,6 +127,7 @@ class Run(SensorRun):
     validate = _evaluation.validate
     accept = _evaluation.accept
     gains = _gains.gains
+    collisions = _collisions.collisions
     thermal = _temperature.thermal
     if TYPE_CHECKING:
         payload = _payload.weigh_load

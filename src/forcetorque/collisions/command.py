@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque robot collisions`: contacts that nobody expected."""
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING, Annotated
+
+from forcetorque.results.command import Option, command
+
+if TYPE_CHECKING:
+    from forcetorque.collisions.result import Collisions
+    from forcetorque.experiment.calibrations_under_test import OneCalibration
+    from forcetorque.experiment.sensor_run import SensorRun
+
+
+@command("the force beyond the model over time, with the contacts")
+def collisions(
+    run: Annotated["SensorRun", Option("Sensor beyond which contacts are looked for.", "--sensor", all_sensors=True)],
+    calibration: Annotated[
+        "OneCalibration | None", Option("Calibration that reads the sensor. Default: its prior, or as logged.")
+    ] = None,
+    *,
+    intervals: Annotated[
+        Collection[str], Option("Label of an interval to look at. Default: all that are not ignored.", "--interval")
+    ] = (),
+    free: Annotated[
+        Collection[str],
+        Option(
+            "Label of an interval in which nothing touches the robot beyond the sensor. Default: those for calibration."
+        ),
+    ] = (),
+    alarms_per_hour: Annotated[float, Option("Rate of false alarms that thresholds are set for.")] = 1.0,
+) -> "Collisions":
+    """Detect, locate and measure contacts that nobody expected.
+
+    Example: forcetorque robot collisions motion.toml --free still
+
+    Python: `run.collisions(calibration)`
+
+    Returns:
+        Contacts with force, line and link, and the force from which a contact is noticed.
+
+    Raises:
+        ExperimentError: If there is no interval to look at, or too little time without contact.
+    """
+    from forcetorque.collisions.collisions import find_collisions
+    from forcetorque.experiment.calibrations_under_test import one_named
+
+    return find_collisions(run, run.read_by(*one_named(calibration)).bare, intervals, free, alarms_per_hour)

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts as spans in which the residual is larger than errors and noise let it be.
+
+The statistic of a window is the squared residual over its covariance. Its threshold follows from the stated rate of
+false alarms: by the F distribution, for the size of the noise is known from few independent samples, and by how the
+largest values of the free samples are distributed, whose tails are heavier (peaks over a threshold with an exponential
+tail); the higher counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.collisions.residual import WINDOW_S, FreeModel, Level, Signals
+from forcetorque.experiment.calibration.assumptions import LOADS
+
+RELEASE: Final = 0.25
+"""Share of the threshold below which a contact is over."""
+HOLD_S: Final = 0.2
+"""Time below it after which it is."""
+LONGEST_S: Final = 20.0
+"""Length from which a contact is taken for a new level: the sensor stepped, or something leans on the robot."""
+_SLOW_S: Final = 1.0
+"""Time that slow noise goes on at least, which vibration may hide; s."""
+_BLOCK_S: Final = 1.0
+"""Length of the blocks whose largest values show the tail; s."""
+_HIGH: Final = 0.8
+"""Share of the blocks below the values that show it."""
+_FEWEST: Final = 8
+"""Values that it takes at least."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Threshold:
+    """Threshold of the statistic."""
+
+    value: float
+    """Statistic from which a window is a contact."""
+    by_tail: float | None
+    """The same by the tail of the free samples; None of too few."""
+    alarms_per_hour: float
+    """Rate of false alarms that it is for."""
+    free_s: float
+    """Time of the free samples that it is from; s."""
+
+
+def threshold_of(statistic: FloatArray, correlation_s: float, *, alarms_per_hour: float) -> Threshold:
+    """Set the threshold for a rate of false alarms.
+
+    Args:
+        statistic: Of free windows, in the order of time; shape (w,).
+        correlation_s: Time over which noise goes on; s.
+        alarms_per_hour: Rate of false alarms; above 0.
+
+    Returns:
+        The threshold.
+    """
+    from scipy.stats import f
+
+    tests = 3600.0 / max(correlation_s, WINDOW_S)
+    independent = len(statistic) * WINDOW_S / max(correlation_s, _SLOW_S)
+    freedom = LOADS * max(independent - 1.0, 1.0)
+    by_law = LOADS * float(f.isf(min(alarms_per_hour / tests, 0.5), LOADS, freedom))
+    blocks = np.array_split(statistic, max(round(len(statistic) * WINDOW_S / _BLOCK_S), 1))
+    largest = np.array([block.max() for block in blocks if len(block)])
+    by_tail = None
+    if len(largest) * (1.0 - _HIGH) >= _FEWEST:
+        high = float(np.quantile(largest, _HIGH))
+        scale = float((largest[largest > high] - high).mean())
+        per_hour = 3600.0 / _BLOCK_S * float(np.mean(largest > high))
+        by_tail = high + scale * float(np.log(max(per_hour / alarms_per_hour, 1.0)))
+    return Threshold(
+        value=max(by_law, by_tail or 0.0),
+        by_tail=by_tail,
+        alarms_per_hour=alarms_per_hour,
+        free_s=len(statistic) * WINDOW_S,
+    )
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Contact:
+    """A span in which something touches the robot beyond a sensor."""
+
+    windows: list[int] = field(default_factory=list)
+    """Numbers of its windows."""
+    wrenches: list[FloatArray] = field(default_factory=list)
+    """What the sensor reads too much in each; shape (6,) each; N, N m."""
+    covariances: list[FloatArray] = field(default_factory=list)
+    """Its covariance; shape (6, 6) each."""
+    statistics: list[float] = field(default_factory=list)
+    """Statistic of each."""
+    stays: bool = False
+    """Whether it was still there after `LONGEST_S`, or at the end of the readings."""
+
+    @property
+    def strongest(self) -> int:
+        """Place of the window with the largest force."""
+        return int(np.argmax([np.linalg.norm(wrench[:3]) for wrench in self.wrenches]))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Detected:
+    """What is found in the windows of a sensor."""
+
+    contacts: tuple[Contact, ...]
+    """Contacts in the order of time."""
+    excess: FloatArray
+    """What the sensor reads too much in every window, the level held during contacts; NaN while there is no level;
+    shape (w, 6); N, N m."""
+
+
+def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
+    """Look for contacts.
+
+    Args:
+        signals: Windows of a sensor.
+        model: What changes of the residual are without a contact.
+        threshold: Threshold of the statistic.
+
+    Returns:
+        Contacts.
+    """
+    level, excess = Level(signals), np.full((len(signals), LOADS), np.nan)
+    contacts: list[Contact] = []
+    current: Contact | None = None
+    quiet = 0
+    starts = signals.starts()
+    for window in range(len(signals)):
+        if starts[window] and current is not None:
+            _close(contacts, current, quiet, stays=True)
+            current, quiet = None, 0
+        change, known = level.change(window, held=current is not None)
+        if not known:
+            continue
+        wrench, covariance = model.wrench(change)
+        excess[window], value = wrench, float(wrench @ np.linalg.solve(covariance, wrench))
+        if current is None and value <= threshold:
+            continue
+        if current is None:
+            current, quiet = Contact(), 0
+        current.windows.append(window)
+        current.wrenches.append(wrench)
+        current.covariances.append(covariance)
+        current.statistics.append(value)
+        quiet = quiet + 1 if value < RELEASE * threshold else 0
+        if quiet * WINDOW_S >= HOLD_S:
+            _close(contacts, current, quiet, stays=False)
+            current, quiet = None, 0
+        elif len(current.windows) * WINDOW_S >= LONGEST_S:
+            _close(contacts, current, quiet, stays=True)
+            current, quiet = None, 0
+            level.restart()
+    if current is not None:
+        _close(contacts, current, quiet, stays=True)
+    return Detected(contacts=tuple(contacts), excess=excess)
+
+
+def _close(contacts: list[Contact], contact: Contact, quiet: int, *, stays: bool) -> None:
+    """Keep a contact without its quiet end."""
+    contact.stays = stays
+    for values in (contact.windows, contact.wrenches, contact.covariances, contact.statistics):
+        del values[len(values) - quiet :]
+    contacts.append(contact)
+
+
+def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> FloatArray:
+    """Give the statistic of windows.
+
+    Args:
+        residual: Changes of the residual; shape (w, 6); N, N m.
+        terms: Changes of the terms; shape (w, 6, p).
+        model: What these are without a contact.
+
+    Returns:
+        Statistics; shape (w,).
+    """
+    left = residual - terms @ model.mean
+    covariance = model.noise + np.einsum("wip,pq,wjq->wij", terms, model.covariance, terms, optimize=True)
+    return np.einsum("wi,wi->w", left, np.linalg.solve(covariance, left[..., None])[..., 0])
+
+
+def smallest_force(covariances: Sequence[FloatArray] | FloatArray, threshold: float) -> float:
+    """Give the force that is found wherever and however it acts.
+
+    Args:
+        covariances: Covariances of what a sensor reads without a contact; shape (w, 6, 6).
+        threshold: Threshold of the statistic.
+
+    Returns:
+        Median over the windows; N.
+    """
+    of_force = np.asarray(covariances)[:, :3, :3]
+    return float(np.median(np.sqrt(threshold * np.linalg.eigvalsh(of_force)[:, -1])))
+
+
+def inside(time_s: FloatArray, spans: Sequence[tuple[float, float]]) -> BoolArray:
+    """Tell which instants lie in any of some spans.
+
+    Args:
+        time_s: Instants; shape (w,); s.
+        spans: First and last instant of each; s.
+
+    Returns:
+        Marks; shape (w,).
+    """
+    marks = np.zeros(len(time_s), dtype=bool)
+    for start, end in spans:
+        marks |= (time_s >= start) & (time_s <= end)
+    return marks

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figure of contacts over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from forcetorque.results.figures import REFERENCE_COLOUR, ROW_INCHES, in_figure_style, look, new_figure, shown_name
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from forcetorque.collisions.result import Collisions
+
+
+_NAMED = 3
+"""Contacts of a sensor that are named, the strongest first, each a line lower."""
+
+
+@in_figure_style
+def collisions_figure(result: Collisions) -> Figure:
+    """Draw the force that every sensor reads too much over time, with contacts shaded and named.
+
+    Args:
+        result: Contacts, with the curves of the sensors.
+
+    Returns:
+        The figure.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    figure = new_figure(ROW_INCHES[1] * max(len(result.curves), 1))
+    panels = figure.subplots(max(len(result.curves), 1), 1, sharex=True, squeeze=False)[:, 0]
+    for panel, curve, sensor in zip(panels, result.curves, result.sensitivity, strict=False):
+        time_s, force = np.asarray(curve.time_s), np.asarray(curve.force_N)
+        gaps = np.flatnonzero(np.diff(time_s) > 1.0) + 1
+        panel.plot(np.insert(time_s, gaps, np.nan), np.insert(force, gaps, np.nan), color=look(0).colour, linewidth=0.8)
+        panel.axhline(sensor.smallest_force_N, color=REFERENCE_COLOUR, linestyle=(0, (4, 1.5)), linewidth=1.0)
+        own = [row for row in result.collisions if row.sensor == curve.sensor]
+        for row in own:
+            panel.axvspan(row.start_s, row.end_s, color=look(1).colour, alpha=0.25, linewidth=0.0)
+        for place, row in enumerate(sorted(own, key=lambda row: -row.force_N)[:_NAMED]):
+            panel.annotate(
+                f"{row.force_N:.3g} N, {shown_name(row.link)}",
+                (row.start_s, 1.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(2, -12 * (place + 1)),
+                textcoords="offset points",
+                clip_on=True,
+            )
+        panel.set_ylabel("force beyond the model, N")
+        panel.set_title(
+            f"{shown_name(curve.sensor)}: dashed, any force from {sensor.smallest_force_N:.2g} N is noticed"
+        )
+    panels[-1].set_xlabel("time, s")
+    return figure

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts that nobody expected, of every sensor: when, how strong, from where, on which link."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from forcetorque.results.result import DrawnResult
+from forcetorque.results.table import Row, Shown, Table, Values, table_of
+
+
+class CollisionRow(Row):
+    """One contact; half-widths are of 95 % intervals."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Sensor that noticed it."""
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    kind: Annotated[Literal["collision", "contact", "new_level"], Shown("kind")]
+    """Shorter than half a second; longer; or still there when looking for it ended: something leans on the robot, or
+    the reading stepped."""
+    start_s: Annotated[float, Shown("from", "s", digits=2)]
+    """Begin, from the start of the recording."""
+    end_s: Annotated[float, Shown("to", "s", digits=2)]
+    """End."""
+    force_N: Annotated[float, Shown("largest force", "N", digits=1, error="force_half_width_95_N")]
+    """Largest force on the robot, mean over 50 ms."""
+    force_half_width_95_N: float
+    """Its half-width."""
+    direction: tuple[float, float, float]
+    """Unit vector of that force, in the axes of `frame`."""
+    frame: str
+    """Support frame."""
+    impulse_Ns: Annotated[float, Shown("impulse", "N s", digits=2)]
+    """Sum of the size of the force over time."""
+    couple_Nm: Annotated[float, Shown("couple", "N m", digits=2, error="couple_half_width_95_Nm")]
+    """Moment about the line of the force, which a single force at a point does not have."""
+    couple_half_width_95_Nm: float
+    """Its half-width."""
+    link: Annotated[str, Shown("link")]
+    """Link whose axis is nearest to the line of the force."""
+    other_links: Annotated[tuple[str, ...], Shown("or")]
+    """Links that may be as near."""
+    distance_mm: Annotated[float, Shown("line to axis", "mm", digits=0, error="distance_half_width_95_mm")]
+    """Distance of the line from that axis."""
+    distance_half_width_95_mm: float
+    """Its half-width."""
+    point_mm: tuple[float, float, float]
+    """Point of the line that is nearest to the axis, in the frame of the link."""
+    over_threshold: Annotated[float, Shown("over threshold", digits=1)]
+    """Largest statistic over its threshold."""
+
+
+class SensitivityRow(Row):
+    """What a sensor can notice."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Sensor."""
+    smallest_force_N: Annotated[float, Shown("noticed from", "N", digits=1)]
+    """Force that is noticed whatever its direction and place, mean over 50 ms; median over what was looked at."""
+    threshold: Annotated[float, Shown("threshold", digits=1)]
+    """Threshold of the squared residual over its covariance."""
+    tail_decides: Annotated[bool, Shown("set by the tail")]
+    """Whether values of the free samples set it, whose tail is heavier than that of normal noise."""
+    alarms_per_hour: Annotated[float, Shown("false alarms per hour", digits=2)]
+    """Rate of false alarms that it is set for."""
+    free_s: Annotated[float, Shown("learnt from", "s", digits=0)]
+    """Time without contact that errors and noise are learnt from."""
+    looked_at_s: Annotated[float, Shown("looked at", "s", digits=0)]
+    """Time that was looked at."""
+
+
+class CollisionCurve(Row):
+    """The force that a sensor reads too much over time, for the figure."""
+
+    sensor: str
+    """Sensor."""
+    time_s: Values
+    """Middle of each window; shape (w,); s."""
+    force_N: Values
+    """Size of the force that the sensor reads too much; shape (w,); N."""
+
+
+class Collisions(DrawnResult):
+    """Contacts that the file does not state."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.collisions.answers:collisions_answers"
+    drawn_by: ClassVar[str] = "forcetorque.collisions.figures:collisions_figure"
+
+    schema_name: Literal["forcetorque/collisions/1"] = Field(default="forcetorque/collisions/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    collisions: tuple[CollisionRow, ...]
+    """Contacts of every sensor in the order of time."""
+    sensitivity: tuple[SensitivityRow, ...]
+    """A row for every sensor."""
+    curves: tuple[CollisionCurve, ...] = Field(default=(), exclude=True, repr=False)
+    """Forces over time, for the figure."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give contacts, and what the sensors can notice.
+
+        Yields:
+            Tables.
+        """
+        if self.collisions:
+            yield table_of(self.collisions, "contacts that the file does not state; ±: half a 95 % interval")
+        yield table_of(self.sensitivity, "what is noticed")
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the contacts as flat lines.
+
+        Returns:
+            One line per contact.
+        """
+        return [row.flat() for row in self.collisions]

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts of the small arm, planted into its log from the poses of its links, and what happens without any."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.base.pose import cross
+from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.result import Collisions
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Support
+from forcetorque.recording.storage import read_recording, write_recording
+from forcetorque.robot.dynamics import joints_between, link_pose
+from forcetorque.robot.mechanics.samples import robot_motion_at
+from forcetorque.robot.tree import build_tree
+from tests.app.outcome import Run
+from tests.scenes.experiments import MOUNTED, PARQUET, edit, write_experiments
+
+FORCE_N, PLACE_M, START_S, END_S = 12.0, (0.0, 0.0, -0.1), 17.0, 17.3
+"""A push on the forearm, half way to the wrist, against its axis."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The arm, whose model may be wrong."""
+    folder = tmp_path_factory.mktemp("arm")
+    write_experiments(folder)
+    edit(folder / PARQUET, 'tolerance = "exact"\n', "")
+    return folder
+
+
+def _run(folder: Path) -> SensorRun:
+    return SensorRun(load_experiment(folder / PARQUET), "arm_ft")
+
+
+def _found(run: SensorRun, free: tuple[str, ...] = ()) -> Collisions:
+    return find_collisions(run, run.read_by(None, None).bare, (), free, 1.0)
+
+
+def _relative_poses(run: SensorRun, link: str) -> tuple[FloatArray, FloatArray]:
+    """`sensor_H_link` and `base_R_sensor` at every sample of the sensor."""
+    experiment, tree = run.experiment, build_tree(run.experiment.model, "base")
+    support = next(one.support for one in experiment.recording.intervals)
+    assert isinstance(support, Support)
+    needed = joints_between(tree, link)
+    joints, _ = robot_motion_at(
+        experiment.recording,
+        experiment.model,
+        support,
+        needed,
+        run.stream,
+        run.stream.stamp_ns,
+        processing=experiment.processing,
+    )
+    base_H_sensor, base_H_link = (link_pose(tree, joints, name) for name in ("upper_arm", link))
+    return np.linalg.inv(base_H_sensor) @ base_H_link, base_H_sensor[:, :3, :3]
+
+
+def _planted(folder: Path, target: Path, wrench: Callable[[SensorRun], FloatArray]) -> SensorRun:
+    """The log with a wrench on the arm, in the axes and about the origin of the sensor; shape (n, 6)."""
+    write_experiments(target)
+    edit(target / PARQUET, 'tolerance = "exact"\n', "")
+    recording, run = read_recording(target / "recording"), _run(folder)
+    stream = recording.stream("arm_ft")
+    since_s = (stream.stamp_ns - recording.start_ns) * 1e-9
+    inside = (since_s >= START_S) & (since_s <= END_S)
+    signal = stream.signal("raw")
+    counts = signal.values + inside[:, None] * np.linalg.solve(MOUNTED, wrench(run).T).T
+    changed = replace(stream, signals={**stream.signals, "raw": replace(signal, values=counts)})
+    shutil.rmtree(target / "recording")
+    write_recording(target / "recording", replace(recording, streams={**recording.streams, "arm_ft": changed}))
+    return _run(target)
+
+
+def _push(run: SensorRun) -> FloatArray:
+    """A force on the forearm along its x axis, which the sensor transmits from child to parent with its sign."""
+    sensor_H_link, _ = _relative_poses(run, "forearm")
+    force = FORCE_N * sensor_H_link[:, :3, 0]
+    place = (sensor_H_link @ np.r_[PLACE_M, 1.0])[:, :3]
+    return np.hstack([force, cross(place, force)])
+
+
+def test_a_push_is_detected_located_and_measured(folder: Path, tmp_path: Path) -> None:
+    """Time, size, direction and link are those that were planted; it is one collision."""
+    run = _planted(folder, tmp_path, _push)
+    (row,) = _found(run).collisions
+    assert row.kind == "collision"
+    assert START_S - 0.06 < row.start_s < START_S + 0.06
+    assert END_S - 0.06 < row.end_s < END_S + 0.3
+    # the prior matrix is 5 % off, which the free samples correct
+    assert row.force_N == pytest.approx(FORCE_N, rel=0.05)
+    sensor_H_link, base_R_sensor = _relative_poses(run, "forearm")
+    at = int(np.searchsorted(run.stream.stamp_ns, run.experiment.recording.start_ns + round(1e9 * START_S) + 10**8))
+    assert np.dot(row.direction, (base_R_sensor @ sensor_H_link[:, :3, :3])[at][:, 0]) > 0.95  # the arm turns meanwhile
+    assert "forearm" in (row.link, *row.other_links)
+    assert abs(row.couple_Nm) < max(row.couple_half_width_95_Nm, 0.05)
+    assert row.impulse_Ns == pytest.approx(FORCE_N * (END_S - START_S), rel=0.4)
+
+
+def test_nothing_is_found_where_nothing_touches(folder: Path) -> None:
+    """The negative control: the same log without the push, with the force from which one would be noticed."""
+    found = _found(_run(folder))
+    assert not found.collisions
+    (sensor,) = found.sensitivity
+    assert 0.1 < sensor.smallest_force_N < FORCE_N
+    assert sensor.looked_at_s == pytest.approx(22.5, abs=0.2)
+    assert any("do not show the tail" in words for words in found.warnings)
+
+
+def test_a_push_below_what_is_noticed_is_not(folder: Path, tmp_path: Path) -> None:
+    """A tenth of the stated force is not told from noise."""
+    smallest = _found(_run(folder)).sensitivity[0].smallest_force_N
+    run = _planted(folder, tmp_path, lambda run: 0.1 * smallest / FORCE_N * _push(run))
+    assert not _found(run).collisions
+
+
+def test_a_couple_is_no_force_at_a_point(folder: Path, tmp_path: Path) -> None:
+    """A grip that turns: the moment about the line is outside its interval of zero."""
+
+    def screw(run: SensorRun) -> FloatArray:
+        wrench = _push(run)
+        wrench[:, 3:] += 2.0 * wrench[:, :3] / FORCE_N
+        return wrench
+
+    (row,) = _found(_planted(folder, tmp_path, screw)).collisions
+    assert row.couple_Nm == pytest.approx(2.0, abs=row.couple_half_width_95_Nm + 0.3)
+    assert row.couple_Nm > row.couple_half_width_95_Nm
+
+
+def test_what_is_learnt_where_something_touches_is_doubted(folder: Path, tmp_path: Path) -> None:
+    """A free interval with a contact in it is a warning; too short a one is refused."""
+    run = _planted(folder, tmp_path, _push)
+    found = find_collisions(run, run.read_by(None, None).bare, (), ("judge", "fit"), 1.0)
+    if found.collisions:
+        assert any("from which noise is learnt" in words for words in found.warnings)
+    with pytest.raises(ExperimentError, match=r"expected at least 10 s in which nothing touches .* got"):
+        _found(run, free=("judge",))
+
+
+def test_the_command_prints_contacts_first(folder: Path, tmp_path: Path, run: Run) -> None:
+    """Verdict, clearest contact, what is noticed; JSON has rows."""
+    planted = _planted(folder, tmp_path, _push)
+    assert planted.sensor.name == "arm_ft"
+    out = run("robot", "collisions", tmp_path / PARQUET).out
+    assert "1 CONTACT in 22" in out.splitlines()[0]
+    assert "clearest: 16.9" in out
+    assert "noticed: any force from" in out
+    rows = run("robot", "collisions", tmp_path / PARQUET, "--format", "json").result()
+    assert rows["collisions"][0]["kind"] == "collision"
