@@ -21,9 +21,8 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.evaluation.commands import evaluate, validate
+from forcetorque.evaluation.commands import compare, evaluate, validate
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.trials.comparison import compare
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign

@@ -153,7 +153,7 @@ class _Analysis:
         if any(given[_name(saved)] == STANDARD_OUTPUT for saved in self.offered.saved):  # the file itself went there
             show_warnings(result)
         else:
-            files = given.get("experiments") or [given["experiment"]] if self.reads_experiments else []
+            files = given.get("experiments") or ([given["experiment"]] if self.reads_experiments else [])
             show(result, given["output_format"], details=given["details"], experiments=files)
         if not result.passed:
             raise typer.Exit(1)

@@ -41,13 +41,6 @@ class Format(StrEnum):
     CSV = "csv"
 
 
-class TrialsChoice(StrEnum):
-    """What one trial of a sensor is."""
-
-    FILES = "files"
-    INTERVALS = "intervals"
-
-
 def start_logging() -> logging.Logger:
     """Send the library's and the command's messages to standard error.
 
@@ -172,21 +165,6 @@ def say(sentence: str, output_format: Format) -> None:
         sys.stdout.write(wrapped(sentence, width()) + "\n")
 
 
-def stop_at_failures(failures: Sequence[object]) -> None:
-    """End a command whose result is shown, but lacks something.
-
-    Args:
-        failures: What failed; none where nothing did.
-
-    Raises:
-        typer.Exit: With code 1 if there is any.
-    """
-    import typer
-
-    if failures:
-        raise typer.Exit(1)
-
-
 def width() -> int:
     """Tell how wide a line may be.
 
@@ -304,13 +282,16 @@ def drawn_to(result: _Drawn, file: Path) -> _Drawn:
         file: PNG to write or to replace.
 
     Returns:
-        The result, which names the file.
+        The result, which names the file if it was drawn.
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.figures import png_bytes
 
-    with stated_in(f"--figure {file}"):
-        figure = result.figure()
-    write_bytes_atomically(file, png_bytes(figure))
+    try:
+        with stated_in(f"--figure {file}"):
+            figure = result.figure()
+        write_bytes_atomically(file, png_bytes(figure))
+    except (ForceTorqueError, OSError) as error:
+        return result.without_figure(file, error)
     return result.model_copy(update={"figure_file": str(file)})
