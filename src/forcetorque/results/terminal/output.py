@@ -8,7 +8,7 @@ import csv
 import logging
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from enum import StrEnum
 from glob import escape
 from io import TextIOWrapper
@@ -188,6 +188,21 @@ def refuse_standard_output(option: str, path: Path | None) -> None:
         raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
 
 
+def refuse_ending(option: str, path: Path | None, endings: Collection[str]) -> None:
+    """Refuse a file whose name ends otherwise, before any work is done.
+
+    Args:
+        option: Option that names it.
+        path: The file; None if the option was not given.
+        endings: Endings that it may have; any if there is none.
+
+    Raises:
+        ForceTorqueError: If it has another.
+    """
+    if path is not None and endings and path.suffix not in endings:
+        raise ForceTorqueError(f"{option} {path}: expected a name that ends in {' or '.join(endings)}")
+
+
 def refuse_output_folder(output: Path, option: str = "--output") -> None:
     """Refuse a folder of results that cannot be made anew, before any work is done.
 
@@ -267,7 +282,7 @@ def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
     from forcetorque.results.figures import new_figure
 
     if figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
+        refuse_ending("--figure", figure, (".png",))
     if not figure.parent.is_dir():
         raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
     declare_outputs(figure, force=force)
