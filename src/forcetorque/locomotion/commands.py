@@ -102,7 +102,7 @@ def balance(
         plane=PlaneTolerance() if plane is None else plane,
     )
     several = [experiments] if isinstance(experiments, Experiment) else experiments
-    refuse_a_file_twice([one for one in several if isinstance(one, Path | str)])
+    refuse_a_file_twice([Path(one) for one in several if isinstance(one, Path | str)])
     read = [_with_corrections(experiment, named(calibrations)) for experiment in several]
     return balance([recording for recording, _ in read], [corrections for _, corrections in read], options)
 

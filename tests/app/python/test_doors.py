@@ -30,7 +30,7 @@ from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.planning.planning import plan
 from forcetorque.report.report import report
 from forcetorque.sensor.bandwidth.bandwidth import response
-from forcetorque.sensor.temperature.command import thermal
+from forcetorque.sensor.commands import thermal
 from forcetorque.skin.commands import calibrate_skin
 from forcetorque.skin.taxels.calibrate import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.workbench.calibrate import workbench as workbench_of_recordings

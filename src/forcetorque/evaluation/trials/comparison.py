@@ -219,7 +219,7 @@ _OF_A_FIT = (
 class Comparison(DrawnResult):
     """Spheres of trials, and of the sensors and conditions that they are trials of."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.trials.answers:comparison_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.sphere.answers:comparison_answers"
     drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.sphere:index_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("analyses",)
 
