@@ -31,7 +31,7 @@ from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.commands import coherence
 from forcetorque.locomotion.logged_signals import motion_signals
-from forcetorque.locomotion.movement import motion
+from forcetorque.locomotion.motion_quality import motion
 from forcetorque.payload.tare_offset import tare
 from forcetorque.results.result import Result, result_classes
 from forcetorque.sensor.gains.gains import select_gains

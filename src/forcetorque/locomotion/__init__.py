@@ -9,7 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.locomotion.commands import balance, coherence, torque_loop
     from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
-    from forcetorque.locomotion.movement import motion
+    from forcetorque.locomotion.motion_quality import motion
     from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
     from forcetorque.locomotion.torque_control.file import read_torque_loop
 
@@ -47,7 +47,7 @@ __getattr__, __dir__ = lazy_names(
         "balance": "forcetorque.locomotion.commands",
         "coherence": "forcetorque.locomotion.commands",
         "load_foot_forces": "forcetorque.locomotion.standing.foot_wrenches",
-        "motion": "forcetorque.locomotion.movement",
+        "motion": "forcetorque.locomotion.motion_quality",
         "motion_signals": "forcetorque.locomotion.logged_signals",
         "motion_signals_of_arrays": "forcetorque.locomotion.logged_signals",
         "read_torque_loop": "forcetorque.locomotion.torque_control.file",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
     from forcetorque.experiment.validation_offset import OffsetPolicy
-    from forcetorque.locomotion.movement import Motion
+    from forcetorque.locomotion.motion_quality import Motion
     from forcetorque.locomotion.net_force.result import Coherence
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.foot_wrenches import FootForces
@@ -216,7 +216,7 @@ def motion(
     """
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.locomotion.logged_signals import motion_signals
-    from forcetorque.locomotion.movement import motion
+    from forcetorque.locomotion.motion_quality import motion
 
     with stated_in(str(log)):
         signals = motion_signals(log, columns, desired=desired, intervals=intervals, calibrations=calibrations)

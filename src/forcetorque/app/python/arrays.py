@@ -19,7 +19,7 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import one_for_each
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.locomotion.movement import BAND_SHARE, Motion
+from forcetorque.locomotion.motion_quality import BAND_SHARE, Motion
 from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
@@ -326,7 +326,7 @@ def motion_of_arrays(
         Oscillations, settling times and tracking errors.
     """
     from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
-    from forcetorque.locomotion.movement import motion
+    from forcetorque.locomotion.motion_quality import motion
 
     signals = motion_signals_of_arrays(time_s, columns, units, desired=desired)
     return motion(signals, steps_s=steps_s, band_share=band_share)
