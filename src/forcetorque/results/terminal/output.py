@@ -15,7 +15,7 @@ from io import TextIOWrapper
 from os.path import commonprefix
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Final, TextIO, TypeVar
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
@@ -41,6 +41,44 @@ class Format(StrEnum):
     CSV = "csv"
 
 
+HELD: Final = {"held": True}
+"""Extra of a message that waits for the result, to be counted with its warnings."""
+
+
+class _StandardError(logging.StreamHandler[TextIO]):
+    """Messages on standard error, at once but those that wait for the result."""
+
+    def __init__(self, stream: TextIO) -> None:
+        super().__init__(stream)
+        self.held: list[logging.LogRecord] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        if getattr(record, "held", False):
+            self.held.append(record)
+        else:
+            super().emit(record)
+
+
+def release_messages() -> tuple[str, ...]:
+    """Take the messages that wait for the result, each once.
+
+    Returns:
+        The messages; they are not printed.
+    """
+    handlers = [one for one in logging.getLogger("forcetorque").handlers if isinstance(one, _StandardError)]
+    messages = tuple(dict.fromkeys(record.getMessage() for handler in handlers for record in handler.held))
+    for handler in handlers:
+        handler.held.clear()
+    return messages
+
+
+def print_messages() -> None:
+    """Print the messages that wait for a result, where none is shown."""
+    log = start_logging()
+    for sentence in release_messages():
+        log.warning("%s", sentence)
+
+
 def start_logging() -> logging.Logger:
     """Send the library's and the command's messages to standard error.
 
@@ -49,7 +87,7 @@ def start_logging() -> logging.Logger:
     """
     logger = logging.getLogger("forcetorque")
     if not logger.handlers:
-        handler = logging.StreamHandler(sys.stderr)
+        handler = _StandardError(sys.stderr)
         handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
         logger.addHandler(handler)
         logger.setLevel(logging.INFO)
@@ -97,23 +135,32 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         details: As of `show`.
         experiments: As of `show`.
     """
-    from forcetorque.results.answer import MOST_LINES, answer_text, warnings_text
+    from forcetorque.results.answer import MOST_LINES, STANDARD_WIDTH, answer_text, warnings_text
 
     answers, columns = tuple(result.answers()), width()
     if not answers:
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    text = answer_text(answers, columns, files_text(experiments), files_text(experiments[:1]))
+    most, warnings = MOST_LINES + len(answers) - 1, ()
+    if not details:
+        warnings = tuple(dict.fromkeys([*result.cautions(), *release_messages()]))
+    # the count of warnings and the last line have their place below
+    least = most - 1 - bool(warnings)
+    text = answer_text(
+        answers,
+        columns,
+        files_text(experiments),
+        files_text(experiments[:1]),
+        most=None if details or columns < STANDARD_WIDTH else least,
+    )
     sys.stdout.write(text)
     if details:
         sys.stdout.write("\n" + result.details(columns))
         show_warnings(result)
         return
     sys.stdout.flush()
-    # the count of warnings and the last line have their place beside them
-    room = MOST_LINES + len(answers) - 1 - text.count("\n") - 2
-    sys.stderr.write(warnings_text(tuple(result.cautions()), columns, room))
+    sys.stderr.write(warnings_text(warnings, columns, least - text.count("\n")))
     sys.stderr.flush()
     sys.stdout.write("details: --details\n")
 
@@ -148,6 +195,7 @@ def show_warnings(result: Result) -> None:
         result: The result.
     """
     log = start_logging()
+    print_messages()
     for sentence in result.cautions():
         log.warning("%s", sentence)
 
