@@ -142,7 +142,8 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    most, warnings = MOST_LINES + len(answers) - 1, ()
+    most = MOST_LINES + len(answers) - 1
+    warnings: tuple[str, ...] = ()
     if not details:
         warnings = tuple(dict.fromkeys([*result.cautions(), *release_messages()]))
     # the count of warnings and the last line have their place below
