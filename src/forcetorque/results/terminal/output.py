@@ -146,14 +146,13 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
     warnings: tuple[str, ...] = ()
     if not details:
         warnings = tuple(dict.fromkeys([*result.cautions(), *release_messages()]))
-    # the count of warnings and the last line have their place below
-    least = most - 1 - bool(warnings)
+    room = most - 1 - bool(warnings)  # for the last line, and the count of warnings
     text = answer_text(
         answers,
         columns,
         files_text(experiments),
         files_text(experiments[:1]),
-        most=None if details or columns < STANDARD_WIDTH else least,
+        most=None if details or columns < STANDARD_WIDTH else room,
     )
     sys.stdout.write(text)
     if details:
@@ -161,7 +160,7 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         show_warnings(result)
         return
     sys.stdout.flush()
-    sys.stderr.write(warnings_text(warnings, columns, least - text.count("\n")))
+    sys.stderr.write(warnings_text(warnings, columns, room - text.count("\n")))
     sys.stderr.flush()
     sys.stdout.write("details: --details\n")
 
