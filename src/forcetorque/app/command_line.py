@@ -171,7 +171,6 @@ def main() -> None:
         with files_of_one_run():
             _program(sys.argv[1:3])()
     except (ForceTorqueError, OSError) as error:
-        print_messages()
         report_error(error)
         raise SystemExit(2) from None
     finally:

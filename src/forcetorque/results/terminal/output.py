@@ -74,9 +74,8 @@ def release_messages() -> tuple[str, ...]:
 
 def print_messages() -> None:
     """Print the messages that wait for a result, where none is shown."""
-    log = start_logging()
     for sentence in release_messages():
-        log.warning("%s", sentence)
+        logging.getLogger("forcetorque").warning("%s", sentence)
 
 
 def start_logging() -> logging.Logger:
@@ -97,11 +96,12 @@ def start_logging() -> logging.Logger:
 
 
 def report_error(error: Exception) -> None:
-    """Say on standard error, in one line, what was refused.
+    """Say on standard error, in one line, what was refused, below the messages that wait for a result.
 
     Args:
         error: A known error.
     """
+    print_messages()
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
 
 
