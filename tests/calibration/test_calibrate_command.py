@@ -252,11 +252,11 @@ def test_a_bad_lambda_is_refused(arm: Path, run: Run, value: str) -> None:
 
 @pytest.mark.long
 def test_findings_of_the_log_are_warnings(arm: Path, run: Run) -> None:
-    """What the readers found is said before the fit, on standard error only."""
+    """What the readers found is said with those of the fit, on standard error only."""
     made = run("calibrate", YARP, "-o", "a.json", "--format", "json")
     assert made.err.splitlines() == made.log
-    assert [line.partition(":")[0] for line in made.log] == ["INFO", "WARNING", "WARNING", "INFO"]
-    assert made.log[1].startswith("WARNING: joints: the board does not estimate the velocity: all 1200 messages hold")
+    assert [line.partition(":")[0] for line in made.log] == ["INFO", "INFO", "WARNING", "WARNING"]
+    assert made.log[2].startswith("WARNING: joints: the board does not estimate the velocity: all 1200 messages hold")
     made.result()
 
 

@@ -19,7 +19,7 @@ from forcetorque.base.errors import FitError, ForceTorqueError, FormatError, Out
 from forcetorque.dataset import added_features, check_dataset, compensate, compensate_dataset
 from forcetorque.dataset.compensate import Measurement
 from forcetorque.dataset.force_fields import orientation_field, wrench_field
-from forcetorque.dataset.tool import Tool
+from forcetorque.dataset.tool_load import Tool
 from forcetorque.formats.lerobot.dataset import read_dataset
 from tests.dataset.loader import require_loadable
 from tests.formats.lerobot.datasets import FPS, tool_episodes, write_dataset

@@ -27,7 +27,7 @@ from forcetorque.device.excitation import (
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.motion_design import Designer
-from forcetorque.device.span import device_span, optimised_motion
+from forcetorque.device.spanned_directions import device_span, optimised_motion
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span

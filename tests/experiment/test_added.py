@@ -21,9 +21,8 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.evaluation.commands import evaluate, validate
+from forcetorque.evaluation.commands import compare, evaluate, validate
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.trials.comparison import compare
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
@@ -32,7 +31,7 @@ from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.commands import coherence
 from forcetorque.locomotion.logged_signals import motion_signals
-from forcetorque.locomotion.movement import motion
+from forcetorque.locomotion.motion_quality import motion
 from forcetorque.payload.tare_offset import tare
 from forcetorque.results.result import Result, result_classes
 from forcetorque.sensor.gains.gains import select_gains

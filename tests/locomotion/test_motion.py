@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, RecordingError, UnitError
 from forcetorque.experiment.streams import load_recorded
 from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
-from forcetorque.locomotion.movement import Motion, motion
+from forcetorque.locomotion.motion_quality import Motion, motion
 from forcetorque.recording.column import find_column
 from tests.page_scripts import unmarked
 from tests.scenes.swaying import OFFSET_NM, STEP_RAD, STEP_S, SWAY_HZ, SWAY_M, TORQUE_NM, write_swaying

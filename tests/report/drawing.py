@@ -31,7 +31,7 @@ from forcetorque.contests.ranking import ContestLoadRow
 from forcetorque.device.demand_result import GradeRow
 from forcetorque.device.figures import device_figure, envelope_figure, predicted_error_figure, reference_error_figure
 from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
-from forcetorque.device.span import DirectionRow
+from forcetorque.device.spanned_directions import DirectionRow
 from forcetorque.estimation.figures import contact_figure, torque_figure
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure
 from forcetorque.evaluation.figures.load_cases import use_figure
@@ -42,7 +42,7 @@ from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.locomotion.figures import balance_figure, coherence_figure, motion_figure, torque_loop_figure
 from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
-from forcetorque.locomotion.movement import motion
+from forcetorque.locomotion.motion_quality import motion
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
 from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance

@@ -51,6 +51,16 @@ def test_the_worst_comes_first_with_its_reason_and_its_step() -> None:
     ]
 
 
+def test_reasons_without_room_are_left_out() -> None:
+    """The last one that has room ends in an ellipsis; verdict, files and command stay, and one line of why."""
+    whole = answer_text([BAD, GOOD], 40, "walk.toml")
+    assert answer_text([BAD, GOOD], 40, "walk.toml", most=7) == whole
+    for most in (2, 6):
+        cut = answer_text([BAD, GOOD], 40, "walk.toml", most=most).splitlines()
+        assert cut[1] == "  force error 9 N (95 %: 12 N, allowed …"
+        assert [cut[0], *cut[2:]] == [line for k, line in enumerate(whole.splitlines()) if k not in (1, 2)]
+
+
 def test_alike_answers_keep_their_order() -> None:
     """So that the first sensor of the file stays the first."""
     others = [Answer(subject=name, verdict="USE") for name in ("b", "a", "c")]

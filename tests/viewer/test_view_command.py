@@ -156,6 +156,7 @@ def test_samples_of_an_earlier_session_are_kept(run: Run, arm: Path, monkeypatch
             ["estimates.parquet"],
             "estimates.parquet: expected an experiment file or the numbers of a report, got a table",
         ),
+        (["log.csv"], "if it is a log, begin an experiment file by `forcetorque init log.csv --urdf ROBOT.urdf`"),
         ([PARQUET, "-o", "nowhere/view.html"], "nowhere/view.html: expected an existing folder to write to"),
         ([PARQUET, "-o", "view.html", "--port", "8000"], "--port belongs to a page that is served"),
         ([PARQUET, "--port", "99999"], "port 99999 of 127.0.0.1"),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.app.python.functions import motion_of_arrays
+    from forcetorque.app.python.arrays import motion_of_arrays
     from forcetorque.device.command import design_device
     from forcetorque.locomotion.commands import motion
     from forcetorque.simulation.command import simulate
@@ -27,7 +27,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "design_device": "forcetorque.device.command",
         "motion": "forcetorque.locomotion.commands",
-        "motion_of_arrays": "forcetorque.app.python.functions",
+        "motion_of_arrays": "forcetorque.app.python.arrays",
         "simulate": "forcetorque.simulation.command",
         "study": "forcetorque.study.command",
         "workbench": "forcetorque.workbench.command",

@@ -16,7 +16,7 @@ from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
 from forcetorque.results.terminal.command import command_function
 from forcetorque.results.terminal.help import WholeSentences
-from forcetorque.results.terminal.output import report_error, spell_missing_letters
+from forcetorque.results.terminal.output import print_messages, report_error, spell_missing_letters
 
 _NAME = "forcetorque"
 _CONTEXT: Final[dict[str, Any]] = {"help_option_names": ["-h", "--help"]}
@@ -173,3 +173,5 @@ def main() -> None:
     except (ForceTorqueError, OSError) as error:
         report_error(error)
         raise SystemExit(2) from None
+    finally:
+        print_messages()

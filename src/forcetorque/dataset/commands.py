@@ -193,7 +193,7 @@ def compensate_dataset(
     from forcetorque.base.wrench import MeasureDirection
     from forcetorque.dataset.compensate import Measurement, Request, compensated
     from forcetorque.dataset.force_fields import any_field, orientation_field, wrench_field
-    from forcetorque.dataset.tool import read_known_load
+    from forcetorque.dataset.tool_load import read_known_load
     from forcetorque.experiment.calibration.artefact import read_calibration
     from forcetorque.formats.lerobot.dataset import read_dataset
 

@@ -25,7 +25,7 @@ from forcetorque.dataset.episode_checks import equal_runs
 from forcetorque.dataset.force_fields import ForceField, OrientationField
 from forcetorque.dataset.frames import EpisodeBlocks, episode_frames, whole_numbers
 from forcetorque.dataset.resumable_folder import resumable_folder
-from forcetorque.dataset.tool import KnownLoad, Tool, ToolSamples, identified
+from forcetorque.dataset.tool_load import KnownLoad, Tool, ToolSamples, identified
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.formats.lerobot.dataset import INFO, Episode, LeRobotDataset, frame_batches

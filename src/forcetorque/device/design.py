@@ -16,7 +16,7 @@ from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
-from forcetorque.device.span import DeviceSpan, device_span
+from forcetorque.device.spanned_directions import DeviceSpan, device_span
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.motion import JointMotion

@@ -18,7 +18,7 @@ from forcetorque.device.demand_result import GradeRow
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
 from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
-from forcetorque.device.span import DirectionRow
+from forcetorque.device.spanned_directions import DirectionRow
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.terminal.options import (
     CalibrationsOption,
     DetailsOption,
@@ -85,11 +84,11 @@ def estimate(
     from forcetorque.experiment.input_files import file_of_each, stated_in
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.formats.sample_table import SUFFIXES
-    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.output import refuse_ending, refuse_figure
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
 
     log = start_logging()
-    _refuse_ending(output, SUFFIXES)
+    refuse_ending("--output", output, SUFFIXES)
     refuse_figure(figure, force=force)
     refuse_a_file_twice(experiments)
     files, figures = file_of_each(experiments, output), {} if figure is None else file_of_each(experiments, figure)
@@ -165,12 +164,6 @@ def _estimated(
         log.info("drawn are the joints whose torques change most, not %s", ", ".join(left_out))
     # without samples afterwards: there may be more of them than memory holds
     return drawn_to(summary.model_copy(update={"torques": torques}), figure).model_copy(update={"torques": None})
-
-
-def _refuse_ending(output: Path, endings: Sequence[str]) -> None:
-    """Say so before hours are spent on what cannot be written."""
-    if output.suffix not in endings:
-        raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(endings)}")
 
 
 class _Progress:

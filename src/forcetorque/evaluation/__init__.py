@@ -9,11 +9,10 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept
     from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-    from forcetorque.evaluation.commands import evaluate, validate
+    from forcetorque.evaluation.commands import compare, evaluate, validate
     from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.load_cases.verdict import use_verdicts
     from forcetorque.evaluation.sphere.sphere import spheres, spheres_of_sensors
-    from forcetorque.evaluation.trials.comparison import compare
     from forcetorque.evaluation.validation.validation import Validation
     from forcetorque.experiment.calibrations_under_test import wrench_errors
 
@@ -57,7 +56,7 @@ __getattr__, __dir__ = lazy_names(
         "Evaluation": "forcetorque.evaluation.evaluation",
         "Validation": "forcetorque.evaluation.validation.validation",
         "accept": "forcetorque.evaluation.acceptance.acceptance",
-        "compare": "forcetorque.evaluation.trials.comparison",
+        "compare": "forcetorque.evaluation.commands",
         "evaluate": "forcetorque.evaluation.commands",
         "read_acceptance": "forcetorque.evaluation.acceptance.acceptance_file",
         "spheres": "forcetorque.evaluation.sphere.sphere",

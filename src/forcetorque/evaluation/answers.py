@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answer of `evaluate` in a few lines: may a calibration be used, at what error, and what to do next."""
+"""The answers of `evaluate` and `accept` in a few lines: may a calibration be used, at what error, what to do next."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from math import inf
 from typing import TYPE_CHECKING, Final
 
+from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.evaluation.load_cases.verdict import (
     ADVICE_BY_SOURCE,
@@ -17,13 +19,14 @@ from forcetorque.evaluation.load_cases.verdict import (
     LoadCaseError,
     LoadCaseVerdict,
 )
-from forcetorque.evaluation.next_step import to_calibrate, to_export, to_plan
+from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
+    from forcetorque.evaluation.acceptance.acceptance import Acceptance
     from forcetorque.evaluation.evaluation import CalibrationErrors, Evaluation
 
 CONCERN: Final[Mapping[Decision, Concern]] = {
@@ -143,3 +146,137 @@ def _step(use: LoadCaseVerdict) -> tuple[str, str]:
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:
     return amount(value, unit) if half_width is None else within(value, half_width, unit)
+
+
+def to_plan(calibration: str) -> str:
+    """Give the command that says what to record next.
+
+    Args:
+        calibration: File of the calibration.
+
+    Returns:
+        The command, with a distance from joint limits, which it needs.
+    """
+    return typed("plan", EXPERIMENT, "-c", calibration, "--clearance-deg", "10")
+
+
+def to_calibrate(sensor: str) -> tuple[str, str]:
+    """Give the step that follows where there is no calibration.
+
+    Args:
+        sensor: Name of the sensor.
+
+    Returns:
+        The step and its command.
+    """
+    return "calibrate the sensor", typed("calibrate", EXPERIMENT, "--sensor", sensor, "-o", f"{sensor}.json")
+
+
+def to_evaluate(calibration: str) -> tuple[str, str]:
+    """Give the step that follows where a calibration has no verdict yet.
+
+    Args:
+        calibration: Its file.
+
+    Returns:
+        The step and its command.
+    """
+    return "evaluate its errors at the loads to come", typed("evaluate", EXPERIMENT, "-c", calibration)
+
+
+def to_export(calibration: str, sensor: str) -> tuple[str, str]:
+    """Give the step that follows where a calibration may be used.
+
+    Args:
+        calibration: Its file.
+        sensor: Name of the sensor.
+
+    Returns:
+        The step and its command.
+    """
+    return "export the matrix to the robot", typed("export", calibration, "--to", "csv", "-o", f"{sensor}.csv")
+
+
+_OF_RECORDINGS = frozenset({"recording", "offset"})
+"""Tables of an acceptance file that limit the recording, not the calibration."""
+_OF_INFORMATION = frozenset({"uncertainty", "excitation", "information_gain", "load_case"})
+"""Tables whose limits further recordings can meet."""
+_RECORD_MORE = "record more, and calibrate again"
+_NAMED = 4
+"""Failed criteria that are named; the others are counted."""
+
+
+def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
+    """Give the answer for every sensor.
+
+    Args:
+        acceptance: Its criteria.
+
+    Yields:
+        One answer each.
+    """
+    for sensor in dict.fromkeys(criterion.sensor for criterion in acceptance.criteria):
+        criteria = [criterion for criterion in acceptance.criteria if criterion.sensor == sensor]
+        ordered = sorted(criteria, key=lambda criterion: (criterion.passed, -_excess(criterion)))
+        failed = [criterion for criterion in ordered if not criterion.passed]
+        worst = ordered[0]
+        name = short_names([worst.calibration])[worst.calibration]
+        # load cases of the acceptance file are criteria themselves, and decide alone
+        decided = any(criterion.criterion.startswith("load_case.") for criterion in criteria)
+        uses = () if decided else acceptance.load_cases
+        unsure = [use for use in uses if use.sensor == sensor and use.decision == "not enough data"]
+        step, command = _acceptance_step(worst) if failed else _after_acceptance(worst, unsure)
+        yield Answer(
+            subject=f"{worst.sensor} ({worst.serial}), {name}, by {acceptance.specification!r}",
+            verdict="REJECTED" if failed else "ACCEPTED",
+            why=(*_reasons(worst, failed, len(criteria)), *(use.message for use in unsure[:1])),
+            step=step,
+            command=command,
+            concern=Concern.BAD if failed else Concern.UNCERTAIN if unsure else Concern.NONE,
+        )
+
+
+def _excess(criterion: Criterion) -> float:
+    """How many times over the limit; above 1 it fails."""
+    beyond, limit = abs(criterion.measured), abs(criterion.limit)
+    if criterion.bound is Bound.AT_LEAST:
+        beyond, limit = limit, beyond
+    return beyond / limit if limit else inf if beyond else 0.0
+
+
+def _reasons(worst: Criterion, failed: Sequence[Criterion], count: int) -> Iterator[str]:
+    if not failed:
+        yield f"{count} of {count} criteria hold; nearest to its limit: {_compared(worst)}"
+        return
+    yield f"{len(failed)} of {count} criteria fail; farthest from its limit: {_compared(worst)}"
+    others = [criterion.criterion for criterion in failed[1:]]
+    if others:
+        more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
+        yield f"also failed: {', '.join(others[:_NAMED])}{more}"
+
+
+def _compared(criterion: Criterion) -> str:
+    allowed = "at most" if criterion.bound is Bound.AT_MOST else "at least"
+    unit = f" {criterion.unit}" if criterion.unit else ""
+    where = f" ({criterion.note})" if criterion.note else ""
+    return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
+
+
+def _after_acceptance(criterion: Criterion, unsure: Sequence[LoadCaseVerdict]) -> tuple[str, str]:
+    if criterion.calibration == PRIOR:
+        return "", ""
+    if unsure:
+        return _RECORD_MORE, to_plan(criterion.calibration)
+    return to_export(criterion.calibration, criterion.sensor)
+
+
+def _acceptance_step(worst: Criterion) -> tuple[str, str]:
+    """What may meet the criterion that is farthest from its limit."""
+    table, calibration = worst.criterion.partition(".")[0], worst.calibration
+    if table in _OF_RECORDINGS:
+        return "look for faults of the recording", typed("inspect", FIRST_EXPERIMENT)
+    if calibration == PRIOR:
+        return to_calibrate(worst.sensor)
+    if table in _OF_INFORMATION:
+        return _RECORD_MORE, to_plan(calibration)
+    return "see where the errors come from", typed("evaluate", EXPERIMENT, "-c", calibration, "--details")

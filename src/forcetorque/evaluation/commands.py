@@ -1,22 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque evaluate`, `accept`, `compare`, `sphere` and `validate`."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from forcetorque.results.command import Option, command
-from forcetorque.results.terminal.options import (
-    ComparedCalibrationsOption,
-    DetailsOption,
-    FormatOption,
-    SensorOption,
-    SphereIntervalOption,
-)
-from forcetorque.results.terminal.output import Format, TrialsChoice, show, start_logging, stop_at_failures
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -34,6 +24,18 @@ if TYPE_CHECKING:
     from forcetorque.experiment.campaign import Runs
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.free_sub_model import OtherSensors
+
+_COMPARED_CALIBRATIONS = Option(
+    "Calibration file to compare with the prior.",
+    "--calibration",
+    "-c",
+    typed=list[Path],
+    reads="forcetorque.results.terminal.reading:read_calibrations",
+)
+_SPHERE_INTERVALS = Option(
+    "Label or kind of an interval whose motion draws a sphere. Default: the sphere intervals of each file, else all.",
+    "--interval",
+)
 
 
 @command()
@@ -172,85 +174,62 @@ def validate(
     return validation(Campaign.of(run), named(calibrations), choice)
 
 
+@command("the indices of trials, their mean and the pooled fit")
 def compare(
     experiments: Annotated[
-        list[Path],
-        typer.Argument(help="Experiment files (TOML), in the order of the trials; see docs/evaluation/sphere.md."),
+        "Sequence[Path | str]",
+        Option("Experiment files (TOML), in the order of the trials; see docs/evaluation/sphere.md.", typed=list[Path]),
     ],
-    sensor: SensorOption = None,
-    calibration: ComparedCalibrationsOption = None,
-    interval: SphereIntervalOption = None,
-    trials: Annotated[
-        TrialsChoice,
-        typer.Option("--trials", help="Whether a trial is a file with all its intervals, or each interval."),
-    ] = TrialsChoice.FILES,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", help="PNG of the indices of trials, their mean and the pooled fit.")
-    ] = None,
-    details: DetailsOption = False,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+    *,
+    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    calibrations: Annotated["Mapping[str, Calibration] | None", _COMPARED_CALIBRATIONS] = None,
+    intervals: Annotated[Collection[str], _SPHERE_INTERVALS] = (),
+    by_interval: Annotated[
+        bool,
+        Option(
+            "Whether a trial is a file with all its intervals, or each interval. Default: files.",
+            "--trials",
+            choices=("files", "intervals"),
+            reads=lambda choice: choice == "intervals",
+        ),
+    ] = False,
+    progress: Annotated[
+        "Progress", Option("Called with a line for people at every file, and at every group that is pooled.")
+    ] = lambda _: None,
+) -> "Comparison":
     """Compare the spheres of many sensors, mountings and trials.
 
     Example: forcetorque study compare first.toml second.toml third.toml
 
     Python: `evaluation.compare(["first.toml", "second.toml"])`
+
+    Returns:
+        Trials sorted by sensor, condition and way of reading, and what failed, which does not stop the others.
+
+    Raises:
+        MissingFileError: If a file is not there; nothing has been read then.
+        ExperimentError: If a file is named twice.
     """
-    from forcetorque.evaluation.trials.comparison import compare
-    from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations
+    from forcetorque.evaluation.trials.comparison import Comparison
+    from forcetorque.evaluation.trials.trials import read_trials
 
-    log = start_logging()
-    refuse_figure(figure)
-    result = compare(
+    trials, failures = read_trials(
         experiments,
-        sensors=sensor,
-        calibrations=read_calibrations(calibration),
-        intervals=interval,
-        by_interval=trials is TrialsChoice.INTERVALS,
-        progress=log.info,
+        sensors=sensors or None,
+        calibrations=calibrations,
+        intervals=tuple(intervals) or None,
+        by_interval=by_interval,
+        progress=progress,
     )
-    if figure is not None and result.analyses:
-        result = _drawn(result, figure)
-    show(result, output_format, details=details, experiments=experiments)
-    stop_at_failures([failure for failure in result.failures if not failure.skipped])
-
-
-def _drawn(result: "Comparison", figure: Path) -> "Comparison":
-    """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
-    from forcetorque.base.errors import ForceTorqueError
-    from forcetorque.evaluation.sphere.result import FailureRow
-    from forcetorque.results.terminal.output import drawn_to
-
-    try:
-        return drawn_to(result, figure)
-    except (ForceTorqueError, OSError) as error:
-        failure = FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))
-        return result.model_copy(update={"failures": (*result.failures, failure)})
+    return Comparison.of(trials, failures, progress)
 
 
 @command("the forces, the ellipsoids and the weight by the model")
 def sphere(
     experiment: Annotated["Experiment", Option("Experiment in which a limb is carried around.")],
     sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
-    calibrations: Annotated[
-        "Mapping[str, Calibration] | None",
-        Option(
-            "Calibration file to compare with the prior.",
-            "--calibration",
-            "-c",
-            typed=list[Path],
-            reads="forcetorque.results.terminal.reading:read_calibrations",
-        ),
-    ] = None,
-    intervals: Annotated[
-        Collection[str],
-        Option(
-            "Label or kind of an interval whose motion draws a sphere. Default: the sphere intervals of each file, "
-            "else all.",
-            "--interval",
-        ),
-    ] = (),
+    calibrations: Annotated["Mapping[str, Calibration] | None", _COMPARED_CALIBRATIONS] = None,
+    intervals: Annotated[Collection[str], _SPHERE_INTERVALS] = (),
     *,
     progress: Annotated["Progress", Option("Called with a line for people at every sensor.")] = lambda _: None,
 ) -> "Spheres":

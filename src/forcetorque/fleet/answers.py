@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from forcetorque.evaluation.answers import CONCERN
-from forcetorque.evaluation.next_step import to_export
+from forcetorque.evaluation.answers import CONCERN, to_export
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import Answer
 from forcetorque.results.number_text import amount

@@ -7,11 +7,10 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.locomotion.commands import coherence, torque_loop
+    from forcetorque.locomotion.commands import balance, coherence, torque_loop
     from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
-    from forcetorque.locomotion.movement import motion
+    from forcetorque.locomotion.motion_quality import motion
     from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
-    from forcetorque.locomotion.standing.standing import balance
     from forcetorque.locomotion.torque_control.file import read_torque_loop
 
 CAPABILITY = Capability(
@@ -45,10 +44,10 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "balance": "forcetorque.locomotion.standing.standing",
+        "balance": "forcetorque.locomotion.commands",
         "coherence": "forcetorque.locomotion.commands",
         "load_foot_forces": "forcetorque.locomotion.standing.foot_wrenches",
-        "motion": "forcetorque.locomotion.movement",
+        "motion": "forcetorque.locomotion.motion_quality",
         "motion_signals": "forcetorque.locomotion.logged_signals",
         "motion_signals_of_arrays": "forcetorque.locomotion.logged_signals",
         "read_torque_loop": "forcetorque.locomotion.torque_control.file",

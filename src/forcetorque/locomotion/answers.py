@@ -12,7 +12,7 @@ from forcetorque.results.number_text import amount, bounded, plus_minus, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.locomotion.movement import Motion, OscillationRow
+    from forcetorque.locomotion.motion_quality import Motion, OscillationRow
     from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary
     from forcetorque.locomotion.standing.result import SupportPhaseRow
     from forcetorque.locomotion.standing.standing import Balance

@@ -1,139 +1,132 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque robot balance`, `coherence`, `motion` and `torque-loop`."""
 
+import logging
 from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from forcetorque.base.errors import ForceTorqueError
-from forcetorque.results.command import Option, command
-from forcetorque.results.terminal.options import CalibrationsOption, DetailsOption, ForceOption, FormatOption
-from forcetorque.results.terminal.output import Format, show, start_logging
+from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from logging import Logger
 
     from forcetorque.base.progress import Progress
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
     from forcetorque.experiment.validation_offset import OffsetPolicy
-    from forcetorque.locomotion.movement import Motion
+    from forcetorque.locomotion.motion_quality import Motion
     from forcetorque.locomotion.net_force.result import Coherence
+    from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.foot_wrenches import FootForces
-    from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.standing import Balance
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile
     from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
 
+_LOG = logging.getLogger(__name__)
+_CALIBRATIONS = Option(
+    "Calibration file, or folder of them. Default: the priors.",
+    "--calibration",
+    "-c",
+    typed=list[Path],
+    reads="forcetorque.results.terminal.reading:read_calibrations",
+)
 
+
+@command(
+    "phases, loads and points of the first interval that it stands in",
+    Saved(
+        flags=("--output", "-o"),
+        help="File for every sample, .parquet or .csv.",
+        function="forcetorque.locomotion.standing.standing:Balance.write",
+        endings=(".parquet", ".csv"),
+    ),
+)
 def balance(
     experiments: Annotated[
-        list[Path], typer.Argument(help="Experiment files (TOML) with [[sole]]; see docs/locomotion/balance.md.")
+        "Experiment | Sequence[Experiment | FootForces | Path | str]",
+        Option("Experiment files (TOML) with [[sole]]; see docs/locomotion/balance.md.", typed=list[Path]),
     ],
-    touch: Annotated[
-        str, typer.Option("--touch", help="Force that a contact reaches, as 50N, or a share of the weight, as 15%.")
-    ] = "15%",
-    release: Annotated[
-        str, typer.Option("--release", help="Force above which it lasts, as 20N or 6%; no more than --touch.")
-    ] = "6%",
-    dwell: Annotated[
-        float, typer.Option("--dwell", help="Shortest contact, and shortest pause between contacts, that counts; s.")
+    calibrations: Annotated["Calibration | Mapping[str, Calibration] | None", _CALIBRATIONS] = None,
+    *,
+    touch: Annotated[str, Option("Force that a contact reaches, as 50N, or a share of the weight, as 15%.")] = "15%",
+    release: Annotated[str, Option("Force above which it lasts, as 20N or 6%; no more than --touch.")] = "6%",
+    dwell_s: Annotated[
+        float, Option("Shortest contact, and shortest pause between contacts, that counts; s.", "--dwell")
     ] = 0.0,
     least_load: Annotated[
-        str | None,
-        typer.Option("--least-load", help="Load below which a foot has no centre of pressure. Default: --touch."),
+        str | None, Option("Load below which a foot has no centre of pressure. Default: --touch.")
     ] = None,
-    height_band: Annotated[
+    height_band_m: Annotated[
         float | None,
-        typer.Option(
+        Option(
+            "How far the centre of mass may be from its median height; m. With it, its acceleration by (5.22).",
             "--height-band",
-            help="How far the centre of mass may be from its median height; m. With it, its acceleration by (5.22).",
         ),
     ] = None,
-    calibration: CalibrationsOption = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")
+    plane: Annotated[
+        "PlaneTolerance | None",
+        Option("How far soles may be out of one plane; `PlaneTolerance()` if None.", python_only=True),
     ] = None,
-    figure: Annotated[
-        Path | None,
-        typer.Option("--figure", help="PNG of phases, loads and points of the first interval that it stands in."),
-    ] = None,
-    force: ForceOption = False,
-    details: DetailsOption = False,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+) -> "Balance":
     """Say which feet bear the robot, and where.
 
     Example: forcetorque robot balance standing.toml --touch 50N --release 20N
 
     Python: `experiment.balance(calibration)`; of vertical forces alone
     `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
-    """
-    from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
-    from forcetorque.locomotion.standing.interval import BalanceOptions
-    from forcetorque.locomotion.standing.support_phases import ForceLimit
-    from forcetorque.results.terminal.output import drawn_to, refuse_figure
 
-    log = start_logging()
-    refuse_figure(figure, force=force)
-    refuse_a_file_twice(experiments)
-    _refuse_output(output, force=force)
+    Returns:
+        Phases, centres of pressure and of mass over all intervals that are not ignored, with every sample in
+        `intervals`.
+
+    Raises:
+        ExperimentError: If a file has no sole, or comes twice.
+        EstimationError: If no foot is down in any interval, or thresholds cross.
+    """
+    from forcetorque.experiment.calibrations_under_test import named
+    from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+    from forcetorque.experiment.experiment import Experiment
+    from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
+    from forcetorque.locomotion.standing.interval import BalanceOptions
+    from forcetorque.locomotion.standing.standing import balance
+    from forcetorque.locomotion.standing.support_phases import ForceLimit
+
     options = BalanceOptions(
         touch=ForceLimit.of(touch),
         release=ForceLimit.of(release),
-        dwell_s=dwell,
+        dwell_s=dwell_s,
         least_load=None if least_load is None else ForceLimit.of(least_load),
-        height_band_m=height_band,
+        height_band_m=height_band_m,
+        plane=PlaneTolerance() if plane is None else plane,
     )
-    result = _answer(experiments, calibration, options, log)
-    if output is not None:
-        log.info("%s: %d rows", output, result.write(output))
-    if figure is not None:
-        result = drawn_to(result, figure)
-    show(result, output_format, details=details, experiments=experiments)
+    several = [experiments] if isinstance(experiments, Experiment) else experiments
+    refuse_a_file_twice([Path(one) for one in several if isinstance(one, Path | str)])
+    read = [_with_corrections(experiment, named(calibrations)) for experiment in several]
+    return balance([recording for recording, _ in read], [corrections for _, corrections in read], options)
 
 
-def _answer(
-    experiments: Sequence[Path], calibration: Sequence[Path] | None, options: "BalanceOptions", log: "Logger"
-) -> "Balance":
+def _with_corrections(
+    experiment: "Experiment | FootForces | Path | str", calibrations: "Mapping[str, Calibration]"
+) -> "tuple[Experiment | FootForces, Mapping[str, Correction]]":
+    """A recording of feet, and how its sensors are read; vertical forces have none."""
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.offsets import corrections_of
-    from forcetorque.locomotion.standing.foot_wrenches import has_foot_forces, load_foot_forces
-    from forcetorque.locomotion.standing.standing import balance
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
+    from forcetorque.locomotion.standing.foot_wrenches import FootForces, has_foot_forces, load_foot_forces
+    from forcetorque.results.terminal.reading import read_experiment
 
-    calibrations = read_calibrations(calibration)
-    recordings: list[Experiment | FootForces] = []
-    corrections: list[Mapping[str, Correction]] = []
-    for path in experiments:
-        if has_foot_forces(path):
-            recordings.append(load_foot_forces(path))
-            corrections.append({})
-            continue
-        content = read_experiment(path, log)
-        with stated_in(str(path)):
-            readings = corrections_of(content, calibrations)
-        recordings.append(content)
-        corrections.append(readings)
-        for sensor, correction in readings.items():
-            log.info("%s: %s", sensor, correction.source)
-    return balance(recordings, corrections, options)
-
-
-def _refuse_output(output: Path | None, *, force: bool) -> None:
-    """Say so before work is done for a file that cannot be written."""
-    from forcetorque.base.output_file import declare_outputs
-    from forcetorque.formats.sample_table import SUFFIXES
-
-    if output is None:
-        return
-    if output.suffix not in SUFFIXES:
-        raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(SUFFIXES)}")
-    declare_outputs(output, force=force)
+    if isinstance(experiment, Path | str) and has_foot_forces(experiment):
+        experiment = load_foot_forces(experiment)
+    if isinstance(experiment, FootForces):
+        return experiment, {}
+    if isinstance(experiment, Path | str):
+        experiment = read_experiment(Path(experiment), _LOG)
+    with stated_in(str(experiment.file)):
+        corrections = corrections_of(experiment, calibrations)
+    for sensor, correction in corrections.items():
+        _LOG.info("%s: %s", sensor, correction.source)
+    return experiment, corrections
 
 
 @command("the errors by phase, calibration and offset")
@@ -210,16 +203,7 @@ def motion(
             reads=lambda percent: percent / 100.0,
         ),
     ] = 0.05,
-    calibrations: Annotated[
-        "Mapping[str, Calibration] | None",
-        Option(
-            "Calibration file. Default: the priors.",
-            "--calibration",
-            "-c",
-            typed=list[Path],
-            reads="forcetorque.results.terminal.reading:read_calibrations",
-        ),
-    ] = None,
+    calibrations: Annotated["Mapping[str, Calibration] | None", _CALIBRATIONS] = None,
 ) -> "Motion":
     """Say whether a motion oscillates, how long it settles, how well it tracks.
 
@@ -232,7 +216,7 @@ def motion(
     """
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.locomotion.logged_signals import motion_signals
-    from forcetorque.locomotion.movement import motion
+    from forcetorque.locomotion.motion_quality import motion
 
     with stated_in(str(log)):
         signals = motion_signals(log, columns, desired=desired, intervals=intervals, calibrations=calibrations)

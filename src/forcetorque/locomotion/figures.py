@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.locomotion.movement import Motion, MotionCurve
+from forcetorque.locomotion.motion_quality import Motion, MotionCurve
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, policy_words
 from forcetorque.locomotion.standing.interval import IntervalBalance
 from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy

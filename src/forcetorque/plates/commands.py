@@ -11,8 +11,7 @@ from forcetorque.results.command import Option, Saved, command
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from forcetorque.plates.calibration_result import PlateCalibration
-    from forcetorque.plates.result import PlateWeight
+    from forcetorque.plates.calibration_result import PlateCalibration, PlateWeight
 
 
 @command()

@@ -12,8 +12,8 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import mean_error
 from forcetorque.formats.c3d.force_platform import EDGE_M, ForcePlate, centre_of_pressure
+from forcetorque.plates.calibration_result import PlateRow, PlateWeight
 from forcetorque.plates.plate_file import PlateFile
-from forcetorque.plates.result import PlateRow, PlateWeight
 from forcetorque.recording.stream_faults import true_runs
 
 LOADED_N = 20.0

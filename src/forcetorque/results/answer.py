@@ -19,6 +19,8 @@ FIRST_EXPERIMENT: Final = "{first experiment}"
 _ANY = "EXPERIMENT.toml"
 MOST_LINES: Final = 12
 """Lines of the answer about one sensor or one thing at 80 characters, warnings included; a further one adds a line."""
+STANDARD_WIDTH: Final = 80
+"""Characters of a line from which on an answer has no more lines than that."""
 _INDENT = "  "
 _MOST_WARNINGS = 3
 """Warnings that are shown below an answer where there is room; the others are counted."""
@@ -74,7 +76,9 @@ class Answer:
     """How much it asks for attention."""
 
 
-def answer_text(answers: Sequence[Answer], width: int, experiment: str = "", first: str = "") -> str:
+def answer_text(
+    answers: Sequence[Answer], width: int, experiment: str = "", first: str = "", *, most: int | None = None
+) -> str:
     """Write answers for people: a line for each, the worst first, and why and what next for the worst.
 
     Args:
@@ -82,6 +86,7 @@ def answer_text(answers: Sequence[Answer], width: int, experiment: str = "", fir
         width: Characters of a line.
         experiment: What stands for the experiment files in commands; a word for any if empty.
         first: What stands for the first of them.
+        most: Lines; what there is no room for of why, is left out, but one line; None for as many as there are.
 
     Returns:
         Lines, each with its end; empty without answers.
@@ -90,15 +95,19 @@ def answer_text(answers: Sequence[Answer], width: int, experiment: str = "", fir
         return ""
     ordered = sorted(answers, key=lambda answer: -answer.concern)
     names = {EXPERIMENT: experiment or _ANY, FIRST_EXPERIMENT: first or experiment or _ANY}
-    return "".join(f"{line}\n" for line in _lines(ordered, width, names))
+    why = [line for sentence in ordered[0].why for line in _indented(sentence, width).splitlines()]
+    lines = [line for part in _lines(ordered, width, names, ()) for line in part.splitlines()]
+    if most is not None and len(lines) + len(why) > most:
+        why = why[: max(1, most - len(lines))]
+        why[-1] = _INDENT + shortened(f"{why[-1]} …", width - len(_INDENT))
+    return "".join(f"{line}\n" for line in _lines(ordered, width, names, why))
 
 
-def _lines(answers: Sequence[Answer], width: int, names: Mapping[str, str]) -> Iterator[str]:
+def _lines(answers: Sequence[Answer], width: int, names: Mapping[str, str], why: Sequence[str]) -> Iterator[str]:
     for answer in answers:
         yield _headline(answer, width)
         if answer is answers[0]:
-            for sentence in answer.why:
-                yield _indented(sentence, width)
+            yield from why
     files = dict.fromkeys(file for answer in answers for file in answer.written if file is not None)
     if files:
         yield wrapped(f"written: {', '.join(files)}", width)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
+from operator import attrgetter
 from typing import Any
 
 import forcetorque
@@ -38,13 +39,13 @@ def named(reference: str) -> Any:
     """Import what a capability names.
 
     Args:
-        reference: `module:name`.
+        reference: `module:name` or `module:Class.name`.
 
     Returns:
         The object.
     """
     module, _, name = reference.partition(":")
-    return getattr(import_module(module), name)
+    return attrgetter(name)(import_module(module))
 
 
 def all_named(kind: str) -> Iterator[tuple[str, str]]:

@@ -68,8 +68,10 @@ class Saved:
     help: str
     """What it is."""
     function: str | None = None
-    """Function of the result and the path that writes it, as `module:name`; if None it is `save` of the result, whose
-    `file` then names it."""
+    """Function of the result and the path that writes it, as `module:name` or `module:Class.name`; if None it is `save`
+    of the result, whose `file` then names it."""
+    endings: tuple[str, ...] = ()
+    """How its name may end; any if empty."""
     required: bool = False
     """Whether the command demands it."""
     standard_output: bool = False

@@ -8,13 +8,14 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
 from importlib import import_module
+from pathlib import Path
 from pkgutil import walk_packages
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from forcetorque.base.errors import MissingExtraError, ShapeError, install_line
+from forcetorque.base.errors import ForceTorqueError, MissingExtraError, ShapeError, install_line
 from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.capability import named
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -266,6 +267,19 @@ class DrawnResult(Result):
         """
         figure: Figure = named(self.drawn_by)(*([getattr(self, field) for field in self.drawn_fields] or [self]))
         return figure
+
+    def without_figure(self, file: Path, error: ForceTorqueError | OSError) -> Self:
+        """Give the result where its figure cannot be drawn.
+
+        Args:
+            file: The figure.
+            error: Why it is not there.
+
+        Raises:
+            ForceTorqueError: Always, in results that are nothing without their figure.
+            OSError: As above.
+        """
+        raise error
 
     def _shown(self) -> Iterator[Table | str]:
         yield from self.blocks()

@@ -8,15 +8,15 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response
+    from forcetorque.sensor.commands import thermal
     from forcetorque.sensor.gains.gains import select_gains
-    from forcetorque.sensor.temperature.command import thermal
 
 CAPABILITY = Capability(
     page="sensor/temperature.md",
     commands=(
-        "forcetorque.sensor.gains.command:gains",
-        "forcetorque.sensor.bandwidth.command:response",
-        "forcetorque.sensor.temperature.command:thermal",
+        "forcetorque.sensor.commands:gains",
+        "forcetorque.sensor.commands:response",
+        "forcetorque.sensor.commands:thermal",
     ),
 )
 
@@ -31,6 +31,6 @@ __getattr__, __dir__ = lazy_names(
     {
         "response": "forcetorque.sensor.bandwidth.bandwidth",
         "select_gains": "forcetorque.sensor.gains.gains",
-        "thermal": "forcetorque.sensor.temperature.command",
+        "thermal": "forcetorque.sensor.commands",
     },
 )

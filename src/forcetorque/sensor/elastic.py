@@ -13,7 +13,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import SensorError
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.sensor.require import require_positive
+from forcetorque.sensor.number_checks import require_positive
 
 _TERMS = 2 * np.arange(20) + 1
 """Odd orders of the torsion series; the tail beyond them is below 1e-7 of the sum."""

@@ -20,7 +20,7 @@ from forcetorque.base.arrays import (
 )
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.sensor.gauge import ResistiveGauge
-from forcetorque.sensor.require import require_positive
+from forcetorque.sensor.number_checks import require_positive
 
 
 def bridge_ratio(resistances: Any) -> FloatArray:

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.require import require_finite
+from forcetorque.sensor.number_checks import require_finite
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

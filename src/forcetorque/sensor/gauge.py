@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import SensorError
 from forcetorque.base.units import VACUUM_PERMITTIVITY
-from forcetorque.sensor.require import require_finite, require_positive
+from forcetorque.sensor.number_checks import require_finite, require_positive
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

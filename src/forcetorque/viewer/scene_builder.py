@@ -369,8 +369,9 @@ def view_source(path: Path, calibrations: Sequence[Path] = ()) -> tuple[Path, li
     """
     if path.suffix in (".parquet", ".csv"):
         raise ForceTorqueError(
-            f"{path}: expected an experiment file or the numbers of a report, got a table of results, which holds no "
-            "robot and no motion; view the experiment that it was made from"
+            f"{path}: expected an experiment file or the numbers of a report, got a table, which does not say of which "
+            f"robot it is; if it is a log, begin an experiment file by `forcetorque init {path} --urdf ROBOT.urdf`; if "
+            "it is a result, view the experiment that it was made from"
         )
     if path.suffix != ".json":
         return path, list(calibrations)

@@ -87,8 +87,6 @@ class Span:
     """Directions of load that are spanned, to a share of 1e-9."""
     strengths: FloatArray
     """Singular values of the scaled loads over the root of their number, largest first; shape (6,)."""
-    functionals: FloatArray
-    """Linear functionals that vanish for all loads, one per direction that is not spanned; shape (6 - rank, 6)."""
     missing: tuple[MissingMoment, ...]
     """The same as moments about lines, where they have a moment."""
 
@@ -116,12 +114,10 @@ class Span:
         size = load_sizes(loads)
         _, values, directions = np.linalg.svd(loads / size, full_matrices=False)
         rank = int((values > RANK_TOLERANCE * values[0]).sum())
-        functionals = directions[rank:] / size
-        lines = (MissingMoment.of(functional) for functional in functionals)
+        lines = (MissingMoment.of(functional) for functional in directions[rank:] / size)
         return cls(
             rank=rank,
             strengths=values / np.sqrt(len(loads)),
-            functionals=functionals,
             missing=tuple(line for line in lines if line is not None),
         )
 

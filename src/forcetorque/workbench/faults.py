@@ -173,7 +173,6 @@ def detect_faults(
     residual: FloatArray,
     scatter: Scatter,
     *,
-    false_alarms: float = FALSE_ALARMS,
     kinds: Sequence[Fault] = tuple(Fault),
 ) -> tuple[DetectedFault, ...]:
     """Detect the faults of one sensor.
@@ -182,7 +181,6 @@ def detect_faults(
         loads: Loads as specified.
         residual: Measurements less loads; shape (n, 6); N, N m.
         scatter: Scatter of positions.
-        false_alarms: Share of undamaged sensors for which a fault may be reported.
         kinds: Kinds of fault to search.
 
     Returns:
@@ -195,7 +193,7 @@ def detect_faults(
         space = ResidualSpace.of(loads.wrench, covariance, explained)
         residuals = (measured - loads.wrench)[None]
         (fault,) = most_significant_faults(loads, residuals, space, scatter.degrees_of_freedom, kinds=kinds)
-        if fault is None or fault.log_probability > np.log(false_alarms):
+        if fault is None or fault.log_probability > np.log(FALSE_ALARMS):
             break
         detected.append(fault)
         if fault.fault is Fault.SWAPPED:

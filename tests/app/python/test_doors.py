@@ -22,7 +22,7 @@ from forcetorque.calibration.calibrate import calibrate_for_file
 from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly_of_experiments
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-from forcetorque.evaluation.commands import evaluate, validate
+from forcetorque.evaluation.commands import compare, evaluate, validate
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
@@ -30,7 +30,7 @@ from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.planning.planning import plan
 from forcetorque.report.report import report
 from forcetorque.sensor.bandwidth.bandwidth import response
-from forcetorque.sensor.temperature.command import thermal
+from forcetorque.sensor.commands import thermal
 from forcetorque.skin.commands import calibrate_skin
 from forcetorque.skin.taxels.calibrate import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.workbench.calibrate import workbench as workbench_of_recordings
@@ -206,8 +206,6 @@ def test_a_workbench_is_asked_by_its_file(tmp_path: Path) -> None:
 @pytest.mark.long
 def test_a_log_and_trials_may_be_named_by_text(arm: Path) -> None:
     """One log needs no list; trials need no Path."""
-    from forcetorque.evaluation.trials.comparison import compare
-
     log = str(ROOT / "docs" / "tutorial" / "log.csv")
     assert draft_experiment(log).content == draft_experiment([Path(log)]).content
     spheres = compare([str(arm / PARQUET)])

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.linearity import DECISIVE, LinearityTest
+from forcetorque.experiment.calibration.quadratic_correction import DECISIVE, LinearityTest
 from tests.calibration.generative.linear_sensors import CHANNELS, KINDS, LinearCase
 
 

@@ -11,9 +11,10 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.commands import compare
 from forcetorque.evaluation.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.trials.comparison import Comparison, compare
+from forcetorque.evaluation.trials.comparison import Comparison
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, mean_of_trials, read_trials
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.file import parse_experiment

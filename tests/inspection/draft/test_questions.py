@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.inspection.draft.edited_file import text_of, write_text_of
 from forcetorque.inspection.draft.questions import answer_questions, with_serials
+from forcetorque.inspection.draft.toml_lines import text_of, write_text_of
 
 
 @pytest.fixture

@@ -40,6 +40,27 @@ def test_degrees_of_freedom_are_those_of_satterthwaite_in_any_unit(unit: float) 
     assert 28.0 < both < 57.0
 
 
+def test_the_covariance_of_several_shapes_is_that_of_their_mixture() -> None:
+    """As drawn from it: what shapes differ by widens it, and so does each by itself."""
+    rng = np.random.default_rng(5)
+    design, time = rng.normal(size=(COUNT, 6, 2)), np.arange(float(COUNT))
+    values = rng.normal(size=(COUNT, 6)) + np.column_stack([slow(COUNT, 3.0, rng) for _ in range(6)])
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)), time_s=time)
+    groups = groups_of(rows, design, values, np.ones(6), np.ones(COUNT))
+    shapes = (WHITE, SlowNoise(time_constant_s=3.0, ratio=1.0))
+    result = estimate(groups, np.eye(2), (np.zeros((2, 2)), np.zeros(2)), shapes)
+    assert result.weights.max() < 0.6
+    np.testing.assert_allclose(result.weights @ result.apart, 0.0, atol=1e-12)
+    # two points a standard deviation to each side have the covariance of a shape
+    sides = np.concatenate([np.eye(2), -np.eye(2)])
+    roots = np.linalg.cholesky(result.spreads)
+    points = result.apart[:, None] + np.sqrt(2.0) * np.einsum("krs,ns->knr", roots, sides)
+    drawn = np.einsum("k,knr,kns->rs", result.weights, points, points) / len(sides)
+    np.testing.assert_allclose(result.covariance, drawn, rtol=1e-9)
+    apart = np.einsum("k,kr->r", result.weights, result.apart**2)
+    assert (apart > 0.01 * np.diag(result.covariance)).all()
+
+
 def test_what_no_row_tells_has_no_degree_of_freedom() -> None:
     """It stays what the prior says, and its interval is infinite."""
     rng = np.random.default_rng(3)

@@ -192,8 +192,9 @@ def test_what_a_target_refuses_is_refused(tmp_path: Path) -> None:
     """No rigid body, more than a controller takes, and a body without mass."""
     with pytest.raises(FormatError, match="franka: expected an inertia of a rigid body, .* got -0.001, 0.002, 0.003"):
         _written(tmp_path, replace(LOAD, inertia=np.diag([-0.001, 0.002, 0.003])), LoadFormat.FRANKA)
+    assert flange_load(replace(LOAD, inertia=np.diag([0.001, 0.001, 0.0019])), "abb", None).has_inertia
     with pytest.raises(FormatError, match="expected an inertia of a rigid body"):
-        flange_load(replace(LOAD, inertia=np.diag([0.001, 0.001, 0.003])), "abb", None)
+        flange_load(replace(LOAD, inertia=np.diag([0.001, 0.001, 0.0021])), "abb", None)
     with pytest.raises(FormatError, match="ur: expected an inertia of at most 133 kg m2, .* got 200"):
         _written(tmp_path, replace(LOAD, inertia=200.0 * np.eye(3)), LoadFormat.UR)
     nothing = replace(LOAD, mass=0.0, inertia=None)

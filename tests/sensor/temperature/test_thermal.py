@@ -16,7 +16,7 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.sensor.temperature.command import thermal
+from forcetorque.sensor.commands import thermal
 from tests.page_scripts import unmarked
 from tests.results.showing import require_shown
 from tests.scenes.experiments import PARQUET

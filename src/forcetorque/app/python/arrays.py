@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An experiment from arrays, without a file: readings, joint positions and a robot are all that it needs."""
+"""Experiments and motions from arrays, without a file: readings, joint positions and a robot are all that it needs."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from typing import Any, Literal, ParamSpec, get_args
 import numpy as np
 
 from forcetorque.app.python.experiment import Experiment
-from forcetorque.app.python.given_numbers import brief, numbers
-from forcetorque.app.python.tables import experiment_of_tables, stream_of_arrays
+from forcetorque.app.python.tables import brief, experiment_of_tables, numbers, stream_of_arrays
 from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import one_for_each
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.locomotion.motion_quality import BAND_SHARE, Motion
 from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
@@ -301,3 +301,32 @@ def _joint_table(model: RobotModel, time: FloatArray, joints: Mapping[str, Any])
         require_shape(values, name=f"joints[{joint!r}]", shape=(len(time),))
     units = [model.joints[joint].type.unit for joint in names]
     return stream_of_arrays(_JOINTS, time, clock="arrays", position=positions, units={"position": units})
+
+
+def motion_of_arrays(
+    time_s: Any,
+    columns: Mapping[str, Any],
+    units: Mapping[str, str],
+    *,
+    desired: Mapping[str, Any] | None = None,
+    steps_s: Sequence[float] = (),
+    band_share: float = BAND_SHARE,
+) -> Motion:
+    """Say how arrays move, such as columns of a data frame or of a simulation.
+
+    Args:
+        time_s: Instants; shape (n,); s.
+        columns: Samples by name; shape (n,) each.
+        units: Unit of each.
+        desired: What was wanted of some of them, by their names; shape (n,) each.
+        steps_s: Instants of steps; those of what was wanted if none is named; s.
+        band_share: Half of the band of settling over the step.
+
+    Returns:
+        Oscillations, settling times and tracking errors.
+    """
+    from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
+    from forcetorque.locomotion.motion_quality import motion
+
+    signals = motion_signals_of_arrays(time_s, columns, units, desired=desired)
+    return motion(signals, steps_s=steps_s, band_share=band_share)

@@ -21,8 +21,6 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.loading import load_experiment as load_content
 from forcetorque.experiment.validation_offset import OffsetPolicy
 from forcetorque.locomotion import commands as _locomotion
-from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
-from forcetorque.locomotion.standing.support_phases import ForceLimit
 from forcetorque.results.result import created_now
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
@@ -32,7 +30,6 @@ if TYPE_CHECKING:
     from forcetorque.app.run import run as _run
     from forcetorque.estimation.result import EstimateSummary
     from forcetorque.inspection import inspect as _inspection
-    from forcetorque.locomotion.standing.standing import Balance
     from forcetorque.viewer.scene_builder import View
 
 
@@ -41,6 +38,7 @@ class Experiment(ExperimentContent):
 
     __slots__ = ()
 
+    balance = _locomotion.balance
     coherence = _locomotion.coherence
     if TYPE_CHECKING:
         inspect = _inspection.inspected
@@ -83,50 +81,6 @@ class Experiment(ExperimentContent):
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self)
-
-    def balance(
-        self,
-        calibrations: Calibrations | None = None,
-        *,
-        touch: str = "15%",
-        release: str = "6%",
-        dwell_s: float = 0.0,
-        least_load: str | None = None,
-        height_band_m: float | None = None,
-        plane: PlaneTolerance | None = None,
-    ) -> Balance:
-        """Say which feet bear the robot, and where, over all intervals that are not to be ignored.
-
-        Args:
-            calibrations: How sensors are read; as logged or by their prior if left out.
-            touch: Force that a contact reaches, as `50N` or a share of the weight, as `15%`.
-            release: Force above which it lasts.
-            dwell_s: Shortest contact, and shortest pause, that counts; s.
-            least_load: Load below which there is no centre of pressure, written as `touch`; that if left out.
-            height_band_m: How far the centre of mass may be from its median height where (5.22) is asked for; m; it is
-                not if left out.
-            plane: How far soles may be out of one plane; `PlaneTolerance()` if left out.
-
-        Returns:
-            Phases, centres of pressure and of mass, with every sample in `intervals`.
-
-        Raises:
-            ExperimentError: If the file has no sole.
-            EstimationError: If no foot is down, or thresholds cross.
-        """
-        from forcetorque.experiment.offsets import corrections_of
-        from forcetorque.locomotion.standing.interval import BalanceOptions
-        from forcetorque.locomotion.standing.standing import balance
-
-        asked = BalanceOptions(
-            touch=ForceLimit.of(touch),
-            release=ForceLimit.of(release),
-            dwell_s=dwell_s,
-            least_load=None if least_load is None else ForceLimit.of(least_load),
-            height_band_m=height_band_m,
-            plane=PlaneTolerance() if plane is None else plane,
-        )
-        return balance([self], [corrections_of(self, named(calibrations))], asked)
 
     def estimate(
         self,

@@ -25,8 +25,7 @@ from forcetorque.recording.recording import Interval
 from forcetorque.results.result import NOTEBOOK_WIDTH, created_now
 from forcetorque.results.table import Table, short_names
 from forcetorque.results.table_rendering import html_table, table_text
-from forcetorque.sensor.gains import command as _gains
-from forcetorque.sensor.temperature import command as _temperature
+from forcetorque.sensor import commands as _sensor
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -126,9 +125,9 @@ class Run(SensorRun):
     evaluate = _evaluation.evaluate
     validate = _evaluation.validate
     accept = _evaluation.accept
-    gains = _gains.gains
+    gains = _sensor.gains
     collisions = _collisions.collisions
-    thermal = _temperature.thermal
+    thermal = _sensor.thermal
     if TYPE_CHECKING:
         payload = _payload.weigh_load
         plan = _planning.plan

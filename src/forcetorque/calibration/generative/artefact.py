@@ -29,7 +29,6 @@ from forcetorque.experiment.calibration.artefact import (
 )
 from forcetorque.experiment.calibration.assumptions import FLATTENED, LOADS, Assumptions
 from forcetorque.experiment.calibration.excitation import excitation_of
-from forcetorque.experiment.calibration.linearity import LinearityTest
 from forcetorque.experiment.calibration.moments import WindowMeans, pooled
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import Provenance, Selection
@@ -37,6 +36,7 @@ from forcetorque.experiment.calibration.quadratic_correction import (
     HALVES,
     STEEPEST,
     Half,
+    LinearityTest,
     NonlinearTrial,
     QuadraticCorrection,
     quadratic_terms,

@@ -20,7 +20,7 @@ from forcetorque.robot.dynamics import BodyState, net_wrench
 from forcetorque.robot.mechanics.estimates import column_of
 from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question, TorqueSum
-from forcetorque.robot.mechanics.readable import Block, body_states
+from forcetorque.robot.mechanics.readable_evaluator import Block, body_states
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 BY_SAMPLE: Final = (

@@ -28,7 +28,7 @@ from forcetorque.results.table import Table, with_first_column
 class Acceptance(Result):
     """Which criteria sensors meet, and everything that was measured of them without one."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.acceptance.answers:acceptance_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.answers:acceptance_answers"
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recordings_measured")
 

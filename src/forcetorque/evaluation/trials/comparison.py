@@ -5,16 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
+from forcetorque.base.progress import Progress
 from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
 from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow, group_rows
-from forcetorque.evaluation.trials.trials import TrialGroup, group_trials, read_trials
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
 from forcetorque.results.number_text import interval
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, short_names
@@ -220,7 +219,7 @@ _OF_A_FIT = (
 class Comparison(DrawnResult):
     """Spheres of trials, and of the sensors and conditions that they are trials of."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.trials.answers:comparison_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.sphere.answers:comparison_answers"
     drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.sphere:index_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("analyses",)
 
@@ -238,6 +237,61 @@ class Comparison(DrawnResult):
     """What could not be analysed; the exit code is 1 if there is any."""
     analyses: tuple[TrialGroup, ...] = Field(default=(), exclude=True, repr=False)
     """The trials and pooled fits behind every group, for figures."""
+
+    @classmethod
+    def of(cls, trials: Sequence[TrialSphere], failures: Sequence[FailureRow], progress: Progress) -> Self:
+        """Pool trials, and compare them.
+
+        Args:
+            trials: Trials in the order of their files.
+            failures: What could not be analysed.
+            progress: Called with a line for people at every group that is pooled.
+
+        Returns:
+            Trials sorted by sensor, condition and way of reading.
+        """
+        groups, warnings = group_trials(trials, progress=progress)
+        flattered = (
+            f"{trial.sphere.calibration} was fitted on {', '.join(map(repr, trial.sphere.fitted_on))} of {trial.file}, "
+            "so the verdict on it flatters"
+            for trial in trials
+            if trial.sphere.fitted_on
+        )
+        return cls(
+            tolerance=TOLERANCE,
+            rule=RULE,
+            figure=None,
+            trials=tuple(TrialRow.of(trial, k) for group in groups for k, trial in enumerate(group.trials, 1)),
+            groups=group_rows(groups),
+            failures=tuple(failures),
+            analyses=tuple(groups),
+            warnings=(
+                *(failure.sentence for failure in failures if not failure.skipped),
+                *warnings,
+                *flattered,
+                *dict.fromkeys(f"{trial.file}: {sentence}" for trial in trials for sentence in trial.added),
+            ),
+        )
+
+    @property
+    def passed(self) -> bool:
+        """Whether no trial failed, nor the figure."""
+        return all(failure.skipped for failure in self.failures)
+
+    def without_figure(self, file: Path, error: Exception) -> Self:
+        """Give the result with a failure in place of its figure: what fails then must not cost the result.
+
+        Args:
+            file: The figure.
+            error: Why it is not there.
+
+        Returns:
+            The result.
+        """
+        if not self.analyses:  # there is nothing to draw
+            return self
+        failure = FailureRow(file=str(file), sensor=None, message=" ".join(str(error).split()))
+        return self.model_copy(update={"failures": (*self.failures, failure)})
 
     def blocks(self) -> Iterator[Table | str]:
         """Give every trial, conditions side by side, drift and ranks.
@@ -269,61 +323,6 @@ class Comparison(DrawnResult):
                     head = {"fit": name, **_picked(group, *_COMMON, "trials")}
                     lines += [{"row": kind, **head, **values} for kind, values in _group_values(by)]
         return lines + [{"row": "failure", **failure.flat()} for failure in self.failures]
-
-
-@with_recording_notes
-def compare(
-    paths: Sequence[Path | str],
-    *,
-    sensors: Sequence[str] | None = None,
-    calibrations: Mapping[str, Calibration] | None = None,
-    intervals: Sequence[str] | None = None,
-    by_interval: bool = False,
-    progress: Callable[[str], None] | None = None,
-) -> Comparison:
-    """Compare the spheres of sensors over experiments; what fails does not stop the others.
-
-    Args:
-        paths: Experiment files, in the order of the trials.
-        sensors: Names of sensors, each in one file at least; None for all.
-        calibrations: Calibrations by name, each for the sensor of its name and serial number in any of the files.
-        intervals: Labels or kinds of the intervals whose motion draws the sphere; None for what each file says.
-        by_interval: Whether each interval is a trial of its own; else all of a file are taken together.
-        progress: Called with a line for people at every file, and at every group that is pooled.
-
-    Returns:
-        Trials sorted by sensor, condition and way of reading, and what failed.
-
-    Raises:
-        MissingFileError: If a file is not there; nothing has been read then.
-        ExperimentError: If a file is named twice.
-    """
-    trials, failures = read_trials(
-        paths, sensors=sensors, calibrations=calibrations, intervals=intervals, by_interval=by_interval,
-        progress=progress,
-    )  # fmt: skip
-    groups, warnings = group_trials(trials, progress=progress)
-    flattered = (
-        f"{trial.sphere.calibration} was fitted on {', '.join(map(repr, trial.sphere.fitted_on))} of {trial.file}, so "
-        "the verdict on it flatters"
-        for trial in trials
-        if trial.sphere.fitted_on
-    )
-    return Comparison(
-        tolerance=TOLERANCE,
-        rule=RULE,
-        figure=None,
-        trials=tuple(TrialRow.of(trial, k) for group in groups for k, trial in enumerate(group.trials, 1)),
-        groups=group_rows(groups),
-        failures=tuple(failures),
-        analyses=tuple(groups),
-        warnings=(
-            *(failure.sentence for failure in failures if not failure.skipped),
-            *warnings,
-            *flattered,
-            *dict.fromkeys(f"{trial.file}: {sentence}" for trial in trials for sentence in trial.added),
-        ),
-    )
 
 
 def _picked(row: TrialRow | GroupRow, *names: str) -> dict[str, Any]:

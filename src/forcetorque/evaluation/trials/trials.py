@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -187,7 +187,7 @@ class TrialSphere:
 class _Reading:
     """What has been read so far."""
 
-    sensors: Sequence[str] | None
+    sensors: Collection[str] | None
     calibrations: Mapping[str, Calibration]
     intervals: Sequence[str] | None
     by_interval: bool
@@ -202,7 +202,7 @@ class _Reading:
 def read_trials(
     paths: Sequence[Path | str],
     *,
-    sensors: Sequence[str] | None = None,
+    sensors: Collection[str] | None = None,
     calibrations: Mapping[str, Calibration] | None = None,
     intervals: Sequence[str] | None = None,
     by_interval: bool = False,

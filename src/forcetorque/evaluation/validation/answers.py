@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from forcetorque.evaluation.next_step import to_calibrate, to_evaluate
+from forcetorque.evaluation.answers import to_calibrate, to_evaluate
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.answer import Answer, Concern

@@ -28,7 +28,6 @@ _BLOCK = 512
 _MAGIC = 0x50
 _PROCESSORS = {84: "<", 85: "<", 86: ">"}
 """Byte order by the code of the processor: Intel, DEC, SGI."""
-_DEC = 85
 _DAMAGED = (
     AssertionError,
     AttributeError,

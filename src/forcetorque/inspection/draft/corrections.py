@@ -14,9 +14,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison
-from forcetorque.inspection.draft.edited_file import tables_of
 from forcetorque.inspection.draft.edits import Edit, key_edit, table_edit
-from forcetorque.inspection.draft.toml_lines import toml_value
+from forcetorque.inspection.draft.toml_lines import tables_of, toml_value
 from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.robot.mounting import rotation_by, rotation_vector, rotation_words
 

@@ -25,11 +25,11 @@ from forcetorque.inspection.comparison import Comparison
 from forcetorque.inspection.diagnosis import diagnosed
 from forcetorque.inspection.draft.contact_free import FreeTime, free_time
 from forcetorque.inspection.draft.corrections import correction_of
-from forcetorque.inspection.draft.edited_file import tables_of, text_of, write_text_of
 from forcetorque.inspection.draft.edits import Edit, interval_edit
 from forcetorque.inspection.draft.gravity import SHORTEST_S
 from forcetorque.inspection.draft.intervals import NOT_ENOUGH_MOTION, MovingLoad, divided
 from forcetorque.inspection.draft.residuals import Improvement, Residual, comparison_of, experiment_of
+from forcetorque.inspection.draft.toml_lines import tables_of, text_of, write_text_of
 from forcetorque.inspection.fault_messages import fault_text, remedy
 from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.recording.recording import Interval, Use

@@ -15,9 +15,8 @@ from forcetorque.base.toml_file import (
     unanswered_keys,
     with_answer,
 )
-from forcetorque.inspection.draft.edited_file import tables_of, text_of, write_text_of
 from forcetorque.inspection.draft.priors import serial_of
-from forcetorque.inspection.draft.toml_lines import toml_value
+from forcetorque.inspection.draft.toml_lines import tables_of, text_of, toml_value, write_text_of
 
 OPEN_QUESTIONS = 4
 """Exit code of commands that end with questions, or proposals, that only a person can answer."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import logging
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -33,6 +34,8 @@ from forcetorque.locomotion.standing.result import (
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, require_support
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
+
+_LOG = logging.getLogger(__name__)
 
 SAMPLES = "forcetorque/balance-samples/1"
 """Name and version of the table of samples."""
@@ -131,7 +134,9 @@ class Balance(DrawnResult):
             )
             for one in self.intervals
         ]
-        return write_samples(path, spans, schema=SAMPLES)
+        rows = write_samples(path, spans, schema=SAMPLES)
+        _LOG.info("%s: %d rows", path, rows)
+        return rows
 
 
 @with_recording_notes

@@ -30,6 +30,7 @@ from forcetorque.results.terminal.options import (
 from forcetorque.results.terminal.output import (
     Format,
     drawn_to,
+    refuse_ending,
     refuse_figure,
     refuse_output_folder,
     refuse_standard_output,
@@ -153,7 +154,7 @@ class _Analysis:
         if any(given[_name(saved)] == STANDARD_OUTPUT for saved in self.offered.saved):  # the file itself went there
             show_warnings(result)
         else:
-            files = given.get("experiments") or [given["experiment"]] if self.reads_experiments else []
+            files = given.get("experiments") or ([given["experiment"]] if self.reads_experiments else [])
             show(result, given["output_format"], details=given["details"], experiments=files)
         if not result.passed:
             raise typer.Exit(1)
@@ -169,6 +170,7 @@ class _Analysis:
                 refuse_two_on_standard_output(given[_name(saved)], given["output_format"])
             else:
                 refuse_standard_output(saved.flags[0], given[_name(saved)])
+            refuse_ending(saved.flags[0], given[_name(saved)], saved.endings)
         refuse_figure(given.get("figure"), force=given.get("force"))
         declare_outputs(*(given[_name(saved)] for saved in self.offered.saved), force=given.get("force"))
 

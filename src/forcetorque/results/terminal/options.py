@@ -52,20 +52,6 @@ PopulationOption = Annotated[
         "--population", help="Matrix file or calibration of another sensor, or a folder of them; repeat for more."
     ),
 ]
-ComparedCalibrationsOption = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--calibration", "-c", help="Calibration file to compare with the prior, or folder of them; repeat for more."
-    ),
-]
-SphereIntervalOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--interval",
-        help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
-        "intervals of each file, else all.",
-    ),
-]
 
 
 def between_commas(text: str | None) -> list[str]:

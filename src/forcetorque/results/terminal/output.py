@@ -8,14 +8,14 @@ import csv
 import logging
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from enum import StrEnum
 from glob import escape
 from io import TextIOWrapper
 from os.path import commonprefix
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Final, TextIO, TypeVar
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
@@ -41,11 +41,41 @@ class Format(StrEnum):
     CSV = "csv"
 
 
-class TrialsChoice(StrEnum):
-    """What one trial of a sensor is."""
+HELD: Final = {"held": True}
+"""Extra of a message that waits for the result, to be counted with its warnings."""
 
-    FILES = "files"
-    INTERVALS = "intervals"
+
+class _StandardError(logging.StreamHandler[TextIO]):
+    """Messages on standard error, at once but those that wait for the result."""
+
+    def __init__(self, stream: TextIO) -> None:
+        super().__init__(stream)
+        self.held: list[logging.LogRecord] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        if getattr(record, "held", False):
+            self.held.append(record)
+        else:
+            super().emit(record)
+
+
+def release_messages() -> tuple[str, ...]:
+    """Take the messages that wait for the result, each once.
+
+    Returns:
+        The messages; they are not printed.
+    """
+    handlers = [one for one in logging.getLogger("forcetorque").handlers if isinstance(one, _StandardError)]
+    messages = tuple(dict.fromkeys(record.getMessage() for handler in handlers for record in handler.held))
+    for handler in handlers:
+        handler.held.clear()
+    return messages
+
+
+def print_messages() -> None:
+    """Print the messages that wait for a result, where none is shown."""
+    for sentence in release_messages():
+        logging.getLogger("forcetorque").warning("%s", sentence)
 
 
 def start_logging() -> logging.Logger:
@@ -56,7 +86,7 @@ def start_logging() -> logging.Logger:
     """
     logger = logging.getLogger("forcetorque")
     if not logger.handlers:
-        handler = logging.StreamHandler(sys.stderr)
+        handler = _StandardError(sys.stderr)
         handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
         logger.addHandler(handler)
         logger.setLevel(logging.INFO)
@@ -66,11 +96,12 @@ def start_logging() -> logging.Logger:
 
 
 def report_error(error: Exception) -> None:
-    """Say on standard error, in one line, what was refused.
+    """Say on standard error, in one line, what was refused, below the messages that wait for a result.
 
     Args:
         error: A known error.
     """
+    print_messages()
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
 
 
@@ -104,23 +135,32 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         details: As of `show`.
         experiments: As of `show`.
     """
-    from forcetorque.results.answer import MOST_LINES, answer_text, warnings_text
+    from forcetorque.results.answer import MOST_LINES, STANDARD_WIDTH, answer_text, warnings_text
 
     answers, columns = tuple(result.answers()), width()
     if not answers:
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    text = answer_text(answers, columns, files_text(experiments), files_text(experiments[:1]))
+    most = MOST_LINES + len(answers) - 1
+    warnings: tuple[str, ...] = ()
+    if not details:
+        warnings = tuple(dict.fromkeys([*result.cautions(), *release_messages()]))
+    room = most - 1 - bool(warnings)  # for the last line, and the count of warnings
+    text = answer_text(
+        answers,
+        columns,
+        files_text(experiments),
+        files_text(experiments[:1]),
+        most=None if details or columns < STANDARD_WIDTH else room,
+    )
     sys.stdout.write(text)
     if details:
         sys.stdout.write("\n" + result.details(columns))
         show_warnings(result)
         return
     sys.stdout.flush()
-    # the count of warnings and the last line have their place beside them
-    room = MOST_LINES + len(answers) - 1 - text.count("\n") - 2
-    sys.stderr.write(warnings_text(tuple(result.cautions()), columns, room))
+    sys.stderr.write(warnings_text(warnings, columns, room - text.count("\n")))
     sys.stderr.flush()
     sys.stdout.write("details: --details\n")
 
@@ -155,6 +195,7 @@ def show_warnings(result: Result) -> None:
         result: The result.
     """
     log = start_logging()
+    print_messages()
     for sentence in result.cautions():
         log.warning("%s", sentence)
 
@@ -170,21 +211,6 @@ def say(sentence: str, output_format: Format) -> None:
 
     if output_format is Format.TABLE:
         sys.stdout.write(wrapped(sentence, width()) + "\n")
-
-
-def stop_at_failures(failures: Sequence[object]) -> None:
-    """End a command whose result is shown, but lacks something.
-
-    Args:
-        failures: What failed; none where nothing did.
-
-    Raises:
-        typer.Exit: With code 1 if there is any.
-    """
-    import typer
-
-    if failures:
-        raise typer.Exit(1)
 
 
 def width() -> int:
@@ -208,6 +234,21 @@ def refuse_standard_output(option: str, path: Path | None) -> None:
     """
     if path == STANDARD_OUTPUT:
         raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
+
+
+def refuse_ending(option: str, path: Path | None, endings: Collection[str]) -> None:
+    """Refuse a file whose name ends otherwise, before any work is done.
+
+    Args:
+        option: Option that names it.
+        path: The file; None if the option was not given.
+        endings: Endings that it may have; any if there is none.
+
+    Raises:
+        ForceTorqueError: If it has another.
+    """
+    if path is not None and endings and path.suffix not in endings:
+        raise ForceTorqueError(f"{option} {path}: expected a name that ends in {' or '.join(endings)}")
 
 
 def refuse_output_folder(output: Path, option: str = "--output") -> None:
@@ -289,7 +330,7 @@ def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
     from forcetorque.results.figures import new_figure
 
     if figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
+        refuse_ending("--figure", figure, (".png",))
     if not figure.parent.is_dir():
         raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
     declare_outputs(figure, force=force)
@@ -304,13 +345,16 @@ def drawn_to(result: _Drawn, file: Path) -> _Drawn:
         file: PNG to write or to replace.
 
     Returns:
-        The result, which names the file.
+        The result, which names the file if it was drawn.
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.figures import png_bytes
 
-    with stated_in(f"--figure {file}"):
-        figure = result.figure()
-    write_bytes_atomically(file, png_bytes(figure))
+    try:
+        with stated_in(f"--figure {file}"):
+            figure = result.figure()
+        write_bytes_atomically(file, png_bytes(figure))
+    except (ForceTorqueError, OSError) as error:
+        return result.without_figure(file, error)
     return result.model_copy(update={"figure_file": str(file)})

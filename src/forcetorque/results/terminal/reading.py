@@ -19,6 +19,7 @@ from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.results.terminal.output import HELD
 
 
 def read_experiment(path: Path, log: logging.Logger, purpose: Purpose = Purpose.SENSORS) -> Experiment:
@@ -38,7 +39,7 @@ def read_experiment(path: Path, log: logging.Logger, purpose: Purpose = Purpose.
     experiment = load_experiment(path, purpose)
     for finding in experiment.recording.findings:
         if finding.kind not in ADDED:
-            log.warning("%s: %s", finding.stream, finding.message)
+            log.warning("%s: %s", finding.stream, finding.message, extra=HELD)
     return experiment
 
 

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.inputs import activity_of, checked_inputs
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.mechanics.readable import RANK_TOLERANCE, Block, body_states, contact_columns, weighted
+from forcetorque.robot.mechanics.readable_evaluator import RANK_TOLERANCE, Block, body_states, contact_columns, weighted
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import SubModel
 

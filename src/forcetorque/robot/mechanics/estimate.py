@@ -14,7 +14,7 @@ from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.mechanics.readable import Block, BlockEvaluation
+from forcetorque.robot.mechanics.readable_evaluator import Block, BlockEvaluation
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 _FEW = 20000

@@ -129,7 +129,7 @@ class Response(DrawnResult):
     """What a sensor does to fast forces."""
 
     drawn_by: ClassVar[str] = "forcetorque.sensor.figures:response_figure"
-    answered_by: ClassVar[str | None] = "forcetorque.sensor.bandwidth.answers:response_answer"
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.answers:response_answer"
 
     schema_name: Literal["forcetorque/response/2"] = Field(default="forcetorque/response/2", alias="schema")
     """Form of the result."""

@@ -145,7 +145,7 @@ class SensorGains(ArrayRecord):
 class Gains(DrawnResult):
     """How far the channels of sensors are from saturation, and which amplifier gains would suit them."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.sensor.gains.answers:gains_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.answers:gains_answers"
     drawn_by: ClassVar[str] = "forcetorque.sensor.figures:gain_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("drawn",)
 

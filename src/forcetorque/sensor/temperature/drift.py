@@ -58,8 +58,6 @@ class DriftFit(ArrayRecord):
     """Change with time, mean of the power-ups; shape (k,); None where it is not separable from temperature."""
     drift_half_width: FloatArray | None = field(metadata=array("k"))
     """Of the largest half-width of a power-up; shape (k,)."""
-    time_share: float
-    """Share of the variance of the temperature that offset and time explain."""
     lag_s: float
     """By how much the thermometer is later than the gauges, as determined by all signals and by what is usual; s."""
     lag_error_s: float
@@ -129,7 +127,6 @@ def fit_drift(cycles: Cycles) -> DriftFit:
         hysteresis_half_width=half[:, 1] if both else None,
         drift_per_hour=values[:, slopes].mean(axis=1) if apart else None,
         drift_half_width=half[:, slopes].max(axis=1) if apart else None,
-        time_share=time_share,
         lag_s=lag,
         lag_error_s=error,
         hysteresis_share=_explained(branch, np.hstack([offsets, times, warmth])) if both else 1.0,

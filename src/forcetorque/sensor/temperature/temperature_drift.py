@@ -155,7 +155,7 @@ class SensorThermal(Row):
 class Thermal(DrawnResult):
     """What temperature does to sensors at constant load."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.sensor.temperature.answers:thermal_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.answers:thermal_answers"
     drawn_by: ClassVar[str] = "forcetorque.sensor.figures:thermal_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
 

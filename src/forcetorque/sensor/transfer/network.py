@@ -55,7 +55,11 @@ class Network(TransferFunction):
         return places[1:][directions[1:] != directions[:-1]]
 
 
-def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0, weight_decay: float = 1e-6) -> Network:
+_WEIGHT_DECAY = 1e-6
+"""Weight of the squared weights in the cost, for points scaled to unit deviation."""
+
+
+def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0) -> Network:
     """Train a network with one hidden layer by least squares of the output.
 
     The squared error has many local minima; another seed finds another network. The result needs no
@@ -66,7 +70,6 @@ def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0, 
         output: Outputs of the sensor; shape (n,).
         neurons: Number of neurons of the hidden layer.
         seed: Seed of the first weights.
-        weight_decay: Weight of the squared weights in the cost, for points scaled to unit deviation.
 
     Returns:
         The function, valid from the least to the greatest stimulus.
@@ -92,7 +95,7 @@ def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0, 
         hidden_layer_sizes=(neurons,),
         activation="tanh",
         solver="lbfgs",  # least squares of a small set; the others are for data that do not fit into memory
-        alpha=weight_decay,
+        alpha=_WEIGHT_DECAY,
         tol=1e-6,  # the default of 1e-4 stops at errors that are visible beside those of a converter
         max_iter=_ITERATIONS,
         random_state=seed,

@@ -70,7 +70,6 @@ def sway_movement(
     rng: np.random.Generator,
     duration_s: float,
     reach_m: float = _REACH_M,
-    turn_rad: float = _TURN_RAD,
     internal_force_N: float = INTERNAL_FORCE_N,
     name: str = "sway",
 ) -> Movement:
@@ -81,7 +80,6 @@ def sway_movement(
         rng: Source of targets and pushes.
         duration_s: How long it takes; s.
         reach_m: How far the trunk goes along each axis at most; m.
-        turn_rad: How far it turns about each axis at most; rad.
         internal_force_N: How much the feet push against each other along each axis at most; N.
         name: Name of the movement.
 
@@ -92,7 +90,7 @@ def sway_movement(
         name,
         MovementKind.SWAY,
         duration_s,
-        trunk=_trunk(reach_m, turn_rad, duration_s, rng),
+        trunk=_trunk(reach_m, _TURN_RAD, duration_s, rng),
         others=_others(stance, duration_s, rng),
         internal_force_N=internal_force_N,
         rng=rng,
@@ -105,7 +103,6 @@ def squat_movement(
     rng: np.random.Generator,
     duration_s: float,
     reach_m: float = _REACH_M,
-    turn_rad: float = _TURN_RAD,
     internal_force_N: float = INTERNAL_FORCE_N,
     period_s: float = 2.0 * _PERIOD_S,
     name: str = "squat",
@@ -117,7 +114,6 @@ def squat_movement(
         rng: Source of targets and pushes.
         duration_s: How long it takes; s.
         reach_m: How far the trunk goes down and up from its rest; m.
-        turn_rad: Three times how far it turns about each axis at most; rad.
         internal_force_N: How much the feet push against each other along each axis at most; N.
         period_s: Time of a squat; s.
         name: Name of the movement.
@@ -125,7 +121,7 @@ def squat_movement(
     Returns:
         The movement; it neither starts nor ends at rest.
     """
-    aside = _trunk(reach_m / 3.0, turn_rad / 3.0, duration_s, rng)
+    aside = _trunk(reach_m / 3.0, _TURN_RAD / 3.0, duration_s, rng)
 
     def trunk(seconds: FloatArray) -> FloatArray:
         way = aside(seconds)
@@ -149,7 +145,6 @@ def stepping_movement(
     rng: np.random.Generator,
     duration_s: float,
     reach_m: float = _REACH_M / 2.0,
-    turn_rad: float = _TURN_RAD,
     internal_force_N: float = INTERNAL_FORCE_N,
     cycle_s: float = 4.0,
     name: str = "stepping",
@@ -164,7 +159,6 @@ def stepping_movement(
         rng: Source of targets, steps and pushes.
         duration_s: How long it takes; s.
         reach_m: How far the trunk goes along each axis at most, beside its leaning over the foot that bears; m.
-        turn_rad: How far it turns about each axis at most; rad.
         internal_force_N: How much the feet push against each other along each axis at most; N.
         cycle_s: Time in which each foot is lifted once; s.
         name: Name of the movement.
@@ -173,7 +167,7 @@ def stepping_movement(
         The movement; both feet are in `external`, with a wrench of zero in the air.
     """
     steps = Steps.draw(cycle_s=cycle_s, duration_s=duration_s, rng=rng)
-    aside = _trunk(reach_m, turn_rad, duration_s, rng)
+    aside = _trunk(reach_m, _TURN_RAD, duration_s, rng)
     first, second = stance.world_H_feet[:, :2, 3]
 
     def trunk(seconds: FloatArray) -> FloatArray:

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Answers of temperature, fast forces and gains in a few lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.number_text import amount, plus_minus
+from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange
+
+if TYPE_CHECKING:
+    from forcetorque.sensor.bandwidth.bandwidth import Response
+    from forcetorque.sensor.bandwidth.decays import ResponseNumber
+    from forcetorque.sensor.gains.gains import Gains
+    from forcetorque.sensor.gains.result import SensorRow
+    from forcetorque.sensor.temperature.temperature_drift import Thermal, ThermalDriftRow
+
+
+def thermal_answers(thermal: Thermal) -> Iterator[Answer]:
+    """Give the answer for every sensor.
+
+    Args:
+        thermal: Drifts of sensors.
+
+    Yields:
+        One answer each.
+    """
+    for row in thermal.sensors:
+        force, moment = (_largest(row.components[part]) for part in FORCE_AND_MOMENT)
+        left = "left " if row.corrected else ""
+        drift = f"{left}drift of {force.signal} {_drift(force)}"
+        stated = row.variable_table() is not None
+        yield Answer(
+            subject=f"{row.sensor} ({row.serial})",
+            verdict=drift if row.separable_from_time else "NOT SEPARABLE FROM DRIFT IN TIME",
+            why=(
+                f"{'largest' if row.separable_from_time else drift}; of the moments {left}drift of {moment.signal} "
+                f"{_drift(moment)}",
+                f"{row.samples} samples, {row.cycles:g} times heated and cooled, {row.lowest_degC:.1f} to "
+                f"{row.highest_degC:.1f} degC",
+            ),
+            step="" if row.corrected else _STATE if stated else "record it heated and cooled several times",
+            command=typed("bench", "thermal", EXPERIMENT, "--details") if stated else "",
+            written=(thermal.figure_file,),
+            concern=Concern.NONE if row.separable_from_time else Concern.UNCERTAIN,
+        )
+
+
+_STATE = "state prior_coefficients of the details as [[sensor.variable]], and calibrate"
+
+
+def _largest(rows: Sequence[ThermalDriftRow]) -> ThermalDriftRow:
+    return max(rows, key=lambda row: abs(row.drift_per_degC))
+
+
+def _drift(row: ThermalDriftRow) -> str:
+    return plus_minus(row.drift_per_degC, row.drift_half_width_95_per_degC, f"{row.unit}/degC")
+
+
+def response_answer(response: Response) -> Answer:
+    """Give the answer.
+
+    Args:
+        response: The response of a sensor.
+
+    Returns:
+        The answer.
+    """
+    # of a quantity that comes from several sources the last is that of the measured force
+    numbers = {row.quantity: row for row in response.numbers}
+    shown = [f"{name} {_number(row)}" for name, row in numbers.items()]
+    filtered = (
+        (f"filter that undoes it: cut-off {amount(response.inverse.cut_off_hz, 'Hz')}",) if response.inverse else ()
+    )
+    first = (f"{len(response.events)} events, sampled at {response.rate_hz:.5g} Hz",) if response.events else ()
+    return Answer(
+        subject=f"{response.sensor} ({response.serial}), {response.excitation}, {response.signal}",
+        verdict=shown[0] if shown else "NOT DETERMINED",
+        why=("; ".join((*shown[1:], *first, *filtered)), *response.refused[:1]),
+        written=(response.figure_file,),
+        concern=Concern.BAD if not shown else Concern.UNCERTAIN if response.refused else Concern.NONE,
+    )
+
+
+def _number(row: ResponseNumber) -> str:
+    return plus_minus(row.value, row.half_width_95, "" if row.unit == "1" else row.unit)
+
+
+_VERBS = {GainChange.RAISE: "RAISE", GainChange.LOWER: "LOWER", GainChange.LOWER_AND_REPEAT: "LOWER"}
+
+
+def gains_answers(gains: Gains) -> Iterator[Answer]:
+    """Give the answer for every sensor.
+
+    Args:
+        gains: Ranges and advice.
+
+    Yields:
+        One answer each.
+    """
+    for row in gains.sensors:
+        raised = any(channel.change is GainChange.RAISE for channel in row.channels)
+        yield Answer(
+            subject=f"{row.sensor} ({row.serial})",
+            verdict=_verdict(row.channels),
+            why=(_nearest(row, gains.margin), *(_UNKNOWN_CONTACT if raised and not row.contact_specified else ())),
+            step=_step(row),
+            written=(gains.figure_file,),
+            concern=_concern(row, raised=raised),
+        )
+
+
+_UNKNOWN_CONTACT = (
+    "no [[contact]] is specified distal to the sensor: raise a gain only if nothing will touch the limb, or record the "
+    "contacts of operation",
+)
+
+
+def _verdict(channels: Sequence[ChannelGain]) -> str:
+    counts: dict[str, int] = {}
+    for channel in channels:
+        if channel.change in _VERBS:
+            verb = _VERBS[channel.change]
+            counts[verb] = counts.get(verb, 0) + 1
+    if counts:
+        return f"{', '.join(f'{verb} {count}' for verb, count in counts.items())} OF {len(channels)} GAINS"
+    if any(channel.change is GainChange.NONE_FITS for channel in channels):
+        return "NO ALLOWED GAIN FITS"
+    if any(channel.change is GainChange.UNKNOWN for channel in channels):
+        return "UNKNOWN: THE LOAD DID NOT MOVE"
+    return "KEEP ALL GAINS"
+
+
+def _nearest(row: SensorRow, margin: float) -> str:
+    channel = min(row.channels, key=_left)
+    saturated = sum(channel.saturated_share > 0.0 for channel in row.channels)
+    lost = f"; {saturated} of {len(row.channels)} channels saturate" if saturated else ""
+    left, least = f"{100.0 * _left(channel):.1f} %", f"{100.0 * margin:g} %"
+    return (
+        f"nearest to its limit of {row.limit_counts:g} counts: {channel.channel}, {left} left where {least} are to "
+        f"stay{lost}"
+    )
+
+
+def _left(channel: ChannelGain) -> float:
+    """What is left towards the nearer limit; share of the limit."""
+    return min(channel.headroom_below, channel.headroom_above)
+
+
+def _step(row: SensorRow) -> str:
+    if row.repeat:
+        return "lower the gains, and repeat the motion"
+    if any(channel.change in _VERBS for channel in row.channels):
+        return "set the gains of --details in the electronics, and calibrate again"
+    return ""
+
+
+def _concern(row: SensorRow, *, raised: bool) -> Concern:
+    if row.repeat or any(channel.change is GainChange.NONE_FITS for channel in row.channels):
+        return Concern.BAD
+    return Concern.UNCERTAIN if raised and not row.contact_specified else Concern.NONE
