@@ -34,6 +34,7 @@ def test_an_evaluation_is_written_for_viewers(run: Run, arm: Path) -> None:
     assert any(line.startswith("INFO: written: evaluated.mcap, ") for line in ended.log)
     topics = _topics(arm / "evaluated.mcap")
     assert topics["/arm_ft/fitted_json/error"] > 0
+    assert "/arm_ft/fitted_json/error.wrench.force.x" in (arm / "evaluated.foxglove.json").read_text(encoding="utf-8")
     assert "/hand/contact" not in topics
     (verdict,) = (text for text in _events(arm / "evaluated.mcap") if text.startswith("evaluate: "))
     subject, *_, decision = ended.out.splitlines()[0].split("  ")
@@ -55,11 +56,13 @@ def test_contacts_are_those_that_are_estimated(run: Run, arm: Path) -> None:
     ("view", "message"),
     [
         ("view.txt", "--view view.txt: expected a name that ends in .rrd, .mcap, .html"),
+        ("other.mcap", "other.foxglove.json: expected a new file, or a result or figure to replace, got another"),
         ("nowhere/view.mcap", "nowhere/view.mcap: expected an existing folder to write to"),
     ],
 )
 def test_what_cannot_be_written_is_refused_first(run: Run, arm: Path, view: str, message: str) -> None:
     """One line, before anything is computed."""
+    (arm / "other.foxglove.json").write_text("{}", encoding="utf-8")
     assert message in run("evaluate", PARQUET, "-c", "gone.json", "--view", view).error()
 
 

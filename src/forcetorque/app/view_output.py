@@ -67,7 +67,7 @@ def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
     """Files by experiment, which can be written."""
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.experiment.input_files import file_of_each
-    from forcetorque.viewer.view_file import require_writer
+    from forcetorque.viewer.view_file import require_writer, view_files
 
     if view.suffix.lower() not in _ENDINGS:
         raise ForceTorqueError(f"--view {view}: expected a name that ends in {', '.join(_ENDINGS)}")
@@ -76,13 +76,13 @@ def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
             raise ExperimentError(f"--view {view}: expected experiment files, whose samples it needs, got {path}")
     require_writer(view)
     files = file_of_each(given["experiments"], view)
-    declare_outputs(*files.values(), force=given.get("force"))
+    declare_outputs(*(one for file in files.values() for one in view_files(file)), force=given.get("force"))
     return files
 
 
 def _write(name: str, files: Mapping[Path, Path], given: Mapping[str, Any], result: Result) -> None:
     from forcetorque.results.terminal.output import start_logging
-    from forcetorque.viewer.view_file import write_view
+    from forcetorque.viewer.view_file import view_files, write_view
 
     log = start_logging()
     for path, file in files.items():
@@ -90,7 +90,7 @@ def _write(name: str, files: Mapping[Path, Path], given: Mapping[str, Any], resu
         for note in built.scene.notes:
             log.info("%s", note)
         built = _with_notes(built, tuple(_verdicts(name, result)))
-        log.info("written: %s, %.1f MB", file, 1e-6 * write_view(file, built))
+        log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
 
 
 def _scene(path: Path, given: Mapping[str, Any]) -> BuiltScene:
