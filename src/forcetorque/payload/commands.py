@@ -6,7 +6,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -143,7 +143,7 @@ def payload(
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
-) -> None:
+) -> Any:
     """Estimate mass, centre of mass and bias of a wrist sensor's load.
 
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
@@ -153,10 +153,14 @@ def payload(
 
     Python: `run.payload()`, over experiments `payload.weigh_load([run, other["arm_ft"]])`; `--to`: loads of
     robots (docs/payload/robot_load.md)
+
+    Returns:
+        The `Result` that is shown.
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.kept_experiments import keep_experiment
     from forcetorque.experiment.loading import load_experiment
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.payload.identify import weigh_load
@@ -177,7 +181,7 @@ def payload(
             at = Path() if save_experiment in (None, STANDARD_OUTPUT) else save_experiment.parent
             alone = experiment_of_log(path, specified, at)
             arms.append(alone.arm)
-            content = alone.experiment
+            content = keep_experiment(path, alone.experiment)
             if save_experiment is not None:
                 write_bytes_atomically(save_experiment, alone.content.encode())
         else:
@@ -195,6 +199,7 @@ def payload(
         show_warnings(load)
     else:
         show(load, output_format, details=details, experiments=experiments)
+    return load
 
 
 def _specified(entries: Sequence[str]) -> dict[str, object]:
