@@ -112,9 +112,11 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any]) -> Bu
     from forcetorque.viewer.contacts import ContactOptions
     from forcetorque.viewer.scene_builder import build_scene, scene_of
 
-    experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     if not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
-        return build_scene(experiment, {})
+        if known is None:
+            raise ExperimentError(f"--view: expected a wrench to show, got joint torques alone: {path}")
+        return build_scene(known, {})
+    experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     sensors: Sequence[str] | None = given.get("sensor")
     return scene_of(
         path,

@@ -13,6 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.toml_file import Table
+from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import LoggedWrist
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
@@ -89,6 +90,8 @@ class LogDescription:
     """Of the log of an arm what is known of the wrench at its flange; None for other logs, or without a wrench."""
     wrist_lacks: str = ""
     """Why there is no such wrench in the log of an arm."""
+    torques: LoggedTorques | None = None
+    """Where such a wrench is not in the log of an arm: what is known of its joint torques; None without."""
     sensors_apart: bool = False
     """Whether its sensors are those of no robot, each with a load of its own, as force plates are."""
 
