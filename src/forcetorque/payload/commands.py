@@ -163,6 +163,7 @@ def payload(
     from forcetorque.experiment.kept_experiments import keep_experiment
     from forcetorque.experiment.loading import load_experiment
     from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.formats.kept_parts import parts_kept
     from forcetorque.payload.identify import weigh_load
     from forcetorque.payload.load_of_log import (
         described_log,
@@ -183,12 +184,13 @@ def payload(
     for path in experiments:
         log.info("reading %s", path)
         if path in logs:
-            description = described_log(path, specified)
-            if description.torques is not None:
-                torques[path] = description.torques
-                continue
             at = Path() if save_experiment in (None, STANDARD_OUTPUT) else save_experiment.parent
-            alone = experiment_of_description(path, description, specified, at)
+            with parts_kept():
+                description = described_log(path, specified)
+                if description.torques is not None:
+                    torques[path] = description.torques
+                    continue
+                alone = experiment_of_description(path, description, specified, at)
             arms.append(alone.arm)
             content = keep_experiment(path, alone.experiment)
             if save_experiment is not None:

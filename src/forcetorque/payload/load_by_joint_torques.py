@@ -61,7 +61,9 @@ class TorqueLoad(Result):
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:torque_answers"
     of_several: ClassVar[tuple[str, ...]] = ("arms",)
 
-    schema_name: Literal["forcetorque/payload_by_torques/1"] = Field(default="forcetorque/payload_by_torques/1", alias="schema")
+    schema_name: Literal["forcetorque/payload_by_torques/1"] = Field(
+        default="forcetorque/payload_by_torques/1", alias="schema"
+    )
     """Form of the result."""
     experiment: str
     """Names of the logs."""
