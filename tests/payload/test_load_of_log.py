@@ -70,6 +70,9 @@ def test_the_declared_payload_is_part_of_the_load(tmp_path: Path, run: Run) -> N
         ("path=other.txt", "expected keys that the log lacks, got path"),
         ("payload_kg=2", "payload_kg: expected none, the log has the field payload"),
         ("gravity_direction=[0, 0, 0]", "gravity_direction: expected a direction, finite and not zero"),
+        ("tcp_offset=0,0,0.1,0,0,0", "expected [x, y, z, rx, ry, rz] in m and rad, got '0,0,0.1,0,0,0'"),
+        ("tcp_offset=[0, 0, 0.1]", "expected [x, y, z, rx, ry, rz] in m and rad, got [0, 0, 0.1]"),
+        ("payload_cog_m=[[0], 0]", "expected [x, y, z] in m, got [[0], 0]"),
     ],
 )
 def test_a_key_states_only_what_the_log_lacks(tmp_path: Path, run: Run, key: str, message: str) -> None:

@@ -53,6 +53,9 @@ _ROUNDING = 1e-3
 """By how much a rotation matrix may be off, as six digits make it."""
 
 
+_POSE_FORM = "16 numbers in brackets, column by column: three and 0 for each axis, then x, y, z in m and 1"
+
+
 class FrankaLog(ArmLogTable):
     """Robot states of libfranka."""
 
@@ -62,9 +65,9 @@ class FrankaLog(ArmLogTable):
     """File with a state as JSON in each line (`std::cout << state`), or the table of `logToCSV`."""
     joints: Annotated[tuple[Text, ...], Field(min_length=7, max_length=7)] = JOINTS
     """Names of the joints in the URDF, in the order of `q`."""
-    F_T_EE: Annotated[FloatArray, ArrayField((16,))] | None = None
+    F_T_EE: Annotated[FloatArray, ArrayField((16,), form=_POSE_FORM)] | None = None
     """Pose of the end effector in the flange, column by column, m, of a log without it."""
-    EE_T_K: Annotated[FloatArray, ArrayField((16,))] | None = None
+    EE_T_K: Annotated[FloatArray, ArrayField((16,), form=_POSE_FORM)] | None = None
     """Pose of the stiffness frame in the end effector, likewise."""
 
 
