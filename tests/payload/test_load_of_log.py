@@ -157,6 +157,24 @@ def test_mistakes_are_named(tmp_path: Path, run: Run, mistake: Callable[[Columns
     assert not written.exists()
 
 
+def test_a_centre_behind_the_flange_is_named(tmp_path: Path, run: Run) -> None:
+    """A moment about the tool centre point that is stated to be about the flange moves the centre by that distance."""
+    columns = _few()
+    tcp, turn = (
+        Rotation.from_rotvec(np.column_stack([columns[f"{field}_{k}"] for k in (3, 4, 5)]))
+        for field in ("actual_TCP_pose", "tcp_offset")
+    )
+    lever = (tcp * turn.inv()).apply(np.column_stack([columns[f"tcp_offset_{k}"] for k in (0, 1, 2)]))
+    force = np.column_stack([columns[f"actual_TCP_force_{k}"] for k in (0, 1, 2)])
+    for k, moved in enumerate(np.cross(lever, force).T):
+        columns[f"actual_TCP_force_{3 + k}"] = columns[f"actual_TCP_force_{3 + k}"] - moved
+    log = _written(tmp_path, columns)
+    named = run("payload", log, "--recording", "moment_about=flange", "--format", "json").result()["hypotheses"]
+    assert [row["name"] for row in named] == ["moment about another point"]
+    assert "89 mm behind the flange" in named[0]["description"]
+    assert run("payload", log, "--recording", "moment_about=tcp", "--format", "json").result()["hypotheses"] == []
+
+
 def test_what_lacks_is_named(tmp_path: Path, run: Run) -> None:
     """Each key that neither log nor format determines, other logs, and options without a log."""
     log = _written(tmp_path, _few())
