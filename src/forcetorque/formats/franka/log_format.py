@@ -156,10 +156,6 @@ def _torques(table: FrankaLog, states: LoggedStates) -> LoggedTorques | None:
     mass, centre = _payload(table, states)
     if mass.any() and "F_x_Cload" not in states.values and table.payload_cog_m is None:
         undetermined.append("payload_cog_m")
-    if (speed := states.values.get("dq")) is None:
-        step_s = np.maximum(1e-9 * np.gradient(states.stamp_ns.astype(np.float64)), 1e-9) if len(position) > 1 else 1.0
-        speed = (np.gradient(position, axis=0).T / step_s).T if len(position) > 1 else np.zeros_like(position)
-    is_still: BoolArray = (np.abs(speed) < _STILL_RAD_S).all(axis=1)
     assumed = [
         "tau_ext_hat_filtered is the torque of the joints on the load, with a constant error in each joint",
         "the geometry of Panda and Franka Research 3",
@@ -173,7 +169,7 @@ def _torques(table: FrankaLog, states: LoggedStates) -> LoggedTorques | None:
         joints=table.joints,
         stamp_ns=states.stamp_ns,
         position=position,
-        is_still=is_still,
+        is_still=_still(states),
         torque=states.values["tau_ext_hat_filtered"],
         unit_torque=holding_torques(frames[:, :, :3, 2], frames[:, :, :3, 3], base_H_flange, table.world_gravity),
         declared_mass=mass,
@@ -181,6 +177,18 @@ def _torques(table: FrankaLog, states: LoggedStates) -> LoggedTorques | None:
         undetermined={key: _QUESTIONS[key] for key in undetermined},
         assumed=(*assumed, f"gravity {table.gravity:.6g} m/s2"),
     )
+
+
+def _still(states: LoggedStates) -> BoolArray:
+    """Where no joint moves, by `dq` or, of a log without it, by steps of the angles; shape (n,)."""
+    speed: FloatArray = np.zeros_like(states.values["q"])
+    if "dq" in states.values:
+        speed = states.values["dq"]
+    elif len(speed) > 1:
+        step_s = np.maximum(1e-9 * np.gradient(states.stamp_ns.astype(np.float64)), 1e-9)
+        speed = np.array(np.gradient(states.values["q"], axis=0), dtype=np.float64) / step_s[:, None]
+    fastest: FloatArray = np.abs(speed).max(axis=1)
+    return fastest < _STILL_RAD_S
 
 
 def _payload(table: FrankaLog, states: LoggedStates) -> tuple[FloatArray, FloatArray]:
