@@ -76,9 +76,8 @@ def _bag(folder: Path, seed: int, *words: str) -> Log:
     recording, types = ur5.simulated(seed, declared_shares=(0.0,)), Types("mcap")
     pose, reading = recording.pose[::EVERY], recording.reading[::EVERY].copy()
     if WORLD in words:
-        reading = np.hstack(
-            [np.einsum("nji,nj->ni", pose[:, :3, :3], part) for part in (reading[:, :3], reading[:, 3:])]
-        )
+        halves = (reading[:, :3], reading[:, 3:])
+        reading = np.hstack([np.einsum("nij,nj->ni", pose[:, :3, :3], half) for half in halves])
     if MIXED in words:
         reading[:, 3:] *= 1e3
     turns = Rotation.from_matrix(pose[:, :3, :3]).as_quat()
