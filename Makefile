@@ -52,6 +52,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.real_logs --json build/benchmarks/real_logs.json
 	$(BIN)/python -m benchmarks.skin --json build/benchmarks/skin.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.arm_loads --json build/benchmarks/arm_loads.json
 	$(BIN)/python -m benchmarks.viewer --json build/benchmarks/viewer.json
 
 # the pages and the API reference as build/docs/index.html; a warning is an error

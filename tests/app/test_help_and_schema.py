@@ -40,8 +40,8 @@ FILES = (
     "module_frames",
 )
 """What people write, and what is written to be read again."""
-OF_OPTIONS = ("plan_jointly", "evaluate_dataset")
-"""Results of commands that an option, or a dataset in place of a log, asks something else."""
+OF_OPTIONS = ("plan_jointly", "evaluate_dataset", "payload_by_torques")
+"""Results of commands that an option, a dataset in place of a log, or a log without a wrench, asks something else."""
 JSON_SCHEMAS = (
     "experiment",
     "acceptance",

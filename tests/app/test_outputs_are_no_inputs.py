@@ -127,6 +127,8 @@ def _asked(command: str, option: str, name: str) -> list[str]:
     if option == "--output" and "-o" in words:
         del words[words.index("-o") :][:2]
         del words[words.index("-o") : words.index("-o") + 2]
+    if option == "--view" and "--to" in words:  # the form of the file that --output names
+        del words[words.index("--to") : words.index("--to") + 2]
     return [*words, option, name]
 
 

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`--view` of `estimate` and `evaluate`: what `view` writes of the same files, with the verdicts and the options."""
+"""`--view` beside results: what `view` writes of the same files, with the verdicts and the options of the command."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.experiment import loading
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.viewer.mcap_file import typestore
 from tests.app.outcome import Run
+from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.scenes.experiments import PARQUET
 
 pytest.importorskip("rosbags")
@@ -27,17 +32,45 @@ def _events(file: Path) -> list[str]:
         return [types.deserialize_cdr(row, bag.types["/rosout"]).msg for row in rows]
 
 
-def test_an_evaluation_is_written_for_viewers(run: Run, arm: Path) -> None:
-    """Errors over time are topics; the verdict that is printed is an event."""
+def _forces(file: Path, topic: str) -> FloatArray:
+    """Forces of a topic; shape (n, 3); N."""
+    types = typestore(file)
+    with opened_bag(file) as bag:
+        rows = [row for _, data in bag.messages(topic) for row in data]
+        forces = [types.deserialize_cdr(row, bag.types[topic]).wrench.force for row in rows]
+    return np.array([[force.x, force.y, force.z] for force in forces])
+
+
+def test_an_evaluation_is_written_for_viewers(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Errors over time are topics; the verdict that is printed is an event; the log is read once."""
+    logs: list[Path] = []
+    read = loading.read_streams
+    monkeypatch.setattr(loading, "read_streams", lambda *given: logs.append(given[1]) or read(*given))
     ended = run("evaluate", PARQUET, "-c", "fitted.json", "--view", "evaluated.mcap")
     assert ended.code == 0, ended.err
     assert any(line.startswith("INFO: written: evaluated.mcap, ") for line in ended.log)
+    assert logs == [Path(PARQUET)]
     topics = _topics(arm / "evaluated.mcap")
     assert topics["/arm_ft/fitted_json/error"] > 0
+    assert "/arm_ft/fitted_json/error.wrench.force.x" in (arm / "evaluated.foxglove.json").read_text(encoding="utf-8")
     assert "/hand/contact" not in topics
     (verdict,) = (text for text in _events(arm / "evaluated.mcap") if text.startswith("evaluate: "))
     subject, *_, decision = ended.out.splitlines()[0].split("  ")
     assert verdict.startswith(f"evaluate: {subject}: {decision.strip()}; ")
+
+
+def test_a_load_is_written_for_viewers(run: Run, tmp_path: Path) -> None:
+    """Of a log alone: what the arm measured, less the bias, is what the tool must weigh, within the noise."""
+    tool, file = Tool(), tmp_path / "tool.mcap"
+    log = write_text(tmp_path / "log.txt", recorded(tool, poses=10, samples=4, raw=True))
+    ended = run("payload", log, "--view", file)
+    assert ended.code == 0, ended.err
+    expected, logged, error = (_forces(file, f"/wrist/{name}") for name in ("expected", "logged", "logged/error"))
+    np.testing.assert_allclose(np.linalg.norm(expected, axis=1), tool.mass * STANDARD_GRAVITY, rtol=0.01)
+    np.testing.assert_allclose(error, logged - expected, atol=1e-5)
+    assert np.sqrt((error**2).mean()) < 0.2
+    assert any(text.startswith("payload: wrist (not stated): 1.2") for text in _events(file))
+    assert (tmp_path / "tool.foxglove.json").is_file()
 
 
 @pytest.mark.long
@@ -55,11 +88,13 @@ def test_contacts_are_those_that_are_estimated(run: Run, arm: Path) -> None:
     ("view", "message"),
     [
         ("view.txt", "--view view.txt: expected a name that ends in .rrd, .mcap, .html"),
+        ("other.mcap", "other.foxglove.json: expected a new file, or a result or figure to replace, got another"),
         ("nowhere/view.mcap", "nowhere/view.mcap: expected an existing folder to write to"),
     ],
 )
 def test_what_cannot_be_written_is_refused_first(run: Run, arm: Path, view: str, message: str) -> None:
     """One line, before anything is computed."""
+    (arm / "other.foxglove.json").write_text("{}", encoding="utf-8")
     assert message in run("evaluate", PARQUET, "-c", "gone.json", "--view", view).error()
 
 

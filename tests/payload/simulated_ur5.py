@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.signal import lfilter
@@ -14,6 +14,8 @@ from forcetorque.base.arrays import FloatArray
 
 GRAVITY = 9.80665
 RATE_HZ = 125.0
+FORCE = [f"actual_TCP_force_{k}" for k in range(3)]
+MOMENT = [f"actual_TCP_force_{k}" for k in range(3, 6)]
 _LENGTHS_D = (0.089159, 0.0, 0.0, 0.10915, 0.09465, 0.0823)
 _LENGTHS_A = (0.0, -0.425, -0.39225, 0.0, 0.0, 0.0)
 _TWISTS = (np.pi / 2, 0.0, 0.0, np.pi / 2, -np.pi / 2, 0.0)
@@ -30,6 +32,12 @@ class Recording:
 
     columns: dict[str, FloatArray]
     """Columns of the log."""
+    pose: FloatArray
+    """Poses of the flange in the base; shape (n, 4, 4); m."""
+    reading: FloatArray
+    """Wrench at the flange as it is logged, along the axes of the flange; shape (n, 6); N, N m."""
+    raw: FloatArray
+    """The same before the declared payload is subtracted."""
     mass: float
     """kg."""
     centre: FloatArray
@@ -48,9 +56,19 @@ def flange_poses(joints: FloatArray) -> FloatArray:
     return pose
 
 
-def _joints(rng: np.random.Generator, postures: int) -> FloatArray:
-    """Postures that are held for a second, with a smooth second between them; shape (n, 6); rad."""
-    held = rng.uniform(-1.5, 1.5, (postures, 6)) + [0.0, -1.5, 1.2, 0.0, 1.5, 0.0]
+def load_on_flange(rng: np.random.Generator, pose: FloatArray, mass: float, centre: FloatArray) -> FloatArray:
+    """Wrench of a moving tool on the flange with noise; poses of shape (n, 4, 4); shape (n, 6); N, N m."""
+    turn, place = Rotation.from_matrix(pose[:, :3, :3]), pose[:, :3, 3]
+    of_mass = place + turn.apply(centre)
+    acceleration = np.gradient(np.gradient(of_mass, 1.0 / RATE_HZ, axis=0), 1.0 / RATE_HZ, axis=0)
+    force = mass * turn.inv().apply([0.0, 0.0, -GRAVITY] - acceleration)
+    white = rng.normal(size=(len(pose), 12))
+    slow = lfilter([np.sqrt(1.0 - np.exp(-2.0 / RATE_HZ))], [1.0, -np.exp(-1.0 / RATE_HZ)], white[:, 6:], axis=0)
+    return np.hstack([force, np.cross(centre, force)]) + _NOISE * (white[:, :6] + _SLOW * slow)
+
+
+def held_and_moved(held: FloatArray) -> FloatArray:
+    """Angles of postures that are held for a second, with a smooth second between them; shape (n, d); rad."""
     t = np.linspace(0.0, 1.0, round(RATE_HZ))[:, None]
     smooth = 10 * t**3 - 15 * t**4 + 6 * t**5
     parts = [np.repeat(held[:1], len(t), axis=0)]
@@ -66,15 +84,10 @@ def simulated(seed: int, *, declared_shares: Sequence[float] = (0.0, 0.5, 1.5), 
     zero = rng.normal(size=6) * np.repeat([3.0, 0.3], 3)
     offset = np.append(rng.uniform(-0.05, 0.05, 2), [rng.uniform(0.05, 0.2), *rng.uniform(-1.0, 1.0, 3)])
     declared = mass * rng.choice(declared_shares)
-    joints = _joints(rng, postures)
+    joints = held_and_moved(rng.uniform(-1.5, 1.5, (postures, 6)) + [0.0, -1.5, 1.2, 0.0, 1.5, 0.0])
     pose = flange_poses(joints)
     turn, place = Rotation.from_matrix(pose[:, :3, :3]), pose[:, :3, 3]
-    of_mass = place + turn.apply(centre)
-    acceleration = np.gradient(np.gradient(of_mass, 1.0 / RATE_HZ, axis=0), 1.0 / RATE_HZ, axis=0)
-    force = mass * turn.inv().apply([0.0, 0.0, -GRAVITY] - acceleration)
-    white = rng.normal(size=(len(joints), 12))
-    slow = lfilter([np.sqrt(1.0 - np.exp(-2.0 / RATE_HZ))], [1.0, -np.exp(-1.0 / RATE_HZ)], white[:, 6:], axis=0)
-    load = np.hstack([force, np.cross(centre, force)]) + _NOISE * (white[:, :6] + _SLOW * slow)
+    load = load_on_flange(rng, pose, mass, centre)
     known = declared * turn.inv().apply([0.0, 0.0, -GRAVITY])
     reading = load + zero - np.hstack([known, np.cross([0.0, 0.0, 0.05], known)])
     tcp_turn = turn * Rotation.from_rotvec(offset[3:])
@@ -87,4 +100,53 @@ def simulated(seed: int, *, declared_shares: Sequence[float] = (0.0, 0.5, 1.5), 
     }
     columns = {"timestamp": np.arange(len(joints)) / RATE_HZ, "payload": np.full(len(joints), declared)}
     columns |= {f"{field}_{k}": values[:, k] for field, values in fields.items() for k in range(values.shape[1])}
-    return Recording(columns=columns, mass=mass, centre=centre)
+    return Recording(columns=columns, pose=pose, reading=reading, raw=load + zero, mass=mass, centre=centre)
+
+
+def with_columns(recording: Recording, **columns: FloatArray) -> Recording:
+    """The recording with other columns."""
+    return replace(recording, columns=recording.columns | columns)
+
+
+def reaction(recording: Recording) -> Recording:
+    """The force on the tool in place of that on the arm."""
+    return with_columns(recording, **{name: -recording.columns[name] for name in (*FORCE, *MOMENT)})
+
+
+def tool_axes(recording: Recording) -> Recording:
+    """The force along the axes of the flange, as a program may have turned it."""
+    tcp, offset = (
+        Rotation.from_rotvec(np.column_stack([recording.columns[f"{field}_{k}"] for k in (3, 4, 5)]))
+        for field in ("actual_TCP_pose", "tcp_offset")
+    )
+    turn = tcp * offset.inv()
+    columns: dict[str, FloatArray] = {}
+    for names in (FORCE, MOMENT):
+        turned = turn.inv().apply(np.column_stack([recording.columns[name] for name in names]))
+        columns |= dict(zip(names, turned.T, strict=True))
+    return with_columns(recording, **columns)
+
+
+def newton_millimetres(recording: Recording) -> Recording:
+    """Moments in N mm."""
+    return with_columns(recording, **{name: 1e3 * recording.columns[name] for name in MOMENT})
+
+
+def millimetres(recording: Recording) -> Recording:
+    """Positions in mm."""
+    names = [f"actual_TCP_pose_{k}" for k in range(3)]
+    return with_columns(recording, **{name: 1e3 * recording.columns[name] for name in names})
+
+
+def about_tcp(recording: Recording) -> Recording:
+    """The moment about the tool centre point, as an external sensor has it, where that about the flange is stated."""
+    offset, turn = np.split(np.column_stack([recording.columns[f"tcp_offset_{k}"] for k in range(6)]), 2, axis=1)
+    rotation = Rotation.from_rotvec(np.column_stack([recording.columns[f"actual_TCP_pose_{k}"] for k in (3, 4, 5)]))
+    lever = (rotation * Rotation.from_rotvec(turn).inv()).apply(offset)
+    force, moment = (np.column_stack([recording.columns[name] for name in names]) for names in (FORCE, MOMENT))
+    return with_columns(recording, **dict(zip(MOMENT, (moment - np.cross(lever, force)).T, strict=True)))
+
+
+def with_raw_wrench(recording: Recording) -> Recording:
+    """The reading of the sensor beside it, as e-Series has it."""
+    return with_columns(recording, **{f"ft_raw_wrench_{k}": values for k, values in enumerate(recording.raw.T)})

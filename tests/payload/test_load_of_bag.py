@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
@@ -22,6 +23,7 @@ from forcetorque.simulation.robots import ARM_URDF
 from tests.app.outcome import Run
 
 bags = pytest.importorskip("tests.formats.ros.bags")
+bag_module = pytest.importorskip("forcetorque.formats.ros.bag")
 
 MASS, CENTRE = 1.3, np.array([0.01, -0.02, 0.06])
 BIAS = np.array([4.0, -2.0, 7.0, 0.1, 0.3, -0.2])
@@ -109,6 +111,24 @@ def test_a_bag_is_enough(tmp_path: Path, run: Run, form: str, left_out: tuple[st
     assert f'measure_direction = "{direction}"' in file.read_text(encoding="utf-8")
     assert len(shown.splitlines()) <= 12
     assert shown.splitlines()[:4] == run("payload", log).out.splitlines()[:4]
+
+
+def test_a_bag_is_decoded_once(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every topic, though frame, description and experiment file each need some of it."""
+    decoded: list[str] = []
+    read = bag_module.Bag.messages
+
+    def counted(bag: Any, topic: str, **options: Any) -> Any:
+        decoded.append(topic)
+        return read(bag, topic, **options)
+
+    log = _written(tmp_path, "mcap", _topics("mcap"), "/tf")
+    monkeypatch.setattr(bag_module.Bag, "messages", counted)
+    assert run("payload", log).code == 0
+    assert sorted(decoded) == ["/ft", "/joint_states", "/robot_description", "/tf_static"]
+    decoded.clear()
+    draft_experiment(log, tmp_path / "drafted.toml")
+    assert sorted(decoded) == ["/ft", "/joint_states", "/robot_description", "/tf_static"]
 
 
 def test_what_is_given_is_not_assumed(tmp_path: Path, run: Run) -> None:

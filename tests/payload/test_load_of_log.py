@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.results.answer import MOST_LINES
 from tests.app.outcome import Run
-from tests.formats.franka.states import CENTRE, MASS, states, write_states, write_table
+from tests.formats.franka.states import CENTRE, MASS, states, write_states
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 
 TOOL = Tool()
@@ -70,6 +70,9 @@ def test_the_declared_payload_is_part_of_the_load(tmp_path: Path, run: Run) -> N
         ("path=other.txt", "expected keys that the log lacks, got path"),
         ("payload_kg=2", "payload_kg: expected none, the log has the field payload"),
         ("gravity_direction=[0, 0, 0]", "gravity_direction: expected a direction, finite and not zero"),
+        ("tcp_offset=0,0,0.1,0,0,0", "expected [x, y, z, rx, ry, rz] in m and rad, got '0,0,0.1,0,0,0'"),
+        ("tcp_offset=[0, 0, 0.1]", "expected [x, y, z, rx, ry, rz] in m and rad, got [0, 0, 0.1]"),
+        ("payload_cog_m=[[0], 0]", "expected [x, y, z] in m, got [[0], 0]"),
     ],
 )
 def test_a_key_states_only_what_the_log_lacks(tmp_path: Path, run: Run, key: str, message: str) -> None:
@@ -111,7 +114,9 @@ def test_a_robot_state_log_is_enough(tmp_path: Path, run: Run) -> None:
     assert result["left_out"] == 1
     assert "robot.set_load(0.65" in written.read_text(encoding="utf-8")
     assert "the inertia is not known and written as 0" in outcome.err
-    refused = run("payload", write_table(tmp_path / "t.csv", made)).error()
+    for state in made:
+        del state["tau_ext_hat_filtered"], state["O_F_ext_hat_K"], state["K_F_ext_hat_K"]
+    refused = run("payload", write_states(tmp_path / "t.jsonl", made)).error()
     assert "joint torques alone, neither a wrench (O_F_ext_hat_K or K_F_ext_hat_K) nor a pose (O_T_EE)" in refused
 
 
@@ -150,6 +155,24 @@ def test_mistakes_are_named(tmp_path: Path, run: Run, mistake: Callable[[Columns
     refused = run("payload", log, "--recording", "moment_about=flange", "--to", "ur", "-o", written)
     assert named in refused.error()
     assert not written.exists()
+
+
+def test_a_centre_behind_the_flange_is_named(tmp_path: Path, run: Run) -> None:
+    """A moment about the tool centre point that is stated to be about the flange moves the centre by that distance."""
+    columns = _few()
+    tcp, turn = (
+        Rotation.from_rotvec(np.column_stack([columns[f"{field}_{k}"] for k in (3, 4, 5)]))
+        for field in ("actual_TCP_pose", "tcp_offset")
+    )
+    lever = (tcp * turn.inv()).apply(np.column_stack([columns[f"tcp_offset_{k}"] for k in (0, 1, 2)]))
+    force = np.column_stack([columns[f"actual_TCP_force_{k}"] for k in (0, 1, 2)])
+    for k, moved in enumerate(np.cross(lever, force).T):
+        columns[f"actual_TCP_force_{3 + k}"] = columns[f"actual_TCP_force_{3 + k}"] - moved
+    log = _written(tmp_path, columns)
+    named = run("payload", log, "--recording", "moment_about=flange", "--format", "json").result()["hypotheses"]
+    assert [row["name"] for row in named] == ["moment about another point"]
+    assert "89 mm behind the flange" in named[0]["description"]
+    assert run("payload", log, "--recording", "moment_about=tcp", "--format", "json").result()["hypotheses"] == []
 
 
 def test_what_lacks_is_named(tmp_path: Path, run: Run) -> None:

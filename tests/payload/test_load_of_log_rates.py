@@ -1,33 +1,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hundred simulated UR5 recordings: how often intervals hold the truth, and how often mistakes are named."""
+"""A hundred simulated recordings of a UR5 and a Panda: how often intervals hold the truth and mistakes are named."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
-from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, FormatError
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_of_log import experiment_of_log
 from forcetorque.payload.result import WeighedLoad
+from tests.formats.franka.states import write_states
 from tests.formats.ur_rtde.recordings import write_text
-from tests.payload.simulated_ur5 import Recording, simulated
+from tests.payload.simulated_panda import moved
+from tests.payload.simulated_ur5 import (
+    Recording,
+    millimetres,
+    newton_millimetres,
+    reaction,
+    simulated,
+    tool_axes,
+)
 
 COUNT = 100
-FORCE = [f"actual_TCP_force_{k}" for k in range(3)]
-MOMENT = [f"actual_TCP_force_{k}" for k in range(3, 6)]
 
 
 def _weighed(folder: Path, recording: Recording) -> WeighedLoad:
     log = write_text(folder / "log.csv", recording.columns, delimiter=",")
-    experiment = experiment_of_log(log, {"moment_about": "flange"}, folder).experiment
+    return _load_of(log, {"moment_about": "flange"})
+
+
+def _load_of(log: Path, specified: dict[str, object]) -> WeighedLoad:
+    experiment = experiment_of_log(log, specified, log.parent).experiment
     return weigh_load([SensorRun(experiment, experiment.sensors[0])])
 
 
@@ -53,45 +62,14 @@ def test_intervals_hold_the_truth(tmp_path: Path) -> None:
     assert named <= 5
 
 
-def _changed(recording: Recording, **columns: FloatArray) -> Recording:
-    return replace(recording, columns=recording.columns | columns)
-
-
-def _reaction(recording: Recording) -> Recording:
-    return _changed(recording, **{name: -recording.columns[name] for name in (*FORCE, *MOMENT)})
-
-
-def _tool_axes(recording: Recording) -> Recording:
-    """The force along the axes of the flange, as a program may have turned it."""
-    tcp, offset = (
-        Rotation.from_rotvec(np.column_stack([recording.columns[f"{field}_{k}"] for k in (3, 4, 5)]))
-        for field in ("actual_TCP_pose", "tcp_offset")
-    )
-    turn = tcp * offset.inv()
-    columns: dict[str, FloatArray] = {}
-    for names in (FORCE, MOMENT):
-        turned = turn.inv().apply(np.column_stack([recording.columns[name] for name in names]))
-        columns |= dict(zip(names, turned.T, strict=True))
-    return _changed(recording, **columns)
-
-
-def _newton_millimetres(recording: Recording) -> Recording:
-    return _changed(recording, **{name: 1e3 * recording.columns[name] for name in MOMENT})
-
-
-def _millimetres(recording: Recording) -> Recording:
-    names = [f"actual_TCP_pose_{k}" for k in range(3)]
-    return _changed(recording, **{name: 1e3 * recording.columns[name] for name in names})
-
-
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("mistake", "words"),
     [
-        (_reaction, "reversed direction"),
-        (_tool_axes, "wrench turned twice"),
-        (_newton_millimetres, "mixed units"),
-        (_millimetres, "it is in mm"),
+        (reaction, "reversed direction"),
+        (tool_axes, "wrench turned twice"),
+        (newton_millimetres, "mixed units"),
+        (millimetres, "it is in mm"),
     ],
 )
 def test_mistakes_are_named(tmp_path: Path, mistake: Callable[[Recording], Recording], words: str) -> None:
@@ -101,6 +79,44 @@ def test_mistakes_are_named(tmp_path: Path, mistake: Callable[[Recording], Recor
         try:
             weighed = _weighed(tmp_path, mistake(simulated(seed, declared_shares=(0.0,))))
             named += any(row.name == words for row in weighed.hypotheses)
+        except (FitError, FormatError) as error:
+            named += words in str(error)
+    assert named >= 95
+
+
+@pytest.mark.long
+def test_intervals_of_a_panda_hold_the_truth(tmp_path: Path) -> None:
+    """Mass in 90 to 99 of 100 logs of external wrenches; nothing is named where nothing is wrong."""
+    mass, named = 0, 0
+    for seed in range(COUNT):
+        arm = moved(seed)
+        weighed = _load_of(write_states(tmp_path / "log", arm.states()), {})
+        (load,) = weighed.loads
+        assert load.mass_kg is not None
+        assert load.mass_half_width_95_kg is not None
+        mass += abs(load.mass_kg - arm.mass) <= load.mass_half_width_95_kg
+        named += bool(weighed.hypotheses)
+    assert 90 <= mass <= 99
+    assert named <= 5
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("mistake", "words"),
+    [
+        ({"sense": 1.0}, "reversed"),
+        ({"along_flange": True}, "wrench turned twice"),
+        ({"moment_unit": 1e3}, "mixed units"),
+        ({"pose_unit": 1e3}, "mixed units"),
+    ],
+)
+def test_mistakes_of_a_panda_are_named(tmp_path: Path, mistake: dict[str, Any], words: str) -> None:
+    """In at least 95 of 100: the sign of Gazebo, axes of the flange for those of the base, N mm for N m, mm for m."""
+    named = 0
+    for seed in range(COUNT):
+        log = write_states(tmp_path / "log", moved(seed, declared_shares=(0.0,)).states(**mistake))
+        try:
+            named += any(words in row.name for row in _load_of(log, {}).hypotheses)
         except (FitError, FormatError) as error:
             named += words in str(error)
     assert named >= 95

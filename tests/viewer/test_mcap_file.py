@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections import defaultdict
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ import pytest
 
 from forcetorque.base.errors import MissingExtraError
 from forcetorque.formats.ros.bag import opened_bag
+from forcetorque.viewer.foxglove_layout import layout_file, write_layout
 from forcetorque.viewer.mcap_file import typestore, write_mcap
 from forcetorque.viewer.scene_builder import BuiltScene
 from forcetorque.viewer.viewer_log import ViewerLog, viewer_log
@@ -33,6 +36,7 @@ def bag(log: ViewerLog, tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("mcap") / "view.mcap"
     assert write_mcap(file, log) == file.stat().st_size
     assert [path.name for path in file.parent.iterdir()] == ["view.mcap"]
+    write_layout(file, log)
     return file
 
 
@@ -121,6 +125,61 @@ def test_the_library_of_mcap_reads_the_same(bag: Path, messages: dict[str, list[
             last = message.log_time
             counts[channel.topic] += 1
     assert counts == {topic: len(found) for topic, found in messages.items()}
+
+
+def _panels(node: Any, configurations: dict[str, Any]) -> Iterator[str]:
+    """Panels of a tree and of the tabs in it."""
+    if isinstance(node, str):
+        yield node
+        for tab in configurations[node].get("tabs", ()):
+            yield from _panels(tab["layout"], configurations)
+    else:
+        assert node["direction"] in ("row", "column")
+        assert 0.0 < node["splitPercentage"] < 100.0
+        for part in ("first", "second"):
+            yield from _panels(node[part], configurations)
+
+
+def _field(message: Any, path: str) -> float:
+    for name in path.split("."):
+        message = getattr(message, name)
+    return float(message)
+
+
+def test_the_layout_shows_what_the_bag_has(
+    bag: Path, log: ViewerLog, messages: dict[str, list[tuple[int, Any]]]
+) -> None:
+    """Every panel stands in the tree once; its topics, types and fields are those of the bag."""
+    with opened_bag(bag) as opened:
+        types = opened.types
+    layout = json.loads(layout_file(bag).read_bytes())
+    configurations = layout["configById"]
+    assert sorted(_panels(layout["layout"], configurations)) == sorted(configurations)
+    by_kind = defaultdict[str, list[Any]](list)
+    for name, configuration in configurations.items():
+        by_kind[name.partition("!")[0]].append(configuration)
+    (scene,), (events,) = by_kind["3D"], by_kind["RosOut"]
+    kinds = {topic: types[topic] for topic in scene["topics"]}
+    assert kinds == {
+        "/robot_description": "std_msgs/msg/String",
+        "/arrows": "visualization_msgs/msg/MarkerArray",
+    }
+    assert scene["followTf"] in {
+        one.header.frame_id for _, message in messages["/tf_static"] for one in message.transforms
+    }
+    assert types[events["topicToRender"]] == "rcl_interfaces/msg/Log"
+    assert events["minLogLevel"] <= min(message.level for _, message in messages["/rosout"]) // 10
+    shown = defaultdict[str, set[str]](set)
+    for plot in by_kind["Plot"]:
+        assert plot["paths"]
+        for path in plot["paths"]:
+            topic, _, field = path["value"].partition(".")
+            assert types[topic] == "geometry_msgs/msg/WrenchStamped"
+            assert np.isfinite(_field(messages[topic][0][1], field))
+            assert ("error" in plot["title"]) is topic.endswith("/error")
+            shown[topic].add(field)
+    assert set(shown) == {f"/{wrench.name}" for wrench in log.wrenches if len(wrench.known)}
+    assert {len(fields) for fields in shown.values()} == {6}
 
 
 def test_without_rosbags_the_extra_is_named(log: ViewerLog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,6 +14,8 @@ from forcetorque.base.errors import MissingExtraError
 from forcetorque.viewer.rerun_file import frame_entities, write_rrd
 from forcetorque.viewer.scene_builder import BuiltScene
 from forcetorque.viewer.viewer_log import viewer_log
+from tests.app.outcome import Run
+from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 
 SINGLE = 1e-6
 """Rerun keeps poses and arrows in 24 bits."""
@@ -62,6 +64,20 @@ def test_the_file_reads_back(built: BuiltScene, tmp_path: Path) -> None:
         np.testing.assert_allclose(np.squeeze(found["Arrows3D:vectors"]), np.nan_to_num(tips), atol=SINGLE)
     texts = [text for (text,) in columns["/events"]["TextLog:text"]]
     assert sorted(texts) == sorted(event.text for event in log.events)
+
+
+@pytest.mark.long
+def test_a_load_of_a_log_reads_back(run: Run, tmp_path: Path) -> None:
+    """The error of the measured wrench is noise; the answer is an event."""
+    pytest.importorskip("rerun")
+    log = write_text(tmp_path / "log.txt", recorded(Tool(), poses=10, samples=4, raw=True))
+    ended = run("payload", log, "--view", tmp_path / "tool.rrd")
+    assert ended.code == 0, ended.err
+    columns, kinds = _columns(tmp_path / "tool.rrd")
+    assert sorted(kinds) == ["blueprint", "recording"]
+    errors = np.array(columns["/wrist/logged/error/force"]["Scalars:scalars"])
+    assert 0.0 < np.sqrt((errors**2).mean()) < 0.2
+    assert any(text.startswith("payload: wrist") for (text,) in columns["/events"]["TextLog:text"])
 
 
 def test_without_rerun_the_extra_is_named(built: BuiltScene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,10 +15,11 @@ import typer
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 
 if TYPE_CHECKING:
+    from forcetorque.experiment.experiment import Experiment
     from forcetorque.results.result import Result
     from forcetorque.viewer.scene_builder import BuiltScene
 
-COMMANDS: Final = ("estimate", "evaluate")
+COMMANDS: Final = ("estimate", "evaluate", "payload")
 """Commands that take it."""
 _ENDINGS: Final = (".rrd", ".mcap", ".html")
 _Option = Annotated[
@@ -51,10 +52,14 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
     def run(view: Path | None = None, **given: Any) -> Result | None:
         if view is None:
             return command(**given)
+        from forcetorque.experiment.kept_experiments import kept_experiments
+
         files = _declared(view, given)
-        result = command(**given)
+        # estimates of many recordings let one go after the other
+        with kept_experiments(keep=name != "estimate" or len(files) == 1) as known:
+            result = command(**given)
         if result is not None:
-            _write(name, files, given, result)
+            _write(name, files, given, result, known)
         return result
 
     run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
@@ -67,7 +72,7 @@ def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
     """Files by experiment, which can be written."""
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.experiment.input_files import file_of_each
-    from forcetorque.viewer.view_file import require_writer
+    from forcetorque.viewer.view_file import require_writer, view_files
 
     if view.suffix.lower() not in _ENDINGS:
         raise ForceTorqueError(f"--view {view}: expected a name that ends in {', '.join(_ENDINGS)}")
@@ -76,35 +81,47 @@ def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
             raise ExperimentError(f"--view {view}: expected experiment files, whose samples it needs, got {path}")
     require_writer(view)
     files = file_of_each(given["experiments"], view)
-    declare_outputs(*files.values(), force=given.get("force"))
+    declare_outputs(*(one for file in files.values() for one in view_files(file)), force=given.get("force"))
     return files
 
 
-def _write(name: str, files: Mapping[Path, Path], given: Mapping[str, Any], result: Result) -> None:
+def _write(
+    name: str,
+    files: Mapping[Path, Path],
+    given: Mapping[str, Any],
+    result: Result,
+    known: Mapping[Path, Experiment],
+) -> None:
     from forcetorque.results.terminal.output import start_logging
-    from forcetorque.viewer.view_file import write_view
+    from forcetorque.viewer.view_file import view_files, write_view
 
     log = start_logging()
     for path, file in files.items():
-        built = _scene(path, given)
+        built = _scene(path, known.get(path), given)
         for note in built.scene.notes:
             log.info("%s", note)
         built = _with_notes(built, tuple(_verdicts(name, result)))
-        log.info("written: %s, %.1f MB", file, 1e-6 * write_view(file, built))
+        log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
 
 
-def _scene(path: Path, given: Mapping[str, Any]) -> BuiltScene:
+def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any]) -> BuiltScene:
     """What the viewer shows of an experiment, by the options of the command."""
     from forcetorque.experiment.loading import Purpose, load_experiment
+    from forcetorque.payload.load_of_log import is_experiment_file
     from forcetorque.results.terminal.reading import read_calibrations
     from forcetorque.viewer.contacts import ContactOptions
-    from forcetorque.viewer.scene_builder import scene_of
+    from forcetorque.viewer.scene_builder import build_scene, scene_of
 
+    if not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
+        if known is None:
+            raise ExperimentError(f"--view: expected a wrench to show, got joint torques alone: {path}")
+        return build_scene(known, {})
+    experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     sensors: Sequence[str] | None = given.get("sensor")
     return scene_of(
         path,
-        load_experiment(path, Purpose.DISPLAY),
-        read_calibrations(given["calibration"], sensors),
+        experiment,
+        read_calibrations(given.get("calibration"), sensors),
         sensors=sensors,
         contact_options=ContactOptions(
             contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")

@@ -241,6 +241,8 @@ class ArrayField:
     """Expected shape; `None` accepts any length of that axis."""
     minimum: float | None = None
     """Least value; `None` accepts any."""
+    form: str | None = None
+    """What its numbers are, for messages, such as `[x, y, z] in m`; by its shape if None."""
 
     def _validate(self, values: Any) -> FloatArray:
         if isinstance(values, list) and not values and self.shape[0] is None:
@@ -248,13 +250,29 @@ class ArrayField:
             values = np.zeros([length or 0 for length in self.shape])
         try:
             array = read_only(values, name="array", shape=self.shape)
+        except ShapeError as error:
+            if self.form is None:
+                raise
+            raise ValueError(f"expected {self.form}") from error
         except TypeError as error:
             raise ValueError(f"expected nested lists of numbers, got {error}") from error
+        except ValueError as error:  # a text, or lists of different lengths
+            reason = "" if self.form is not None else f": {error}"
+            raise ValueError(f"expected {self._form()}{reason}") from error
         if not np.isfinite(array).all():
             raise ValueError("expected finite numbers")
         if self.minimum is not None and (array < self.minimum).any():
             raise ValueError(f"expected numbers of at least {self.minimum:g}, got {array.min():g}")
         return array
+
+    def _form(self) -> str:
+        if self.form is not None:
+            return self.form
+        if self.shape == (None,):
+            return "a list of numbers in brackets, as [0.0, 1.0]"
+        if len(self.shape) == 1:
+            return f"{self.shape[0]} numbers in brackets, as [{', '.join(['0.0'] * (self.shape[0] or 0))}]"
+        return "lists of numbers within a list, each row in brackets, as [[0.0, 1.0], [2.0, 3.0]]"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(

@@ -34,6 +34,7 @@ from forcetorque.experiment.file import ExperimentFile, Robot, experiment_file, 
 from forcetorque.experiment.file import Support as SupportTable
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.kept_experiments import keep_experiment
 from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount
@@ -192,6 +193,10 @@ def load_experiment(path: Path | str, purpose: Purpose = Purpose.SENSORS) -> Exp
         ExperimentError: If it lacks what the purpose needs, or contradicts itself, the robot or the recording.
     """
     file = Path(path)
+    return keep_experiment(file, _loaded(file, purpose))
+
+
+def _loaded(file: Path, purpose: Purpose) -> Experiment:
     specified = _tables(file) if purpose is Purpose.PLANNING else None
     if specified is not None and not {"recording", "interval", "load"} & specified:
         return load_unrecorded(file, specified)

@@ -25,9 +25,9 @@ class ArmLogTable(LogTable):
     """File of the log."""
     payload_kg: NotNegative | None = None
     """Mass that the controller subtracts, of a log without it; 0 where none was set."""
-    payload_cog_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    payload_cog_m: Annotated[FloatArray, ArrayField((3,), form="[x, y, z] in m")] | None = None
     """Centre of mass of that load in the flange; m."""
-    gravity_direction: Annotated[FloatArray, ArrayField((3,))] | None = None
+    gravity_direction: Annotated[FloatArray, ArrayField((3,), form="[x, y, z], as [0, 0, -1]")] | None = None
     """Direction in which things fall along the axes of the base; [0, 0, -1] if left out."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""

@@ -13,7 +13,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.toml_file import Table
+from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import LoggedWrist
+from forcetorque.formats.namespaces import namespace_depth
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
 
@@ -89,6 +91,8 @@ class LogDescription:
     """Of the log of an arm what is known of the wrench at its flange; None for other logs, or without a wrench."""
     wrist_lacks: str = ""
     """Why there is no such wrench in the log of an arm."""
+    torques: LoggedTorques | None = None
+    """Where such a wrench is not in the log of an arm: what is known of its joint torques; None without."""
     sensors_apart: bool = False
     """Whether its sensors are those of no robot, each with a load of its own, as force plates are."""
 
@@ -105,6 +109,12 @@ class FixedFrame:
     """Its pose in the other; shape (4, 4); m."""
     source: str
     """What of which log says so."""
+    topic: str
+    """Topic that has it, whose namespace says of which robot it is."""
+
+    def has_pose_of(self, other: FixedFrame) -> bool:
+        """Whether another frame has the same parent and pose."""
+        return self.parent == other.parent and np.array_equal(self.parent_H_child, other.parent_H_child)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,8 +129,34 @@ class LoggedRobot:
     """The same, with the log."""
     conflict: str = ""
     """Why there is no URDF although the log has some; empty where that is not so."""
-    frames: Mapping[str, FixedFrame] = field(default_factory=dict)
-    """Frames that do not move against others, by their names."""
+    frames: tuple[FixedFrame, ...] = ()
+    """Frames that do not move against others, in each topic once."""
+
+    def frames_around(self, stream: str) -> tuple[dict[str, FixedFrame], tuple[str, ...]]:
+        """Give the frames of the robot that a stream is of.
+
+        Args:
+            stream: Name of the stream, which is that of its topic.
+
+        Returns:
+            Fixed frames by name, of several robots those of the innermost namespace around the stream; and names of
+            frames that topics equally near have at different poses.
+        """
+        frames: dict[str, FixedFrame] = {}
+        unclear: set[str] = set()
+        for frame in self.frames:
+            before = frames.get(frame.child)
+            nearer = 1 if before is None else _nearer(stream, frame, before)
+            if nearer > 0:
+                frames[frame.child] = frame
+                unclear.discard(frame.child)
+            elif before is not None and nearer == 0 and not frame.has_pose_of(before):
+                unclear.add(frame.child)
+        return {name: frame for name, frame in frames.items() if name not in unclear}, tuple(sorted(unclear))
+
+
+def _nearer(stream: str, frame: FixedFrame, other: FixedFrame) -> int:
+    return namespace_depth(stream, frame.topic) - namespace_depth(stream, other.topic)
 
 
 @runtime_checkable

@@ -17,6 +17,7 @@ from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
+    from forcetorque.payload.load_by_joint_torques import TorqueLoad
     from forcetorque.payload.result import LoadRow, WeighedLoad
     from forcetorque.payload.tare_offset import Tare
 
@@ -46,6 +47,44 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
             written=(weighed.robot_file,),
             concern=Concern.BAD if contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
         )
+
+
+_WIDE = 0.2
+"""Share of a mass from which on its interval is too wide to use (heuristic)."""
+
+
+def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
+    """Give the answer for the load that joint torques hold.
+
+    Args:
+        held: The load.
+
+    Yields:
+        One answer.
+    """
+    mass, half_width = held.load.mass_kg or 0.0, held.load.mass_half_width_95_kg or 0.0
+    is_wide, is_written = half_width > _WIDE * mass, held.robot_file is not None
+    more = "record more postures that turn the wrist"
+    controller = held.arms[-1].controller
+    specified = [word for entry in held.arms[-1].specified for word in ("--recording", entry)]
+    write = typed("payload", EXPERIMENT, *specified, "--to", controller, "-o", "load.txt")
+    yield Answer(
+        subject="joint torques",
+        verdict=_load_verdict(held.load),
+        why=(
+            f"{held.postures} postures at rest; the largest bias of a joint is {_largest_bias(held)}",
+            *(f"assumed: {words}" for words in dict.fromkeys("; ".join(arm.assumed) for arm in held.arms)),
+        ),
+        step=more if is_wide else "" if is_written else "write it to a file that the robot reads",
+        command="" if is_wide or is_written else write,
+        written=(held.robot_file,),
+        concern=Concern.UNCERTAIN if is_wide else Concern.NONE,
+    )
+
+
+def _largest_bias(held: TorqueLoad) -> str:
+    row = max(held.joints, key=lambda row: abs(row.bias_Nm))
+    return f"{row.bias_Nm:.3g} N m, of {row.joint}"
 
 
 def _load_verdict(load: LoadRow) -> str:

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -143,7 +143,7 @@ def payload(
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
-) -> None:
+) -> Any:
     """Estimate mass, centre of mass and bias of a wrist sensor's load.
 
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
@@ -153,14 +153,24 @@ def payload(
 
     Python: `run.payload()`, over experiments `payload.weigh_load([run, other["arm_ft"]])`; `--to`: loads of
     robots (docs/payload/robot_load.md)
+
+    Returns:
+        The `Result` that is shown.
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.kept_experiments import keep_experiment
     from forcetorque.experiment.loading import load_experiment
     from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.formats.kept_parts import parts_kept
     from forcetorque.payload.identify import weigh_load
-    from forcetorque.payload.load_of_log import experiment_of_log, is_experiment_file
+    from forcetorque.payload.load_of_log import (
+        described_log,
+        experiment_of_description,
+        is_experiment_file,
+        load_of_torque_logs,
+    )
     from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
     log = start_logging()
@@ -170,19 +180,35 @@ def payload(
     specified = _specified(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
     _refuse_without_log(logs, specified, save_experiment)
-    runs, arms = [], []
+    runs, arms, torques = [], [], {}
     for path in experiments:
         log.info("reading %s", path)
         if path in logs:
             at = Path() if save_experiment in (None, STANDARD_OUTPUT) else save_experiment.parent
-            alone = experiment_of_log(path, specified, at)
+            with parts_kept():
+                description = described_log(path, specified)
+                if description.torques is not None:
+                    torques[path] = description.torques
+                    continue
+                alone = experiment_of_description(path, description, specified, at)
             arms.append(alone.arm)
-            content = alone.experiment
+            content = keep_experiment(path, alone.experiment)
             if save_experiment is not None:
                 write_bytes_atomically(save_experiment, alone.content.encode())
         else:
             content = load_experiment(path)
         runs.append(SensorRun(content, content.sensors[0]))
+    if torques:
+        _refuse_beside_torques(experiments, torques, save_experiment, to)
+        held = load_of_torque_logs(torques, specified)
+        if output is not None and to is not None:
+            write_load(held.robot_load(), output, to, world_frame=None, sensor_pose=sensor_pose, log=log)
+            held = held.model_copy(update={"robot_file": str(output)})
+        if output == STANDARD_OUTPUT:
+            show_warnings(held)
+        else:
+            show(held, output_format, details=details, experiments=experiments)
+        return held
     with stated_in(", ".join(str(path) for path in experiments)):
         load = weigh_load(runs).model_copy(update={"arms": tuple(arms)})
         if output is not None and to is not None:
@@ -195,6 +221,7 @@ def payload(
         show_warnings(load)
     else:
         show(load, output_format, details=details, experiments=experiments)
+    return load
 
 
 def _specified(entries: Sequence[str]) -> dict[str, object]:
@@ -235,6 +262,25 @@ def _refuse_without_log(logs: Sequence[Path], specified: Mapping[str, object], s
         raise ForceTorqueError("--recording: expected a log, got experiment files; state the keys in their [recording]")
     if save_experiment is not None and len(logs) != 1:
         raise ForceTorqueError(f"--save-experiment {save_experiment}: expected one log, got {len(logs)}")
+
+
+def _refuse_beside_torques(
+    experiments: Sequence[Path], torques: Collection[Path], save_experiment: Path | None, to: LoadFormat | None
+) -> None:
+    from forcetorque.payload.robot_files.arms import ARMS
+
+    first = next(iter(torques))
+    others = [path for path in experiments if path not in torques]
+    if others:
+        raise ForceTorqueError(f"{first}: expected logs of joint torques alone beside it, got {others[0]}")
+    if save_experiment is not None:
+        raise ForceTorqueError(
+            f"--save-experiment {save_experiment}: expected a log with a wrench, got joint torques: {first}"
+        )
+    if to is not None and to not in ARMS:
+        raise ForceTorqueError(
+            f"--to {to}: expected a form without the bias of a sensor, {', '.join(ARMS)}, since {first} has no wrench"
+        )
 
 
 def tare(

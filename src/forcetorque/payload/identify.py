@@ -18,7 +18,13 @@ from forcetorque.payload.identification.load_estimates import LoadEstimate, Load
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
-from forcetorque.payload.load_warnings import load_doubts, overweight_loads, payload_doubts, reversed_sense
+from forcetorque.payload.load_warnings import (
+    behind_flange,
+    load_doubts,
+    overweight_loads,
+    payload_doubts,
+    reversed_sense,
+)
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
@@ -151,6 +157,8 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     table = None if (wrist := wrist_loads(first.experiment)) is None else wrist.table
     with_mount = first.sensor.mount_is_unknown or (table is not None and table.mount is not None)
     with_tilt = table is not None and table.tilt is not None
+    placed = () if table is None or solution.hypotheses else tuple(behind_flange(table.frame, solution.loads))
+    accounts = (*solution.hypotheses, *placed)
     alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
     result = WeighedLoad(
         experiment=", ".join(campaign.experiments),
@@ -169,7 +177,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         tilt_half_width_rad=_two(solution.tilt_half_width) if with_tilt else None,
         undetermined=solution.open_directions,
         disagreeing=solution.disagreeing,
-        hypotheses=solution.hypotheses,
+        hypotheses=accounts,
         validation=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
         residual_rms=solution.residual_rms,
         spanned_directions=solution.spanned,

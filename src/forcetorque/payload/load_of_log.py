@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +15,14 @@ from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import InMemory
 from forcetorque.experiment.loading import load_tables
-from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription
+from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription, LogFormat
+from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import BAG, LoggedWrist
 from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import draft_of_description, recording_lines
 from forcetorque.inspection.draft.toml_lines import line, toml_value
 from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
+from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques
 from forcetorque.payload.result import ArmLog
 from forcetorque.results.number_text import amount
 
@@ -53,17 +56,16 @@ def is_experiment_file(path: Path) -> bool:
     return path.suffix.lower() == ".toml" or not path.exists() or recognised_format(path) is None
 
 
-def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path) -> LogAlone:
-    """Make the experiment of a log of an arm.
+def described_log(path: Path, specified: Mapping[str, object]) -> LogDescription:
+    """Read a log of an arm, with what is known beside it.
 
     Args:
         path: The log.
         specified: Values of keys of the `[recording]` table that neither log nor format determines; of a bag those of
             `WristTable`.
-        folder: Folder of the experiment file, from which its paths count.
 
     Returns:
-        The experiment, with one sensor.
+        The log with a wrench or, where it has none, with joint torques.
 
     Raises:
         MissingFileError: If there is no such log.
@@ -74,24 +76,9 @@ def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path)
         raise ExperimentError(
             f"{path}: --recording: expected keys that the log lacks, got {fixed[0]}, which is the log's"
         )
-    description, wrist = _description(path, specified)
-    content = "\n".join(_lines(path, description, wrist, folder)) + "\n"
-    experiment = load_tables(tomllib.loads(content), InMemory(), folder=folder)
-    arm = ArmLog(
-        controller=wrist.controller,
-        specified=tuple(f"{key}={toml_value(value)}" for key, value in specified.items()),
-        assumed=tuple(_assumed(path, wrist, experiment)),
-        contradictions=wrist.contradictions,
-    )
-    return LogAlone(experiment=experiment, content=content, arm=arm)
-
-
-def _description(path: Path, specified: Mapping[str, object]) -> tuple[LogDescription, LoggedWrist]:
     if not path.exists():
         raise MissingFileError(f"{path}: expected an experiment file or a log, there is none")
-    known = recognised_format(path)
-    if known is None:
-        raise not_recognised(path)
+    known = _format_of(path)
     if not isinstance(known, ArmLoggingFormat):
         names = " or ".join(format_name(one) for one in LOG_FORMATS if isinstance(one, ArmLoggingFormat))
         raise ExperimentError(
@@ -99,16 +86,93 @@ def _description(path: Path, specified: Mapping[str, object]) -> tuple[LogDescri
             f"got a log of the format {format_name(known)}; `forcetorque init {path}` begins an experiment file"
         )
     description = known.describe_specified(path, specified)
-    if description.undetermined:
-        wanted = "; ".join(f"{key}, {words}" for key, words in description.undetermined.items())
-        example = next(iter(description.undetermined))
+    undetermined = description.undetermined or (description.torques.undetermined if description.torques else {})
+    if undetermined:
+        wanted = "; ".join(f"{key}, {words}" for key, words in undetermined.items())
+        example = next(iter(undetermined))
         raise ExperimentError(
             f"{path}: expected what neither log nor format says: {wanted}; give each by --recording {example}=..."
         )
+    if description.wrist is None and description.torques is None:
+        raise ExperimentError(f"{path}: expected the wrench at the wrist of an arm, got {description.wrist_lacks}")
+    return description
+
+
+def _format_of(path: Path) -> LogFormat[Any]:
+    known = recognised_format(path)
+    if known is None:
+        raise not_recognised(path)
+    return known
+
+
+def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path) -> LogAlone:
+    """Make the experiment of a log of an arm.
+
+    Args:
+        path: The log.
+        specified: As of `described_log`.
+        folder: Folder of the experiment file, from which its paths count.
+
+    Returns:
+        The experiment, with one sensor.
+    """
+    return experiment_of_description(path, described_log(path, specified), specified, folder)
+
+
+def experiment_of_description(
+    path: Path, description: LogDescription, specified: Mapping[str, object], folder: Path
+) -> LogAlone:
+    """Make the experiment of a log that was read.
+
+    Args:
+        path: The log.
+        description: What `described_log` gives of it.
+        specified: As of `described_log`.
+        folder: Folder of the experiment file, from which its paths count.
+
+    Returns:
+        The experiment, with one sensor.
+
+    Raises:
+        ExperimentError: If the log has no wrench.
+    """
     wrist = description.wrist
     if wrist is None:
         raise ExperimentError(f"{path}: expected the wrench at the wrist of an arm, got {description.wrist_lacks}")
-    return description, wrist
+    content = "\n".join(_lines(path, description, wrist, folder)) + "\n"
+    experiment = load_tables(tomllib.loads(content), InMemory(), folder=folder)
+    arm = ArmLog(
+        controller=wrist.controller,
+        specified=_entries(specified),
+        assumed=tuple(_assumed(path, wrist, experiment)),
+        contradictions=wrist.contradictions,
+    )
+    return LogAlone(experiment=experiment, content=content, arm=arm)
+
+
+def load_of_torque_logs(logs: Mapping[Path, LoggedTorques], specified: Mapping[str, object]) -> TorqueLoad:
+    """Estimate the load that an arm holds by its joint torques.
+
+    Args:
+        logs: Logs without a wrench, of one arm with one load in one power cycle.
+        specified: As of `described_log`.
+
+    Returns:
+        The load.
+    """
+    arms = []
+    for torques in logs.values():
+        masses = dict.fromkeys(mass for mass in torques.declared_mass.tolist() if mass > 0.0)
+        declared = ", ".join(amount(mass, "kg") for mass in masses)
+        words = (f"the declared payload of {declared} is part of the load",) if masses else ()
+        assumed = (*torques.assumed, *words)
+        arm = ArmLog(controller=torques.controller, specified=_entries(specified), assumed=assumed, contradictions=())
+        arms.append(arm)
+    return load_of_torques(tuple(logs.values()), arms, ", ".join(map(str, logs)))
+
+
+def _entries(specified: Mapping[str, object]) -> tuple[str, ...]:
+    return tuple(f"{key}={toml_value(value)}" for key, value in specified.items())
 
 
 def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: Path) -> Sequence[str]:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -11,8 +11,9 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.logged_wrist import FLANGE
 from forcetorque.inspection.draft.gravity import fit_gravity
-from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.load_estimates import HypothesisRow, LoadEstimate, LoadSolution
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_stated, wrist_loads
 from forcetorque.payload.loads_on_robot_links import LinkLoads, link_loads
@@ -52,6 +53,33 @@ def _reversed_sense(run: SensorRun) -> Iterator[str]:
         f"{along} of {frame!r}, and the file says {sensor.direction.value!r}; state both so: with both reversed "
         "weights are right, and every push comes out with the other sign"
     )
+
+
+_BEHIND_M = 0.01
+"""How far behind a flange the centre of mass of a tool may be, beyond its interval; m (heuristic)."""
+
+
+def behind_flange(frame: str, loads: Sequence[LoadEstimate]) -> Iterator[HypothesisRow]:
+    """Name a centre of mass behind the flange of an arm, where a moment about another point puts it.
+
+    Args:
+        frame: Frame of the wrench.
+        loads: Loads on it.
+
+    Yields:
+        A row for each; none where the frame is not that of a flange, whose z axis points out of it.
+    """
+    for load in loads if frame == FLANGE else ():
+        height, half_width = float(load.centre_of_mass[2]), float(load.centre_of_mass_half_width[2])
+        is_known = load.estimated and load.is_determined and load.mass > load.mass_half_width
+        if is_known and height + half_width < -_BEHIND_M:
+            words = (
+                f"the centre of mass lies {-1e3 * height:.0f} mm behind the flange, where no tool is: the moment is "
+                "about the tool centre point and not about the flange, or the wrench is not in the frame of the flange"
+            )
+            yield HypothesisRow(
+                name="moment about another point", description=words, residual_share=1.0, severity="caution"
+            )
 
 
 _BETTER = 0.7

@@ -42,7 +42,7 @@ def view(
             "--output",
             "-o",
             help="File for the page, which then works offline, or by its ending for Rerun (.rrd) or Foxglove and ROS 2 "
-            "(.mcap); - for standard output. Default: the page is served.",
+            "(.mcap, with a layout for Foxglove beside it); - for standard output. Default: the page is served.",
         ),
     ] = None,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open nothing.")] = False,
@@ -79,7 +79,7 @@ def view(
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
     from forcetorque.viewer.scene_builder import View, scene_of, view_source
     from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
-    from forcetorque.viewer.view_file import require_writer, write_view
+    from forcetorque.viewer.view_file import require_writer, view_files, write_view
 
     log = start_logging()
     _refuse_contradictions(output, port, video, force=force)
@@ -100,6 +100,8 @@ def view(
     shown = View.of(built)
     if output is not None:
         shown = shown.model_copy(update={"file": str(output), "file_bytes": write_view(output, built)})
+        for layout in view_files(output)[1:]:
+            log.info("layout for Foxglove written to %s", layout)
     if video is not None:
         film = film_between(film, built, start_s=start, end_s=end)
         frames = frame_count(film, built)
@@ -113,10 +115,12 @@ def view(
 
 
 def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None, *, force: bool) -> None:
+    from forcetorque.viewer.view_file import view_files
+
     if port is not None and (output is not None or video is not None):
         raise ForceTorqueError("--port belongs to a page that is served; leave out --output and --video, or --port")
     refuse_standard_output("--video", video)
-    declare_outputs(output, video, force=force)
+    declare_outputs(*view_files(output), video, force=force)
 
 
 def _serve(

@@ -21,6 +21,8 @@ from forcetorque.base.run_files import refuse_input
 from forcetorque.results.figures import COLOURS, REFERENCE_COLOUR
 from forcetorque.viewer.viewer_log import LoggedFrame, ViewerLog
 
+DESCRIPTION, ARROWS, EVENTS = "/robot_description", "/arrows", "/rosout"
+"""Topics of the URDF, of forces as arrows, and of events."""
 _SHAFT_M, _HEAD_M = 0.012, 0.025
 _INFORMATION, _WARNING = 20, 30
 """Levels of rcl_interfaces/msg/Log."""
@@ -220,7 +222,7 @@ def _description(log: ViewerLog, types: Any) -> Iterator[_Messages]:
     kind = "std_msgs/msg/String"
     text = log.urdf.read_text(encoding="utf-8")
     rows = [bytes(types.serialize_cdr(types.types[kind](data=text), kind))]
-    yield _Messages(topic="/robot_description", type=kind, stamp_ns=log.stamp_ns[:1], rows=rows, latched=True)
+    yield _Messages(topic=DESCRIPTION, type=kind, stamp_ns=log.stamp_ns[:1], rows=rows, latched=True)
 
 
 def _wrenches(log: ViewerLog, types: Any) -> Iterator[_Messages]:
@@ -259,7 +261,7 @@ def _arrows(log: ViewerLog, types: Any) -> Iterator[_Messages]:
         tips.append(np.nan_to_num(tip, nan=0.0))  # an arrow without a length, where there is no wrench
     if markers:
         rows = _filled(types, kind, known[kind](markers=markers), marks, np.hstack(tips), log.pose_ns)
-        yield _Messages(topic="/arrows", type=kind, stamp_ns=log.pose_ns, rows=rows)
+        yield _Messages(topic=ARROWS, type=kind, stamp_ns=log.pose_ns, rows=rows)
 
 
 def colour_of(kind: str, number: int) -> str:
@@ -321,4 +323,4 @@ def _events(log: ViewerLog, types: Any) -> Iterator[_Messages]:
         rows.append(bytes(types.serialize_cdr(message, kind)))
     if rows:
         stamp_ns = np.array([event.stamp_ns for event in log.events], dtype=np.int64)
-        yield _Messages(topic="/rosout", type=kind, stamp_ns=stamp_ns, rows=rows)
+        yield _Messages(topic=EVENTS, type=kind, stamp_ns=stamp_ns, rows=rows)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ from forcetorque.base.run_files import refuse_input
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.mcap_file import colour_of
-from forcetorque.viewer.viewer_log import LoggedWrench, ViewerLog
+from forcetorque.viewer.viewer_log import ViewerLog
 
 if TYPE_CHECKING:
     from forcetorque.viewer.scene import Shape
@@ -175,16 +175,6 @@ def _part(name: str) -> str:
     return "".join(letter if letter.isalnum() or letter in "_-." else f"\\{letter}" for letter in name)
 
 
-def _plots(log: ViewerLog) -> Iterator[tuple[str, list[LoggedWrench]]]:
-    """Wrenches of every plot with its title; errors, which are far smaller, have plots of their own."""
-    for name in log.sensors():
-        wrenches = log.wrenches_of(name)
-        for title, is_error in ((name, False), (f"{name}: error", True)):
-            shown = [wrench for wrench in wrenches if (wrench.kind == "error") is is_error]
-            if shown:
-                yield title, shown
-
-
 def _layout(log: ViewerLog) -> Any:
     import rerun.blueprint as blueprint
 
@@ -200,7 +190,7 @@ def _layout(log: ViewerLog) -> Any:
             ),
             name=title,
         )
-        for title, wrenches in _plots(log)
+        for title, wrenches in log.plots()
     ]
     return blueprint.Blueprint(
         blueprint.Horizontal(

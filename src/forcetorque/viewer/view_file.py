@@ -12,6 +12,24 @@ RRD, MCAP = ".rrd", ".mcap"
 """Endings of recordings for Rerun, and of bags of ROS 2 for Foxglove and others."""
 
 
+def view_files(path: Path | None) -> tuple[Path, ...]:
+    """Name the files that a scene is written to, for the checks of outputs.
+
+    Args:
+        path: File of the scene; None for none.
+
+    Returns:
+        The file, and that of the layout for Foxglove beside a bag.
+    """
+    if path is None:
+        return ()
+    if path.suffix.lower() != MCAP:
+        return (path,)
+    from forcetorque.viewer.foxglove_layout import layout_file
+
+    return path, layout_file(path)
+
+
 def require_writer(path: Path) -> None:
     """Check, before anything is computed, that what writes a file is installed.
 
@@ -29,14 +47,14 @@ def require_writer(path: Path) -> None:
 
 
 def write_view(path: Path, built: BuiltScene) -> int:
-    """Write a scene as the ending of the file says: `.rrd`, `.mcap`, else the page.
+    """Write a scene as the ending of the file says: `.rrd`, `.mcap` with a layout beside it, else the page.
 
     Args:
         path: File to write or to replace.
         built: The scene.
 
     Returns:
-        Its size; bytes.
+        Size of the file; bytes.
     """
     from forcetorque.viewer.viewer_log import viewer_log
 
@@ -45,7 +63,11 @@ def write_view(path: Path, built: BuiltScene) -> int:
 
         return write_rrd(path, viewer_log(built))
     if path.suffix.lower() == MCAP:
+        from forcetorque.viewer.foxglove_layout import write_layout
         from forcetorque.viewer.mcap_file import write_mcap
 
-        return write_mcap(path, viewer_log(built))
+        log = viewer_log(built)
+        size = write_mcap(path, log)
+        write_layout(path, log)
+        return size
     return write_page(path, built)

@@ -112,6 +112,18 @@ class ViewerLog:
         """Wrenches of a sensor or contact by its name in `sensors`."""
         return tuple(wrench for wrench in self.wrenches if wrench.name.startswith(f"{sensor}/"))
 
+    def plots(self) -> Iterator[tuple[str, list[LoggedWrench]]]:
+        """Give the wrenches to plot together; errors, which are far smaller, have plots of their own.
+
+        Yields:
+            Title of each plot, and its wrenches.
+        """
+        for name in self.sensors():
+            known = [wrench for wrench in self.wrenches_of(name) if len(wrench.known)]
+            for title, is_error in ((name, False), (f"{name}: error", True)):
+                if shown := [wrench for wrench in known if (wrench.kind == "error") is is_error]:
+                    yield title, shown
+
     def arrows(self) -> Iterator[tuple[LoggedWrench, FloatArray]]:
         """Give the tips of arrows of forces, in the frames of the wrenches.
 

@@ -100,6 +100,34 @@ def test_frames_of_the_own_robot_are_taken(tmp_path: Path) -> None:
         read_frame_tree(bag, "/ft")
 
 
+def test_joints_of_the_own_robot_are_taken(tmp_path: Path) -> None:
+    """Robots with the same names of joints, and different descriptions, go by namespaces too."""
+    types, empty = Types("mcap"), np.empty(0)
+    topics: dict[str, tuple[str, list[Any]]] = {}
+    for robot, sign, text in (("left", 1.0, URDF), ("right", -1.0, URDF.replace('xyz="0 0 1"', 'xyz="0 0 3"'))):
+        states = [types.joints(k, list(NAMES), sign * row, empty, empty) for k, row in enumerate(POSITIONS)]
+        topics[f"/{robot}/joint_states"] = ("sensor_msgs/msg/JointState", states)
+        topics[f"/{robot}/robot_description"] = ("std_msgs/msg/String", [types.text(text)])
+    with opened_bag(write_bag(tmp_path / "two", "mcap", topics)) as bag:
+        trees = {robot: read_frame_tree(bag, f"/{robot}/hand/ft") for robot in ("left", "right")}
+        neither = read_frame_tree(bag, "/ft")
+    for robot, sign, height in (("left", 1.0, 1.0), ("right", -1.0, 3.0)):
+        rotation, place = trees[robot].poses("turned", "base", STAMPS)
+        np.testing.assert_allclose(place, np.tile([0.0, 0.0, height], (7, 1)), atol=1e-12)
+        angle = np.arccos(np.clip((np.trace(rotation[0].T @ rotation[-1]) - 1.0) / 2.0, -1.0, 1.0))
+        assert angle == pytest.approx(2.0, abs=1e-6)
+        assert trees[robot].transforms["turned"].topic == f"/{robot}/joint_states"
+        first = read_urdf_text(URDF, where="URDF").joints["turn"].parent_H_child[:3, :3].T @ rotation[0]
+        assert np.sign(first[0, 2]) == -sign
+    assert not neither.frames
+    one = topics | {"/right/robot_description": topics["/left/robot_description"]}
+    refused = pytest.raises(
+        FormatError, match="joint 'turn' in one topic, or in one of the namespace of /ft, got it in"
+    )
+    with opened_bag(write_bag(tmp_path / "one", "mcap", one)) as bag, refused:
+        read_frame_tree(bag, "/ft")
+
+
 def test_a_joint_without_positions_is_named(tmp_path: Path) -> None:
     """One that is not a number throughout, by bag, topic and joint; and a moving frame that is sent once."""
     types, empty, turn = Types("mcap"), np.empty(0), np.array([0.0, 0.0, 0.0, 1.0])
@@ -122,7 +150,9 @@ def test_nothing_is_asked_of_joints_that_tf_makes_needless(tmp_path: Path) -> No
     """A joint in two topics, and a description that is cut off, matter only where tf lacks a frame."""
     types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
     complete = {("base", "turned"): turn, ("turned", "slid"): turn, ("slid", "tool"): turn}
-    two = _topics(types) | {"/arm/joint_states": _topics(types)["/joint_states"]}
+    states = _topics(types)["/joint_states"]
+    description = {"/robot_description": _topics(types)["/robot_description"]}
+    two = description | {f"/{limb}/joint_states": states for limb in ("arm", "leg")}
     cut = {"/robot_description": ("std_msgs/msg/String", [types.text(URDF[:-30])])}
 
     def tree(name: str, topics: dict[str, tuple[str, list[Any]]], frames: dict[tuple[str, str], Any]) -> FrameTree:
@@ -133,7 +163,9 @@ def test_nothing_is_asked_of_joints_that_tf_makes_needless(tmp_path: Path) -> No
     for name, topics in {"two": two, "cut": cut}.items():
         assert tree(name, topics, complete).root("tool") == "base", name
     del complete["slid", "tool"]
-    with pytest.raises(FormatError, match="expected joint 'turn' in one topic, got it in /arm/joint_states and /joint"):
+    with pytest.raises(
+        FormatError, match="expected joint 'turn' in one .* of /ft, got it in /arm/joint_states and /leg/joint"
+    ):
         tree("two_lacking", two, complete)
     lacking = tree("cut_lacking", cut, complete)
     with pytest.raises(FormatError, match="no frame 'tool' .*; robot_description is not read: .*: /robot_description"):

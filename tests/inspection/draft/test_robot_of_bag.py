@@ -129,6 +129,26 @@ def test_another_robot_than_that_of_the_bag_is_named(bag: Path, tmp_path: Path) 
     assert not (tmp_path / "arm.urdf").exists()
 
 
+def test_fixed_frames_of_another_robot_are_not_taken(tmp_path: Path) -> None:
+    """Of two robots with the same frames that in the namespace of the sensor counts; without one there is no mount."""
+    types, turn = Types("mcap"), np.array([0.0, 0.0, 0.0, 1.0])
+    topics = _topics("mcap", most=400)
+    other = types.make(TF, transforms=[types.transform(0, turn, SHIFT_M, "upper_arm", "ft_frame")])
+    both = {"/arm/tf_static": topics.pop("/tf_static"), "/brm/tf_static": (TF, [other])}
+    named = topics | both | {"/arm/ft": topics["/ft"]}
+    del named["/ft"]
+    draft = draft_experiment(write_bag(tmp_path / "named", "mcap", named), tmp_path / "named.toml")
+    (sensor,) = tomllib.loads(draft.content)["sensor"]
+    np.testing.assert_allclose(sensor["mount"]["rotation_deg"], [0.0, 0.0, 30.0], atol=1e-4)
+    unnamed = write_bag(tmp_path / "unnamed", "mcap", topics | both)
+    draft = draft_experiment(unnamed, tmp_path / "unnamed.toml")
+    assert "mount" not in tomllib.loads(draft.content)["sensor"][0]
+    assert "joint" in {question.key for question in draft.questions}
+    said = {(row.stream, row.kind): row.message for row in inspect_log(unnamed).findings}
+    robot = said["/robot_description", "robot"]
+    assert "of ft_frame topics outside the namespace of '/ft' have different poses" in robot
+
+
 def test_inspect_tells_what_a_bag_has_of_its_robot(bag: Path) -> None:
     """In place of a topic that nothing reads."""
     said = {(row.stream, row.kind): row.message for row in inspect_log(bag).findings}

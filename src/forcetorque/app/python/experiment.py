@@ -141,7 +141,7 @@ class Experiment(ExperimentContent):
 
         Args:
             output: File of the page, which works offline in any browser; for Rerun it ends in `.rrd`, for Foxglove and
-                readers of ROS 2 bags in `.mcap`.
+                readers of ROS 2 bags in `.mcap`, beside which is the layout for Foxglove.
             calibrations: How sensors are read, beside their priors; of a sensor any number.
             sensors: Sensors to show; all if left out.
             force: As of `estimate`.
@@ -154,9 +154,10 @@ class Experiment(ExperimentContent):
             OutputError: As of `estimate`.
         """
         from forcetorque.viewer.scene_builder import View, build_scene
-        from forcetorque.viewer.view_file import require_writer, write_view
+        from forcetorque.viewer.view_file import require_writer, view_files, write_view
 
-        refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
+        for file in view_files(Path(output)):
+            refuse_output(file, inputs_sha256=self.inputs_sha256.values(), force=force)
         require_writer(Path(output))
         robot = parse_experiment(self.file).robot if self.file.is_file() else None
         urdf = None if robot is None else urdf_file(robot.urdf, self.file.parent)

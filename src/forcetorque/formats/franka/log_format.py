@@ -24,8 +24,10 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import Text, checked_tables
 from forcetorque.base.wrench import FORCE, MOMENT, MeasureDirection, transform_wrench
 from forcetorque.formats.arm_log import ArmLogTable
+from forcetorque.formats.franka.kinematics import joint_frames
 from forcetorque.formats.franka.logged_states import LoggedStates, is_logged_states, read_states
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
+from forcetorque.formats.logged_torques import LoggedTorques, holding_torques
 from forcetorque.formats.logged_wrist import (
     FLANGE,
     LoggedWrist,
@@ -51,6 +53,9 @@ _ROUNDING = 1e-3
 """By how much a rotation matrix may be off, as six digits make it."""
 
 
+_POSE_FORM = "16 numbers in brackets, column by column: three and 0 for each axis, then x, y, z in m and 1"
+
+
 class FrankaLog(ArmLogTable):
     """Robot states of libfranka."""
 
@@ -60,9 +65,9 @@ class FrankaLog(ArmLogTable):
     """File with a state as JSON in each line (`std::cout << state`), or the table of `logToCSV`."""
     joints: Annotated[tuple[Text, ...], Field(min_length=7, max_length=7)] = JOINTS
     """Names of the joints in the URDF, in the order of `q`."""
-    F_T_EE: Annotated[FloatArray, ArrayField((16,))] | None = None
+    F_T_EE: Annotated[FloatArray, ArrayField((16,), form=_POSE_FORM)] | None = None
     """Pose of the end effector in the flange, column by column, m, of a log without it."""
-    EE_T_K: Annotated[FloatArray, ArrayField((16,))] | None = None
+    EE_T_K: Annotated[FloatArray, ArrayField((16,), form=_POSE_FORM)] | None = None
     """Pose of the stiffness frame in the end effector, likewise."""
 
 
@@ -77,8 +82,10 @@ _QUESTIONS = {
 }
 _LACKS_WRENCH = (
     "joint torques alone, neither a wrench (O_F_ext_hat_K or K_F_ext_hat_K) nor a pose (O_T_EE); log whole states, as "
-    "`std::cout << state` writes them, a line each"
+    "`std::cout << state` writes them, a line each, or q and tau_ext_hat_filtered"
 )
+_STILL_RAD_S = 0.02
+"""Speed of every joint below which an arm is at rest; rad/s (heuristic)."""
 
 
 _FIELDS = {"F_T_EE": "F_T_EE", "EE_T_K": "EE_T_K", "payload_kg": "m_load", "payload_cog_m": "F_x_Cload"}
@@ -111,6 +118,7 @@ class FrankaFormat:
             undetermined=undetermined,
             wrist=_wrist(table, states) if has_wrench else None,
             wrist_lacks="" if has_wrench else _LACKS_WRENCH,
+            torques=None if has_wrench else _torques(table, states),
         )
 
     def read(self, specified: FrankaLog, context: LogContext) -> LogReading:
@@ -136,6 +144,51 @@ def _undetermined(table: FrankaLog, states: LoggedStates) -> list[str]:
     elif "F_x_Cload" not in states.values and table.payload_cog_m is None and _payload(table, states)[0].any():
         lacking.append("payload_cog_m")
     return lacking
+
+
+def _torques(table: FrankaLog, states: LoggedStates) -> LoggedTorques | None:
+    """What the external torques are; None of a log without them or without angles."""
+    if not {"q", "tau_ext_hat_filtered"} <= set(states.values):
+        return None
+    position = states.values["q"]
+    frames, base_H_flange = joint_frames(position)
+    undetermined = [] if "m_load" in states.values or table.payload_kg is not None else ["payload_kg"]
+    mass, centre = _payload(table, states)
+    if mass.any() and "F_x_Cload" not in states.values and table.payload_cog_m is None:
+        undetermined.append("payload_cog_m")
+    assumed = [
+        "tau_ext_hat_filtered is the torque of the joints on the load, with a constant error in each joint",
+        "the geometry of Panda and Franka Research 3",
+    ]
+    if (end_effector := states.values.get("m_ee")) is None:
+        assumed.append("beyond the end effector of Desk")
+    elif end_effector[:, 0].any():
+        assumed.append(f"beyond the end effector of {end_effector[-1, 0]:g} kg of Desk")
+    return LoggedTorques(
+        controller="franka",
+        joints=table.joints,
+        stamp_ns=states.stamp_ns,
+        position=position,
+        is_still=_still(states),
+        torque=states.values["tau_ext_hat_filtered"],
+        unit_torque=holding_torques(frames[:, :, :3, 2], frames[:, :, :3, 3], base_H_flange, table.world_gravity),
+        declared_mass=mass,
+        declared_centre=np.array(centre, dtype=np.float64),
+        undetermined={key: _QUESTIONS[key] for key in undetermined},
+        assumed=(*assumed, f"gravity {table.gravity:.6g} m/s2"),
+    )
+
+
+def _still(states: LoggedStates) -> BoolArray:
+    """Where no joint moves, by `dq` or, of a log without it, by steps of the angles; shape (n,)."""
+    speed: FloatArray = np.zeros_like(states.values["q"])
+    if "dq" in states.values:
+        speed = states.values["dq"]
+    elif len(speed) > 1:
+        step_s = np.maximum(1e-9 * np.gradient(states.stamp_ns.astype(np.float64)), 1e-9)
+        speed = np.array(np.gradient(states.values["q"], axis=0), dtype=np.float64) / step_s[:, None]
+    fastest: FloatArray = np.abs(speed).max(axis=1)
+    return fastest < _STILL_RAD_S
 
 
 def _payload(table: FrankaLog, states: LoggedStates) -> tuple[FloatArray, FloatArray]:

@@ -10,8 +10,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RobotError, known_names
+from forcetorque.formats.namespaces import namespace_depth
 from forcetorque.formats.ros.bag import Bag
-from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, decode, transforms
+from forcetorque.formats.ros.decoded_topic import topic_batches
+from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
 from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
 from forcetorque.recording.alignment import Interpolation
@@ -252,12 +254,12 @@ def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
     unknown: dict[str, tuple[str, str]] = {}
     fault = ""
     try:
-        described = _description(bag)
+        described = _description(bag, topic)
     except (FormatError, RobotError) as error:
         if not found:
             raise
         described, fault = None, str(error)
-    for joint, moved in _of_joints(bag, *described, found) if described is not None else ():
+    for joint, moved in _of_joints(bag, topic, *described, found) if described is not None else ():
         if isinstance(moved, str):
             unknown[joint.child] = joint.name, moved
         else:
@@ -267,7 +269,7 @@ def read_frame_tree(bag: Bag, topic: str) -> FrameTree:
 
 def _chosen(bag: Bag, topic: str, sent: Sequence[Transform]) -> Transform:
     """The transform of a frame that is meant for a topic, a moving one before a fixed one."""
-    depths = [_depth(topic, transform.topic) for transform in sent]
+    depths = [namespace_depth(topic, transform.topic) for transform in sent]
     nearest = [transform for transform, depth in zip(sent, depths, strict=True) if depth == max(depths)]
     first, *others = sorted(nearest, key=lambda transform: transform.is_fixed)
     for other in others:
@@ -285,12 +287,6 @@ def _chosen(bag: Bag, topic: str, sent: Sequence[Transform]) -> Transform:
     return first
 
 
-def _depth(topic: str, other: str) -> int:
-    """Length of the namespace of another topic; -1 if the topic is not in that namespace."""
-    namespace = f"/{other.strip('/')}".rpartition("/")[0]
-    return len(namespace) if f"/{topic.strip('/')}".startswith(f"{namespace}/") else -1
-
-
 def _are_equal(poses: Stream, others: Stream) -> bool:
     """Whether poses are the same at the same instants; those of a single one do not count."""
     names = ("orientation", "translation")
@@ -301,14 +297,12 @@ def _are_equal(poses: Stream, others: Stream) -> bool:
 def _sent(bag: Bag, topic: str) -> Iterator[Transform]:
     """Transforms that messages of a topic have."""
     batches: dict[tuple[str, ...], list[tuple[IntArray, IntArray, FloatArray]]] = {}
-    first = 0
-    for _, messages in bag.messages(topic):
-        for batch in decode(messages, transforms, cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
-            for fields in batch.fields:
-                numbers = [batch.numbers(*fields.numbers[name]) for name in ("orientation", "translation")]
-                row = (first + batch.rows, batch.stamp_ns(fields.stamp), np.hstack(numbers))
-                batches.setdefault(fields.frames, []).append(row)
-        first += len(messages)
+    for messages in topic_batches(bag, topic):
+        batch = messages.batch
+        for fields in batch.fields:
+            numbers = [batch.numbers(*fields.numbers[name]) for name in ("orientation", "translation")]
+            row = (messages.numbers, batch.stamp_ns(fields.stamp), np.hstack(numbers))
+            batches.setdefault(fields.frames, []).append(row)
     is_fixed = is_static(topic, bag.types[topic])
     for (parent, child), found in batches.items():
         order, stamps, values = (np.concatenate(column) for column in zip(*found, strict=True))
@@ -333,19 +327,19 @@ def _stream(frame: str, stamp_ns: IntArray, orientation: FloatArray, translation
     )
 
 
-def _description(bag: Bag) -> tuple[RobotModel, str] | None:
-    """The robot of a bag, and its topic."""
-    robot = robot_of_bag(bag)
+def _description(bag: Bag, topic: str) -> tuple[RobotModel, str] | None:
+    """The robot of a bag in the innermost namespace around a topic, and the topic that has it."""
+    robot = robot_of_bag(bag, topic)
     if robot.urdf is None:
         return None
     return read_urdf_text(robot.urdf, where=f"{bag.path}: {robot.topic}"), robot.topic
 
 
 def _of_joints(
-    bag: Bag, model: RobotModel, described_by: str, known: Mapping[str, Transform]
+    bag: Bag, topic: str, model: RobotModel, described_by: str, known: Mapping[str, Transform]
 ) -> Iterator[tuple[Joint, Transform | str]]:
     """Joints of the description whose child tf lacks, each with its transform, or what there is of its positions."""
-    states = _positions(bag, model, known)
+    states = _positions(bag, topic, model, known)
     for joint in model.joints.values():
         if joint.child in known:
             continue
@@ -361,34 +355,38 @@ def _of_joints(
         if followed not in states:
             yield joint, "none"
             continue
-        stream, values, topic = states[followed]
+        stream, values, source = states[followed]
         if (count := int(np.isfinite(values).sum())) < _FEWEST:
-            yield joint, f"{count} of {len(values)} that are numbers in {topic}"
+            yield joint, f"{count} of {len(values)} that are numbers in {source}"
             continue
-        yield joint, _moved(joint, stream.stamp_ns, factor * values + offset, topic, is_fixed=False)
+        yield joint, _moved(joint, stream.stamp_ns, factor * values + offset, source, is_fixed=False)
 
 
 def _positions(
-    bag: Bag, model: RobotModel, known: Mapping[str, Transform]
+    bag: Bag, topic: str, model: RobotModel, known: Mapping[str, Transform]
 ) -> dict[str, tuple[Stream, FloatArray, str]]:
-    """Positions of the joints that move links which tf lacks, with stream and topic; rad, m."""
+    """Positions of joints that move links which tf lacks, by the namespace of a topic, with their topic; rad, m."""
     moved = [joint for joint in model.joints.values() if joint.child not in known and joint.type.moves]
     wanted = {joint.name if joint.mimic is None else joint.mimic.leader for joint in moved}
     units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
     states: dict[str, tuple[Stream, FloatArray, str]] = {}
-    for topic in sorted(topic for topic, kind in bag.types.items() if kind == JOINT_TYPE):
-        if topic.rpartition("/")[2] != _STATES or not wanted:
+    for source in sorted(source for source, kind in bag.types.items() if kind == JOINT_TYPE):
+        if source.rpartition("/")[2] != _STATES or not wanted:
             continue
-        stream = topic_stream(bag, topic, name=topic, frame=None, world=None, joint_units=units).stream
+        stream = topic_stream(bag, source, name=source, frame=None, world=None, joint_units=units).stream
         position = stream.signals.get("position")
         for k, name in enumerate(position.columns if position is not None else ()):
             if position is None or name not in wanted:
                 continue
-            if name in states:
+            before = states[name][2] if name in states else None
+            nearer = 1 if before is None else namespace_depth(topic, source) - namespace_depth(topic, before)
+            if nearer == 0:
                 raise FormatError(
-                    f"{bag.path}: expected joint {name!r} in one topic, got it in {states[name][2]} and {topic}"
+                    f"{bag.path}: expected joint {name!r} in one topic, or in one of the namespace of {topic}, got it "
+                    f"in {before} and {source}"
                 )
-            states[name] = (stream, position.values[:, k], topic)
+            if nearer > 0:
+                states[name] = (stream, position.values[:, k], source)
     return states
 
 
@@ -420,10 +418,7 @@ def is_sent(bag: Bag, topic: str, child: str, parent: str) -> bool:
         Whether one does.
     """
     return any(
-        fields.frames == (parent, child)
-        for _, messages in bag.messages(topic)
-        for batch in decode(messages, transforms, cdr=bag.cdr, topic=f"{bag.path}: {topic}")
-        for fields in batch.fields
+        fields.frames == (parent, child) for messages in topic_batches(bag, topic) for fields in messages.batch.fields
     )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from forcetorque.base.errors import ForceTorqueError, FormatError
+from forcetorque.formats.kept_parts import parts_kept
 from forcetorque.formats.log_format import LogContext, LogDescription, LoggedRobot, LogReading, StreamReading
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.formats.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUATERNION_TYPE
@@ -61,7 +62,7 @@ class RosFormat:
 
     def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
         """Read the wrench of a wrist sensor and the pose of its frame, with keys of `WristTable`."""
-        with opened_bag(path) as bag:
+        with parts_kept(), opened_bag(path) as bag:
             return describe_wrist(bag, specified)
 
     def robot(self, path: Path) -> LoggedRobot:

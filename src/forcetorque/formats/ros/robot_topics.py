@@ -9,9 +9,12 @@ import numpy as np
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose
+from forcetorque.formats.kept_parts import kept
 from forcetorque.formats.log_format import FixedFrame, LoggedRobot
+from forcetorque.formats.namespaces import namespace_depth
 from forcetorque.formats.ros.bag import Bag
-from forcetorque.formats.ros.messages import TRANSFORM_TYPES, Batch, Cursor, Fields, decode, transforms
+from forcetorque.formats.ros.decoded_topic import topic_batches
+from forcetorque.formats.ros.messages import TRANSFORM_TYPES, Batch, Cursor, Fields
 from forcetorque.recording.frames import QUATERNION_XYZW, orientation_signals
 
 STRING_TYPE = "std_msgs/msg/String"
@@ -46,18 +49,24 @@ def is_static(topic: str, kind: str) -> bool:
     return kind in TRANSFORM_TYPES and topic.rpartition("/")[2] == _STATIC
 
 
-def robot_of_bag(bag: Bag) -> LoggedRobot:
+def robot_of_bag(bag: Bag, around: str | None = None) -> LoggedRobot:
     """Read what a bag has of its robot.
 
     Args:
         bag: The bag.
+        around: Topic of the robot that is wanted, of several: of descriptions those of the innermost namespace around
+            it count; None for all.
 
     Returns:
-        The last description, unless topics have different ones, and the last transform of every fixed frame.
+        The last description, unless topics have different ones, and the last transform of every fixed frame in each
+        topic.
     """
     types = bag.types
-    descriptions = {topic: _last_text(bag, topic) for topic, kind in types.items() if is_description(topic, kind)}
+    descriptions = {topic: _description(bag, topic) for topic, kind in types.items() if is_description(topic, kind)}
     texts = {topic: text for topic, text in descriptions.items() if text.strip()}
+    if around is not None and texts:
+        depths = {topic: namespace_depth(around, topic) for topic in texts}
+        texts = {topic: text for topic, text in texts.items() if depths[topic] == max(depths.values())}
     several = len(set(texts.values())) > 1
     conflict = (
         f"{bag.path}: expected one description of the robot, got different ones in {' and '.join(sorted(texts))}"
@@ -65,16 +74,20 @@ def robot_of_bag(bag: Bag) -> LoggedRobot:
         else ""
     )
     topic = None if several else next(iter(sorted(texts)), None)
-    frames: dict[str, FixedFrame] = {}
+    frames: list[FixedFrame] = []
     for static in sorted(topic for topic, kind in types.items() if is_static(topic, kind)):
-        frames |= {frame.child: frame for frame in _fixed_frames(bag, static)}
+        frames += {frame.child: frame for frame in _fixed_frames(bag, static)}.values()
     return LoggedRobot(
         urdf=None if topic is None else texts[topic],
         topic=topic or next(iter(sorted(texts)), ""),
         conflict=conflict,
         source="" if topic is None else f"{topic} of {bag.path}",
-        frames=frames,
+        frames=tuple(frames),
     )
+
+
+def _description(bag: Bag, topic: str) -> str:
+    return kept(bag.path, f"text {topic}", lambda: _last_text(bag, topic))
 
 
 def _last_text(bag: Bag, topic: str) -> str:
@@ -92,12 +105,9 @@ def _last_text(bag: Bag, topic: str) -> str:
 def _fixed_frames(bag: Bag, topic: str) -> list[FixedFrame]:
     """Frames of a topic, a later transform of a frame behind an earlier one."""
     frames: list[tuple[int, FixedFrame]] = []
-    first = 0
-    for _, messages in bag.messages(topic):
-        for batch in decode(messages, transforms, cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
-            found = (_fixed_frame(bag, topic, batch, fields) for fields in batch.fields)
-            frames += [(first + int(batch.rows[-1]), frame) for frame in found if frame is not None]
-        first += len(messages)
+    for messages in topic_batches(bag, topic):
+        found = (_fixed_frame(bag, topic, messages.batch, fields) for fields in messages.batch.fields)
+        frames += [(int(messages.numbers[-1]), frame) for frame in found if frame is not None]
     return [frame for _, frame in sorted(frames, key=lambda placed: placed[0])]
 
 
@@ -118,4 +128,5 @@ def _fixed_frame(bag: Bag, topic: str, batch: Batch, fields: Fields) -> FixedFra
         child=child,
         parent_H_child=make_pose(parent_R_child, translation),
         source=f"{topic} of {bag.path}",
+        topic=topic,
     )

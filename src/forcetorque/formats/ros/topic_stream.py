@@ -12,7 +12,8 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.ros.bag import Bag
-from forcetorque.formats.ros.messages import MESSAGES, POSE_TYPES, Batch, Fields, decode, not_measured
+from forcetorque.formats.ros.decoded_topic import TopicBatch, topic_batches
+from forcetorque.formats.ros.messages import POSE_TYPES, Fields, not_measured
 from forcetorque.recording.frames import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
@@ -65,16 +66,14 @@ def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | 
         FormatError: If there are none.
     """
     kind = bag.types[topic]
-    samples, first, pairs = Samples(), 0, set()
-    for received, messages in bag.messages(topic):
-        for batch in decode(messages, MESSAGES[kind], cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
-            for fields in batch.fields:
-                pairs.add(fields.frames if kind in POSE_TYPES else ())
-                if child is None or all(
-                    named in ("", wanted) for named, wanted in zip(fields.frames, (parent, child), strict=False)
-                ):
-                    _keep(samples, batch, fields, received, first)
-        first += len(messages)
+    samples, pairs = Samples(), set()
+    for messages in topic_batches(bag, topic):
+        for fields in messages.batch.fields:
+            pairs.add(fields.frames if kind in POSE_TYPES else ())
+            if child is None or all(
+                named in ("", wanted) for named, wanted in zip(fields.frames, (parent, child), strict=False)
+            ):
+                _keep(samples, messages, fields)
     if not samples.stamps:
         known = ", ".join(sorted(" -> ".join(pair) for pair in pairs if pair)) or "no message"
         wanted = f"poses of {child} in {parent}" if child else "messages"
@@ -82,10 +81,11 @@ def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | 
     return samples
 
 
-def _keep(samples: Samples, batch: Batch, fields: Fields, received: IntArray, first: int) -> None:
+def _keep(samples: Samples, messages: TopicBatch, fields: Fields) -> None:
+    batch = messages.batch
     samples.stamps.append(batch.stamp_ns(fields.stamp))
-    samples.received.append(received[batch.rows])
-    samples.order.append(first + batch.rows)
+    samples.received.append(messages.received)
+    samples.order.append(messages.numbers)
     if fields.counter is not None:
         samples.counters.append(batch.counters(fields.counter))
     samples.numbers.append({name: batch.numbers(*place) for name, place in fields.numbers.items()})

@@ -81,7 +81,7 @@ class UrRtdeLog(ArmLogTable):
     moment_about: MomentPoint | None = None
     """Point about which `actual_TCP_force` has its moment: `flange` on e-Series, `tcp` on CB3 or with an external
     sensor; needed unless the TCP is the flange."""
-    tcp_offset: Annotated[FloatArray, ArrayField((6,))] | None = None
+    tcp_offset: Annotated[FloatArray, ArrayField((6,), form="[x, y, z, rx, ry, rz] in m and rad")] | None = None
     """Pose of the TCP in the flange, m and rotation vector in rad, of a log without `tcp_offset`."""
 
 

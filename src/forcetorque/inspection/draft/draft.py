@@ -14,6 +14,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.formats.kept_parts import parts_kept
 from forcetorque.formats.log_format import LoggedRobot, not_read_message
 from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
@@ -192,6 +193,7 @@ class Draft(Result):
         return list(QuestionRow.model_fields)
 
 
+@parts_kept()
 def draft_experiment(
     logs: Path | str | Sequence[Path | str],
     output: Path | str | None = None,

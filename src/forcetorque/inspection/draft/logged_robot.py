@@ -95,11 +95,17 @@ def robot_findings(logged: LoggedRobot, recording: Recording) -> tuple[Finding, 
     for stream in recording.streams.values():
         frame = None if "wrench" not in stream.signals else stream.signals["wrench"].frame
         if frame is not None and frame not in model.links:
-            words.append(_frame_text(stream.name, frame, _link_of(frame, logged.frames, model)))
+            frames, unclear = logged.frames_around(stream.name)
+            words.append(_frame_text(stream.name, frame, _link_of(frame, frames, model), unclear))
     return (Finding(stream=logged.topic, kind="robot", message="; ".join(words), count=0),)
 
 
-def _frame_text(stream: str, frame: str, found: tuple[str, FloatArray, str] | None) -> str:
+def _frame_text(stream: str, frame: str, found: tuple[str, FloatArray, str] | None, unclear: Sequence[str]) -> str:
+    if found is None and unclear:
+        return (
+            f"frame {frame!r} of {stream!r} is no link of it, and of {listed(unclear, _MOST_NAMED)} topics outside the "
+            f"namespace of {stream!r} have different poses"
+        )
     if found is None:
         return f"frame {frame!r} of {stream!r} is no link of it, and no fixed frame of the log leads to one"
     return f"frame {frame!r} of {stream!r} is fixed to its link {found[0]!r} by {found[2]}"
@@ -163,7 +169,8 @@ def with_fixed_frame(
     frame = next((stream.frame for stream in streams if stream.name == sensor.stream), None)
     if model is None or sensor.tags or sensor.joint is not None or frame is None:
         return sensor
-    found = _link_of(frame, logged.frames, model)
+    frames, _ = logged.frames_around(sensor.stream)
+    found = _link_of(frame, frames, model)
     if found is None:
         return sensor
     link, link_H_frame, source = found

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiments that a command has read, for what follows it in the same run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.experiment import Experiment
+
+_KEPT: ContextVar[dict[Path, Experiment] | None] = ContextVar("forcetorque_kept_experiments", default=None)
+
+
+@contextmanager
+def kept_experiments(*, keep: bool = True) -> Iterator[Mapping[Path, Experiment]]:
+    """Keep every experiment that is read in the body, so that its log need not be read again.
+
+    Args:
+        keep: Whether to; a command that reads more recordings than memory holds keeps none.
+
+    Yields:
+        Experiments by their file, or by the log that one was made of; empty until they are read.
+    """
+    experiments: dict[Path, Experiment] = {}
+    token = _KEPT.set(experiments if keep else None)
+    try:
+        yield experiments
+    finally:
+        _KEPT.reset(token)
+
+
+def keep_experiment(path: Path, experiment: Experiment) -> Experiment:
+    """Keep an experiment if someone asked for it.
+
+    Args:
+        path: Its file, or the log that it was made of.
+        experiment: The experiment.
+
+    Returns:
+        The same.
+    """
+    kept = _KEPT.get()
+    if kept is not None:
+        kept[path] = experiment
+    return experiment

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The load of an arm by its joint torques at rest, where no wrench was logged.
+
+    torque = unit_torque [m; m c] + bias + error,    in posture k and joint j
+
+Each joint has a bias and a variance of its own. Errors of one posture, of which the noise of samples is the least part,
+are one row: a posture counts once, however long it is held.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.errors import FitError
+from forcetorque.base.wrench import MeasureDirection
+from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques
+from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.result import ArmLog, LoadRow, load_words
+from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.results.number_text import plus_minus
+from forcetorque.results.result import Result
+from forcetorque.results.table import Row, Shown, Table, table_of
+
+_SAME_RAD = 0.02
+"""Largest difference of angles of samples in one posture; rad (heuristic)."""
+_FEWEST = 4
+"""Postures that leave something to estimate an error from."""
+_DEPENDENT = 1e-3
+"""Share of the torques of an unknown by which they change over the postures, below which it is open (heuristic)."""
+_ROUNDS = 50
+"""Steps of the variances of joints, which settle in some ten."""
+_POOLED = 1.0
+"""Postures that the variance over all joints counts for in that of each, so that none of few postures is taken for
+exact."""
+_SMALLEST = 1e-9
+"""Share of the largest torque that an error of a joint is at least, which keeps weights finite."""
+_UPPER = 0.975
+"""Probability below the upper end of a 95 % interval."""
+
+
+class JointTorqueRow(Row):
+    """A joint."""
+
+    joint: Annotated[str, Shown("joint")]
+    """Its name."""
+    bias_Nm: Annotated[float, Shown("bias", "N m", digits=3)]
+    """Torque that is logged without a load."""
+    residual_rms_Nm: Annotated[float, Shown("left over", "N m", digits=4)]
+    """Root mean square of what load and bias leave."""
+
+
+class TorqueLoad(Result):
+    """What an arm holds beyond its flange, by its joint torques."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.payload.answers:torque_answers"
+    of_several: ClassVar[tuple[str, ...]] = ("arms",)
+
+    schema_name: Literal["forcetorque/payload_by_torques/1"] = Field(
+        default="forcetorque/payload_by_torques/1", alias="schema"
+    )
+    """Form of the result."""
+    experiment: str
+    """Names of the logs."""
+    load: LoadRow
+    """Mass and centre of mass, along the axes of the flange from its origin."""
+    joints: tuple[JointTorqueRow, ...]
+    """Bias of each joint."""
+    postures: int
+    """Postures at rest."""
+    samples: int
+    """Samples in them."""
+    arms: tuple[ArmLog, ...]
+    """The logs."""
+    robot_file: str | None = Field(default=None, exclude=True, repr=False)
+    """File for a robot that was written; None for none."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the load, then the joints.
+
+        Yields:
+            A sentence and a table.
+        """
+        yield f"{self.postures} postures, {self.samples} samples: {load_words(self.load)}"
+        yield table_of(self.joints, "torque that is logged without a load, and what load and bias leave")
+
+    def records(self) -> list[dict[str, object]]:
+        """Give a line for every joint.
+
+        Returns:
+            The lines: the load beside a joint.
+        """
+        return [self.load.flat() | joint.flat() for joint in self.joints]
+
+    def robot_load(self) -> RobotLoad:
+        """Give the load to write it for a robot.
+
+        Returns:
+            The load in the frame of the flange.
+        """
+        return RobotLoad(
+            sensor="joint torques",
+            frame=FLANGE,
+            direction=MeasureDirection.PARENT_TO_CHILD,
+            mass=float(self.load.mass_kg or 0.0),
+            centre_of_mass=np.array(self.load.centre_of_mass_m, dtype=np.float64),
+            bias=np.zeros(6),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Postures:
+    """Means over the samples of each posture."""
+
+    torque: FloatArray
+    """Declared load included; shape (k, d); N m."""
+    unit_torque: FloatArray
+    """Shape (k, d, 4)."""
+    samples: int
+    """Number of all samples."""
+
+
+def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names: str) -> TorqueLoad:
+    """Estimate the load that arms hold, whose joints have the same biases.
+
+    Args:
+        logs: Logs of one arm with one load and in one power cycle.
+        arms: What they are of, for the result.
+        names: Names of the logs.
+
+    Returns:
+        The load with intervals.
+
+    Raises:
+        FitError: If there are too few postures, they leave something open, or the mass is not above zero.
+    """
+    parts = [_postures(log) for log in logs]
+    torque, unit_torque = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("torque", "unit_torque")
+    )
+    _require_postures(unit_torque, names)
+    values, covariance, deviation = _fit(torque, unit_torque)
+    half_width = _quantile(len(torque) - 1) * np.sqrt(np.diagonal(covariance))
+    mass, moment = values[0], values[1:]
+    if half_width[0] > abs(mass):
+        raise FitError(
+            f"{names}: expected postures that determine the mass, got {len(torque)} that leave it at "
+            f"{plus_minus(float(mass), float(half_width[0]), 'kg')}; hold the arm still in more that turn the wrist; "
+            "or nothing is fastened to it beyond what the controller knows"
+        )
+    if mass < 0.0:
+        raise FitError(
+            f"{names}: expected a mass above 0 kg, got {plus_minus(float(mass), float(half_width[0]), 'kg')}: "
+            "tau_ext_hat_filtered has the reversed sign, or the declared load is larger than the one that hangs there"
+        )
+    centre = moment / mass
+    # c = h / m, of which the derivatives by m and h are -c / m and 1 / m
+    slope = np.column_stack([-centre, np.eye(3)]) / mass
+    centre_half = _quantile(len(torque) - 1) * np.sqrt(np.diagonal(slope @ covariance @ slope.T))
+    residual = torque - unit_torque @ values
+    bias = residual.mean(axis=0)
+    return TorqueLoad(
+        experiment=names,
+        load=LoadRow(
+            load="load",
+            estimated=True,
+            mass_kg=float(mass),
+            mass_half_width_95_kg=float(half_width[0]),
+            centre_of_mass_m=tuple(centre.tolist()),
+            centre_of_mass_half_width_95_m=tuple(centre_half.tolist()),
+            inertia_kgm2=None,
+            inertia_half_width_95_kgm2=None,
+        ),
+        joints=tuple(
+            JointTorqueRow(joint=name, bias_Nm=float(own), residual_rms_Nm=float(left))
+            for name, own, left in zip(logs[0].joints, bias, deviation, strict=True)
+        ),
+        postures=len(torque),
+        samples=sum(part.samples for part in parts),
+        arms=tuple(arms),
+    )
+
+
+def _postures(log: LoggedTorques) -> _Postures:
+    known = np.column_stack([log.declared_mass, log.declared_mass[:, None] * log.declared_centre])
+    torque = log.torque + np.einsum("nda,na->nd", log.unit_torque, known)
+    still = np.flatnonzero(log.is_still)
+    number = _numbers(still, log.position)
+    starts = np.flatnonzero(np.diff(number, prepend=-1))
+    counts = np.diff(starts, append=len(still))
+
+    def means(values: FloatArray) -> FloatArray:
+        sums = np.add.reduceat(values[still], starts, axis=0) if len(starts) else values[:0]
+        return sums / counts.reshape(-1, *(1,) * (values.ndim - 1))
+
+    return _Postures(torque=means(torque), unit_torque=means(log.unit_torque), samples=len(still))
+
+
+def _numbers(still: IntArray, position: FloatArray) -> IntArray:
+    """Number of the posture of each sample at rest; what moves to another posture and is not logged ends one too."""
+    if not len(still):
+        return still
+    jumps = (np.diff(still) > 1) | (np.abs(np.diff(position[still], axis=0)).max(axis=1) > _SAME_RAD)
+    starts = np.flatnonzero(np.concatenate([[True], jumps]))
+    first = position[still[starts]]
+    is_another = np.concatenate([[False], np.abs(np.diff(first, axis=0)).max(axis=1) > _SAME_RAD])
+    return np.repeat(np.cumsum(is_another), np.diff(starts, append=len(still)))
+
+
+def _require_postures(unit_torque: FloatArray, names: str) -> None:
+    if len(unit_torque) < _FEWEST:
+        raise FitError(
+            f"{names}: expected at least {_FEWEST} postures at rest, by which errors of joint torques are separable "
+            f"from the load, got {len(unit_torque)}; hold the arm still in eight or more that turn the wrist"
+        )
+    centred = (unit_torque - unit_torque.mean(axis=0)).reshape(-1, len(UNKNOWNS))
+    _, singular, rows = np.linalg.svd(centred / np.linalg.norm(unit_torque, axis=(0, 1)), full_matrices=False)
+    open_rows = rows[singular < _DEPENDENT]
+    if len(open_rows):
+        lacking = [name for name, share in zip(UNKNOWNS, np.abs(open_rows).max(axis=0), strict=True) if share > 0.1]
+        raise FitError(
+            f"{names}: expected postures that determine the load, got {len(unit_torque)} that leave open "
+            f"{', '.join(lacking)}; record some that turn the wrist about other horizontal axes"
+        )
+
+
+def _fit(torque: FloatArray, unit_torque: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Mass and first moment, shape (4,); their covariance; and the deviation of each joint, shape (d,)."""
+    count = len(torque)
+    y, design = torque - torque.mean(axis=0), unit_torque - unit_torque.mean(axis=0)
+    least = _SMALLEST * max(float(np.abs(torque).max()), 1.0)
+    values, deviation = np.zeros(len(UNKNOWNS)), np.ones(torque.shape[1])
+    for _ in range(_ROUNDS):
+        weighted = design / deviation[:, None]
+        covariance = np.linalg.inv(np.einsum("nda,ndb->ab", weighted, weighted))
+        values = covariance @ np.einsum("nda,nd->a", weighted, y / deviation)
+        # what a joint contributes to the load it cannot say of its own error
+        used = np.einsum("nda,ab,ndb->d", weighted, covariance, weighted)
+        freedom = count - 1 - used
+        squares = ((y - design @ values) ** 2).sum(axis=0)
+        pooled = squares.sum() / freedom.sum()
+        deviation = np.maximum(np.sqrt((squares + _POOLED * pooled) / (freedom + _POOLED)), least)
+    weighted = design / deviation[:, None]
+    return values, np.linalg.inv(np.einsum("nda,ndb->ab", weighted, weighted)), deviation
+
+
+def _quantile(freedom: int) -> float:
+    from scipy.special import stdtrit  # here because importing it takes longer than most commands
+
+    return float(stdtrit(freedom, _UPPER))

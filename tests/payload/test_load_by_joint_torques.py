@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The load of a Franka arm by joint torques: these by its energy, geometry by a URDF, intervals by the truth."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.formats.franka.kinematics import joint_frames
+from forcetorque.payload.load_by_joint_torques import TorqueLoad
+from forcetorque.payload.load_of_log import described_log, load_of_torque_logs
+from forcetorque.results.answer import MOST_LINES
+from forcetorque.robot.dynamics import link_pose
+from forcetorque.robot.installed import installed_robots
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import read_urdf
+from tests.app.outcome import Run
+from tests.formats.franka.states import write_states, write_table
+from tests.payload.simulated_panda import GRAVITY, Held, held, holding
+
+STEP_RAD = 1e-5
+"""Of central differences, whose error is about 1e-9 of lengths of a metre."""
+NOTHING_DECLARED = {"payload_kg": 0.0}
+
+
+def _weighed(path: Path) -> TorqueLoad:
+    torques = described_log(path, NOTHING_DECLARED).torques
+    assert torques is not None
+    return load_of_torque_logs({path: torques}, NOTHING_DECLARED)
+
+
+def test_the_geometry_is_that_of_the_urdf() -> None:
+    """Of Panda as example-robot-data has it."""
+    if "panda" not in installed_robots():
+        pytest.skip("example-robot-data is not installed")
+    tree = build_tree(read_urdf(installed_robots()["panda"].urdf), "panda_link0")
+    names = tuple(f"panda_joint{k}" for k in range(1, 8))
+    position = np.random.default_rng(1).uniform(-1.0, 1.0, (5, 7))
+    frames, flange = joint_frames(position)
+    motion = JointMotion.at_rest(names, position)
+    np.testing.assert_allclose(flange, link_pose(tree, motion, "panda_link8"), atol=1e-9)
+    np.testing.assert_allclose(frames[:, 3], link_pose(tree, motion, "panda_link4"), atol=1e-9)
+
+
+def test_torques_hold_the_potential_energy(tmp_path: Path) -> None:
+    """A joint at rest holds the slope of the energy of the load, and not minus that."""
+    arm = held(1, postures=4)
+    torque = holding(arm.position, arm.mass, arm.centre)
+
+    def energy(position: FloatArray) -> FloatArray:
+        _, flange = joint_frames(position)
+        return arm.mass * GRAVITY * (flange[:, 2, :3] @ arm.centre + flange[:, 2, 3])
+
+    for joint in range(7):
+        step = STEP_RAD * np.eye(7)[joint]
+        slope = (energy(arm.position + step) - energy(arm.position - step)) / (2 * STEP_RAD)
+        np.testing.assert_allclose(torque[:, joint], slope, atol=1e-6)
+    assert np.abs(torque).max() > 1.0
+
+
+def test_a_table_of_joint_torques_is_enough(tmp_path: Path, run: Run) -> None:
+    """Mass, centre, what was assumed, in twelve lines; the file for the robot."""
+    arm, file = held(2), tmp_path / "load.py"
+    log = write_table(tmp_path / "log.csv", arm.states())
+    asked = ("payload", log, "--recording", "payload_kg=0")
+    shown = run(*asked, columns=80)
+    assert shown.code == 0, shown.err
+    assert len(shown.out.splitlines()) <= MOST_LINES
+    assert "the geometry of Panda and Franka Research 3" in " ".join(shown.out.split())
+    result = run(*asked, "--to", "franka", "-o", file, "--format", "json").result()
+    load = result["load"]
+    assert abs(load["mass_kg"] - arm.mass) < 2 * load["mass_half_width_95_kg"]
+    assert load["mass_half_width_95_kg"] < 0.1
+    assert "robot.set_load(" in file.read_text(encoding="utf-8")
+    biases = [joint["bias_Nm"] for joint in result["joints"]]
+    np.testing.assert_allclose(biases, arm.bias, atol=0.3)
+    assert (result["postures"], result["samples"]) == (12, 36)
+
+
+def test_the_declared_load_is_part_of_it(tmp_path: Path) -> None:
+    """Of states without a wrench, which have it."""
+    arm, mass, centre = held(3), 0.4, np.array([0.0, 0.01, 0.05])
+    states = arm.states()
+    known = np.repeat(holding(arm.position, mass, centre), 3, axis=0)
+    for state, torque in zip(states, known, strict=True):
+        state["tau_ext_hat_filtered"] = (np.array(state["tau_ext_hat_filtered"]) - torque).tolist()
+        state |= {"m_load": mass, "F_x_Cload": centre.tolist()}
+    path = write_states(tmp_path / "states", states)
+    torques = described_log(path, {}).torques
+    assert torques is not None
+    whole = load_of_torque_logs({path: torques}, {}).load
+    alone = _weighed(write_table(tmp_path / "log.csv", arm.states())).load
+    np.testing.assert_allclose(whole.mass_kg, alone.mass_kg, rtol=1e-6)
+    np.testing.assert_allclose(whole.centre_of_mass_m, alone.centre_of_mass_m, atol=1e-6)
+
+
+def test_short_logs_are_one(tmp_path: Path) -> None:
+    """What a controller keeps before it stops is a posture of each log."""
+    arm = held(4)
+    states = arm.states()
+    paths = [write_table(tmp_path / f"{k}.csv", states[3 * k : 3 * k + 3]) for k in range(12)]
+    logs = {path: torques for path in paths if (torques := described_log(path, NOTHING_DECLARED).torques)}
+    together = load_of_torque_logs(logs, NOTHING_DECLARED)
+    one = _weighed(write_table(tmp_path / "log.csv", states))
+    assert together.postures == 12
+    assert together.load == one.load
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"reversed": True}, "expected a mass above 0 kg"),
+        ({"postures": 3}, "expected at least 4 postures at rest, by which errors of joint torques are separable"),
+        ({"moves": (0,)}, "12 that leave open mass, centre of mass along x, centre of mass along y"),
+        ({"moves": (6,)}, "12 that leave open mass, centre of mass along z"),
+    ],
+)
+def test_what_torques_do_not_tell_is_refused(tmp_path: Path, change: dict[str, object], message: str) -> None:
+    """A reversed sense, too few postures, and joints that do not change the lever of the load."""
+    arm = held(5, **{key: value for key, value in change.items() if key != "reversed"})  # type: ignore[arg-type]
+    states = arm.states(sense=-1.0 if "reversed" in change else 1.0)
+    with pytest.raises(FitError, match=message):
+        _weighed(write_table(tmp_path / "log.csv", states))
+
+
+def test_what_a_log_lacks_is_named(tmp_path: Path, run: Run) -> None:
+    """The declared load; external torques; a wrench beside other outputs."""
+    log = write_table(tmp_path / "log.csv", held(6).states())
+    assert "payload_kg, mass of setLoad" in run("payload", log).error()
+    given = ("payload", log, "--recording", "payload_kg=0")
+    assert "expected a form without the bias of a sensor, ur" in run(*given, "--to", "mc-rtc", "-o", "x").error()
+    save = run(*given, "--save-experiment", tmp_path / "x.toml").error()
+    assert "expected a log with a wrench, got joint torques" in save
+    states = [{key: state[key] for key in ("time", "tau_J", "O_T_EE", "q")} for state in held(6).states()]
+    bare = write_states(tmp_path / "bare", [json.loads(json.dumps(state)) for state in states])
+    assert "or q and tau_ext_hat_filtered" in run("payload", bare, "--recording", "payload_kg=0").error()
+
+
+@pytest.mark.long
+def test_intervals_hold_the_truth(tmp_path: Path) -> None:
+    """Mass in 90 to 99 of 100 arms, the centre in 90 % of all coordinates or more."""
+    mass, centre = 0, 0
+    for seed in range(100):
+        arm: Held = held(seed)
+        load = _weighed(write_table(tmp_path / "log.csv", arm.states())).load
+        assert load.mass_kg is not None
+        assert load.mass_half_width_95_kg is not None
+        mass += abs(load.mass_kg - arm.mass) <= load.mass_half_width_95_kg
+        error = np.abs(np.array(load.centre_of_mass_m, dtype=np.float64) - arm.centre)
+        centre += int((error <= np.array(load.centre_of_mass_half_width_95_m, dtype=np.float64)).sum())
+    assert 90 <= mass <= 99
+    assert centre >= 270
