@@ -96,6 +96,7 @@ class ReplaySource:
         groups: Sequence[ReplayedGroup],
         *,
         speed: float,
+        rate_hz: float | None = None,
         clock: Callable[[], float],
         sleep: Callable[[float], None],
     ) -> None:
@@ -104,6 +105,7 @@ class ReplaySource:
         Args:
             groups: What is replayed.
             speed: Times as fast as it was recorded; infinite for as fast as possible.
+            rate_hz: Rate of the recording, so that gaps in time are counted; Hz; None for not known.
             clock: Gives seconds.
             sleep: Waits for seconds.
 
@@ -113,7 +115,7 @@ class ReplaySource:
         if not speed > 0.0:
             raise RecordingError(f"speed: expected more than 0, got {speed}")
         self.counts = PacketCounts()
-        self.rate_hz: float | None = None
+        self.rate_hz = rate_hz
         self._groups, self._speed, self._clock, self._sleep = tuple(groups), speed, clock, sleep
 
     def packets(self) -> Iterator[Packet | None]:

@@ -234,7 +234,9 @@ def _replayed(
         correctors = [_in_session_of(group, names, settings) for group in groups]
     else:
         correctors = [Corrector(group.calibrations, corrector_options(settings, group.quantity)) for group in groups]
-    source = ReplaySource(groups, speed=settings.speed or math.inf, clock=clock, sleep=time.sleep)
+    source = ReplaySource(
+        groups, speed=settings.speed or math.inf, rate_hz=settings.rate_hz, clock=clock, sleep=time.sleep
+    )
     return source, tuple(correctors)
 
 
