@@ -29,7 +29,10 @@ def live(
     ] = None,
     quantity: Annotated[
         HeldQuantity | None,
-        typer.Option("--quantity", help="raw: counts; wrench: by the prior matrix of the calibration, N and N m."),
+        typer.Option(
+            "--quantity",
+            help="What samples hold: raw counts, or the wrench by the prior matrix of the calibration, N and N m.",
+        ),
     ] = None,
     channels: Annotated[
         list[str] | None,
@@ -38,19 +41,25 @@ def live(
     variables: Annotated[
         list[str] | None,
         typer.Option(
-            "--variable", help="[SENSOR.]temperature=COLUMN, or its index in the list of temperatures of a device."
+            "--variable",
+            help="Column of a variable, [SENSOR.]temperature=COLUMN, or its index in the temperatures of a device.",
         ),
     ] = None,
     status: Annotated[
         list[str] | None,
-        typer.Option("--status", help="[SENSOR=]COLUMN with the code of the device, 0 for valid (YARP MAS_status)."),
+        typer.Option(
+            "--status", help="Column with the code of the device, [SENSOR=]COLUMN; 0 is valid (YARP MAS_status)."
+        ),
     ] = None,
     index: Annotated[
         list[str] | None,
-        typer.Option("--index", help="[SENSOR=]INDEX from 0 in the list of force-torque sensors of yarp-measures."),
+        typer.Option(
+            "--index", help="Index from 0 in the list of force-torque sensors of yarp-measures, [SENSOR=]INDEX."
+        ),
     ] = None,
     stamp: Annotated[
-        str | None, typer.Option("--stamp", help="COLUMN:UNIT with the time, in s, ms, us or ns. Default: arrival.")
+        str | None,
+        typer.Option("--stamp", help="Column with the time, COLUMN:UNIT in s, ms, us or ns. Default: arrival."),
     ] = None,
     sequence: Annotated[str | None, typer.Option("--sequence", help="Column with the number of the packet.")] = None,
     gravity: Annotated[
@@ -83,8 +92,8 @@ def live(
         OffsetSource,
         typer.Option(
             "--offset",
-            help="fitted: of the calibration; tare: mean of the first seconds, without a tool's weight; tracked: from "
-            "a tare on.",
+            help="Where the offset comes from: fitted (of the calibration), tare (mean of the first seconds, without a "
+            "tool's weight), or tracked from a tare on.",
         ),
     ] = OffsetSource.FITTED,
     session: Annotated[
@@ -136,9 +145,10 @@ def live(
 ) -> None:
     """Correct wrenches while the robot runs, from lines, recordings or a box.
 
-    Example: yarp read ... /robot/ft:o | forcetorque live leg.json --input yarp --quantity wrench
+    Example: forcetorque live leg.json --input yarp --quantity wrench
 
-    Corrected samples go to standard output; what was lost and what is wrong goes to standard error at the end.
+    Reads standard input, as `yarp read ... /robot/ft:o | forcetorque live ...`. Corrected samples go to standard
+    output; what was lost and what is wrong goes to standard error at the end.
 
     Python: `live.Corrector(calibration).correct(counts)`
     """
