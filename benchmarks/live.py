@@ -14,10 +14,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from scipy.signal import lfilter
 
 from benchmarks.harness import arguments, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.units import NORMAL_95
+from forcetorque.base.units import NORMAL_95, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
@@ -119,8 +120,8 @@ def biased_contact(
 def tares_of_a_moving_arm(seeds: Iterable[int]) -> int:
     """Tare sensors that carry a tool on an arm that moves.
 
-    The arm turns its wrist by up to a radian about two axes within seconds; the tool accelerates by 0.05 m/s2, which
-    the tare takes for noise, and the noise of the sensor is white with a slow part.
+    The arm turns its wrist by up to a radian about two axes within seconds; the tool accelerates at random by 0.05
+    m/s2, which the tare takes for noise, and the noise of the sensor is white with a slow part.
 
     Args:
         seeds: A run each.
@@ -141,15 +142,17 @@ def _tare_holds(rng: np.random.Generator, inverse: FloatArray, component: int) -
     corrector = Corrector(calibration_of("wrist"), options)
     weight = TOOL.per_gravity(MeasureDirection.CHILD_TO_PARENT)
     bias = rng.normal(0.0, np.repeat([5.0, 0.2], 3))
-    slow, phase = np.zeros(6), rng.uniform(0.0, 2.0 * np.pi, 4)
-    for k in range(round(rate_hz * seconds) + 2):
-        t = k / rate_hz
-        a, b = np.sin(2.0 * np.pi * 0.21 * t + phase[0]), np.sin(2.0 * np.pi * 0.13 * t + phase[1])
-        gravity = 9.80665 * np.array([np.sin(b), -np.sin(a) * np.cos(b), -np.cos(a) * np.cos(b)])
-        moving = gravity + 0.05 * np.array([np.sin(5.0 * t + phase[2]), np.cos(4.0 * t + phase[3]), np.sin(7.0 * t)])
-        slow += -slow * 0.08 + rng.normal(0.0, 0.4 * NOISE)  # forgets itself within half a second
-        wrench = weight @ moving + bias + slow + rng.normal(0.0, NOISE)
-        corrector.correct(inverse @ wrench, stamp_ns=round(t * 1e9), gravity=gravity)
+    count = round(rate_hz * seconds) + 2
+    times, phase = np.arange(count) / rate_hz, rng.uniform(0.0, 2.0 * np.pi, 2)
+    a, b = np.sin(2.0 * np.pi * 0.21 * times + phase[0]), np.sin(2.0 * np.pi * 0.13 * times + phase[1])
+    gravity = STANDARD_GRAVITY * np.column_stack([np.sin(b), -np.sin(a) * np.cos(b), -np.cos(a) * np.cos(b)])
+    # both forget themselves within half a second
+    acceleration = lfilter([0.4], [1.0, -0.92], rng.normal(0.0, 0.05, (count, 3)), axis=0)
+    slow = lfilter([0.4], [1.0, -0.92], rng.normal(0.0, NOISE, (count, 6)), axis=0)
+    wrenches = (gravity + acceleration) @ weight.T + bias + slow + rng.normal(0.0, NOISE, (count, 6))
+    samples = wrenches @ inverse.T
+    for k in range(count):
+        corrector.correct(samples[k], stamp_ns=round(times[k] * 1e9), gravity=gravity[k])
     half_width = NORMAL_95 * np.sqrt(corrector.bias_variance[0, component])
     return bool(abs(corrector.bias[0, component] - bias[component]) <= half_width)
 
@@ -163,7 +166,7 @@ class _Simulated:
 
     def packets(self) -> Iterator[Packet | None]:
         rng = np.random.default_rng(0)
-        samples = rng.normal(0.0, 300.0, (4096, 1, 6))
+        samples = 300.0 + rng.normal(0.0, 2.0, (4096, 1, 6))
         for number in range(self._count):
             if number % 997 == 996:
                 self.lost += 1

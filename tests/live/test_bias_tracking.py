@@ -32,8 +32,8 @@ def test_a_part_of_the_bias_is_linear_in_temperature() -> None:
     """Its coefficient is found while the sensor warms up by ten degrees, and the bias follows."""
     tracker = BiasTracker(Tracking(with_temperature=True), np.zeros((1, 6)), np.full((1, 6), 0.01), np.array([25.0]))
     rng, slope = np.random.default_rng(5), np.array([0.3, -0.2, 0.1, 0.004, 0.0, -0.002])
-    for k in range(6000):
-        warmth = np.array([25.0 + 10.0 * k / 6000])
+    for k in range(4500):
+        warmth = np.array([25.0 + 10.0 * k / 4500])
         noise = rng.normal(0.0, [0.1] * 3 + [0.002] * 3)
         tracker.add((slope * (warmth - 25.0) + noise)[None], k * STEP_NS, warmth, [True])
     assert not tracker.in_contact.any()

@@ -66,7 +66,7 @@ def _as_offline(run: SensorRun, calibration: Calibration, step: int = 1) -> int:
 
 def test_samples_are_read_as_offline(arm: Path) -> None:
     """Wrenches of a small log to 1e-12, their intervals by the same posterior."""
-    assert _as_offline(*_fitted(arm / PARQUET)) > 1100
+    assert _as_offline(*_fitted(arm / PARQUET), 2) > 550
 
 
 def _yoga(data_dir: Path, folder: Path) -> Path:
@@ -180,6 +180,10 @@ def test_what_is_missing_is_refused() -> None:
     carried = CorrectorOptions(tool=Tool(mass_kg=1.0, centre_m=np.zeros(3)), take_tool_off=True)
     with pytest.raises(RecordingError, match="gravity"):
         Corrector(make_calibration(), carried).correct(RAW)
+    with pytest.raises(ShapeError, match=r"expected shape \(2, 3\)"):
+        Corrector([make_calibration()] * 2, carried).correct([RAW, RAW], gravity=np.zeros(3))
+    with pytest.raises(RecordingError, match="got 'fitted'"):
+        Corrector(make_calibration()).tare()
     with pytest.raises(RecordingError, match="expected a tool"):
         replace(carried, tool=None)
     with pytest.raises(RecordingError, match="no session"):

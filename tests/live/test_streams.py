@@ -294,6 +294,8 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
         ({"stamp": "t"}, "COLUMN:UNIT"),
         ({"envelope": True}, "--envelope: not of"),
+        ({"frame": "tool"}, "--frame: not of --input csv"),
+        ({"form": None, "ati": "127.0.0.1"}, "--channels: not of --ati"),
         ({"variables": ("temperature=T",)}, "SENSOR.]NAME=COLUMN"),
         ({"tool_mass_kg": 1.0}, "both --tool-mass and --tool-centre"),
         ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0"}, "needs --gravity"),

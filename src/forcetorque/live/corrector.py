@@ -162,7 +162,13 @@ class Corrector:
         self._quadratic = [(k, term.quadratic) for k, term in enumerate(terms) if term.quadratic is not None]
 
     def tare(self) -> None:
-        """Begin a tare: the offset is that of the samples of the next `tare_s` seconds, in which nothing may touch."""
+        """Begin a tare: the offset is that of the samples of the next `tare_s` seconds, in which nothing may touch.
+
+        Raises:
+            RecordingError: If the offset is that of the calibration.
+        """
+        if self.options.offset is OffsetSource.FITTED:
+            raise RecordingError("tare: expected the offset 'tare' or 'tracked', got 'fitted'")
         self._tare = TareSamples(self.options.tare_s)
 
     def correct(
@@ -297,10 +303,11 @@ class Corrector:
         if gravity is None:
             raise RecordingError("a tool needs gravity in the frame of the reading with every sample, got none")
         directions = np.asarray(gravity, dtype=np.float64)
-        if directions.shape not in ((3,), (len(self._per_gravity), 3)):
+        # every reading has a frame of its own
+        if directions.size != 3 * len(self._per_gravity) or directions.shape[-1:] != (3,):
             raise ShapeError(f"gravity: expected shape ({len(self._per_gravity)}, 3), got {directions.shape}")
         for k, matrix in enumerate(self._per_gravity):
-            self._weight[k] = matrix @ (directions if directions.ndim == 1 else directions[k])
+            self._weight[k] = matrix @ directions.reshape(-1, 3)[k]
 
     def _learn(self, stamp_ns: int, usable: BoolArray) -> None:
         temperature = self._temperature()
@@ -319,7 +326,7 @@ class Corrector:
                 self._status[self.tracker.in_contact] |= Status.CONTACT
 
     def _add_tool_variance(self) -> None:
-        """What is not known of the tool is in the bias that keeps it; at most as much as in any orientation."""
+        """What is not known of the tool is in the bias that keeps it, as of the orientation at the end of the tare."""
         tool = self.options.tool
         if tool is None:
             return

@@ -23,14 +23,16 @@ from forcetorque.live.sources import Source
 SILENCE_S: Final = 2.0
 """Time without a packet from which on a source is silent; s."""
 _COUNTED = {
-    "not_finite": Status.NOT_FINITE,
-    "saturated": Status.SATURATED,
-    "frozen": Status.FROZEN,
-    "repeated": Status.REPEATED,
-    "late": Status.LATE,
-    "device_errors": Status.DEVICE,
-    "in_contact": Status.CONTACT,
+    "not_finite": int(Status.NOT_FINITE),
+    "saturated": int(Status.SATURATED),
+    "frozen": int(Status.FROZEN),
+    "repeated": int(Status.REPEATED),
+    "late": int(Status.LATE),
+    "device_errors": int(Status.DEVICE),
+    "in_contact": int(Status.CONTACT),
 }
+"""Bits by the counts of them; plain integers, since flags of an enumeration take many times as long."""
+_TARING = int(Status.TARING)
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -232,7 +234,7 @@ class LiveLoop:
                     continue
             else:
                 state.wrench, state.half_width = wrench.copy(), half_width.copy()
-            if tells_bias and not status & Status.TARING:
+            if tells_bias and not status & _TARING:
                 if state.tared is None:
                     state.tared = corrector.bias[k].copy()
                 state.drift = corrector.bias[k] - state.tared

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from enum import IntEnum, IntFlag
+from functools import lru_cache
 from typing import Final
 
 
@@ -65,6 +66,7 @@ def status_of_device(code: int) -> Status:
     return Status.SATURATED if code == DeviceStatus.OVERFLOW else Status.DEVICE
 
 
+@lru_cache(maxsize=256)
 def status_text(status: int) -> str:
     """Write a status for people and files.
 

@@ -182,15 +182,21 @@ def make_run(
             f"expected one of --input FORM of the lines on standard input, --replay and --ati, got {got}"
         )
     if settings.replay is not None:
+        _refuse(settings, *_OF_LINES)
         return _replayed(settings, calibrations, clock)
     if settings.ati is not None:
+        _refuse(settings, *_OF_LINES)
+        if settings.quantity is HeldQuantity.RAW:
+            raise RecordingError("--quantity raw: a box sends wrenches")
         corrector = _only(calibrations, "a box", corrector_options(settings, HeldQuantity.WRENCH))
         _require_gravity(settings, None)
         return _box(settings, clock), (corrector,)
     return _lines(settings, calibrations, descriptor, warn)
 
 
-def _require_gravity(settings: Settings, gravity: str | None) -> None:
+def _require_gravity(settings: Settings, gravity: str | None, sensors: int = 1) -> None:
+    if settings.tool_mass_kg is not None and sensors > 1:
+        raise RecordingError(f"--tool-mass: the tool is of one sensor: expected one calibration, got {sensors}")
     if settings.tool_mass_kg is not None and gravity is None:
         raise RecordingError(
             "--tool-mass: a tool needs --gravity, three columns of a table (--input csv) with gravity in the frame of "
@@ -258,7 +264,7 @@ def _lines(
     reader: LineForm
     if form in (Input.YARP, Input.ROS2_CSV):
         corrector = _only(calibrations, f"--input {form}", options)
-        _refuse(settings, "channels", "variables", "status", "index", "stamp", "sequence", "gravity")
+        _refuse(settings, *_OF_LINES[:7], "envelope" if form is Input.ROS2_CSV else "frame")
         _require_gravity(settings, None)
         if corrector.variables[0]:
             raise RecordingError(
@@ -273,8 +279,8 @@ def _lines(
         corrector = Corrector(calibrations, options)
         sensors = _sensor_columns(settings, calibrations)
         if form is Input.CSV:
-            _refuse(settings, "index", "envelope")
-            _require_gravity(settings, settings.gravity)
+            _refuse(settings, "index", "envelope", "frame")
+            _require_gravity(settings, settings.gravity, len(calibrations))
             gravity = () if settings.gravity is None else tuple(settings.gravity.split(","))
             if len(gravity) not in (0, 3):
                 raise RecordingError(f"--gravity: expected three columns between commas, got {settings.gravity!r}")
@@ -282,17 +288,28 @@ def _lines(
                 sensors=sensors, stamp=_stamp(settings.stamp), sequence=settings.sequence, gravity=gravity
             )
         else:
-            _refuse(settings, "channels", "status", "stamp", "sequence", "gravity")
+            _refuse(settings, "channels", "status", "stamp", "sequence", "gravity", "frame")
             _require_gravity(settings, None)
             reader = MeasuresLines(sensors=sensors, envelope=settings.envelope)
     return LineSource(descriptor, reader, rate_hz=settings.rate_hz, warn=warn), (corrector,)
 
 
+_OF_LINES = ("channels", "variables", "status", "index", "stamp", "sequence", "gravity", "envelope", "frame")
+"""What is stated of lines alone."""
+
+
 def _refuse(settings: Settings, *names: str) -> None:
+    of = (
+        "--replay"
+        if settings.replay is not None
+        else "--ati"
+        if settings.ati is not None
+        else f"--input {settings.form}"
+    )
     for name in names:
         if getattr(settings, name):
             option = {"variables": "variable"}.get(name, name)
-            raise RecordingError(f"--{option}: not of --input {settings.form}")
+            raise RecordingError(f"--{option}: not of {of}")
 
 
 def _stamp(text: str | None) -> tuple[str, str] | None:
