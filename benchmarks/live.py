@@ -161,8 +161,8 @@ class _Simulated:
     """A source of one sensor at 1 kHz, which loses, repeats and delays packets."""
 
     def __init__(self, count: int) -> None:
-        self.counts, self.rate_hz, self._count = PacketCounts(), None, count
-        self.lost = 0
+        self.counts, self._count, self.lost = PacketCounts(), count, 0
+        self.rate_hz: float | None = None
 
     def packets(self) -> Iterator[Packet | None]:
         rng = np.random.default_rng(0)

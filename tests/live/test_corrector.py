@@ -150,7 +150,7 @@ def test_faults_are_treated_as_stated(policy: FaultPolicy) -> None:
 def test_a_tare_keeps_the_tool() -> None:
     """Once tared in one posture, the sensor reads the tool in another; taken off, it reads nothing."""
     calibration = make_calibration()
-    tool = Tool(mass_kg=0.8, centre_m=[0.01, 0.0, 0.05])
+    tool = Tool(mass_kg=0.8, centre_m=np.array([0.01, 0.0, 0.05]))
     weight = tool.per_gravity(calibration.sensor.measure_direction)
     inverse = np.linalg.inv(calibration.matrix)
     postures = [np.array([0.0, 0.0, -9.81]), np.array([9.81, 0.0, 0.0])]

@@ -9,6 +9,7 @@ import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -30,7 +31,13 @@ from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 
 RAW = np.array([[100.0, -200.0, 300.0, -400.0, 500.0, -600.0]])
 CHANNELS = "c1,c2,c3,c4,c5,c6"
-TABLE = {"form": Input.CSV, "quantity": HeldQuantity.RAW, "channels": (CHANNELS,), "stamp": "t:s", "sequence": "n"}
+TABLE: dict[str, Any] = {
+    "form": Input.CSV,
+    "quantity": HeldQuantity.RAW,
+    "channels": (CHANNELS,),
+    "stamp": "t:s",
+    "sequence": "n",
+}
 
 
 class Kept:
@@ -305,9 +312,9 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"form": Input.YARP_MEASURES, "channels": (), "stamp": None, "sequence": None}, "expected --index"),
     ],
 )
-def test_nothing_is_guessed(changed: dict[str, object], message: str) -> None:
+def test_nothing_is_guessed(changed: dict[str, Any], message: str) -> None:
     """What is needed and not stated, or stated and not needed, is refused by name."""
-    settings = Settings(**(TABLE | changed))  # type: ignore[arg-type]
+    settings = Settings(**(TABLE | changed))
     with pytest.raises(RecordingError, match=message.replace("[", "[[]")):
         make_run(settings, [make_calibration()], descriptor=0, warn=lambda _: None)
 
