@@ -52,6 +52,7 @@ CAPABILITIES = (
     "study",
     "contests",
     "fleet",
+    "live",
 )
 """Folders of capabilities, whose `CAPABILITY` says which commands and sections of the experiment file they have."""
 

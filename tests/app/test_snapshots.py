@@ -109,9 +109,19 @@ COMMANDS = _of_experiments() | {
 """What is typed; of a command that only needs an experiment nothing has to be stated."""
 SLOW = ("bench device", "skin wrench")
 """Commands that take some seconds, of which other tests see the table."""
-WITHOUT_TABLE = {"dataset compensate", "demo", "fleet run", "payload", "robot torque-loop", "run", "schema", "simulate"}
+WITHOUT_TABLE = {
+    "dataset compensate",
+    "demo",
+    "fleet run",
+    "live",
+    "payload",
+    "robot torque-loop",
+    "run",
+    "schema",
+    "simulate",
+}
 """Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `run` and `demo` minutes;
-`schema` is JSON; `dataset compensate` a dataset, which its own tests have."""
+`schema` is JSON; `dataset compensate` a dataset, `live` a stream, which their own tests have."""
 
 
 def _write_limits(arm: Path) -> None:

@@ -34,7 +34,7 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
     "Begin": ("init", "inspect"),
     "Calibrate": ("calibrate", "payload", "tare"),
     "Evaluate": ("evaluate", "accept", "plan", "report", "view"),
-    "Use": ("export", "estimate"),
+    "Use": ("export", "estimate", "live"),
     "More": ("bench", "robot", "skin", "study", "dataset", "fleet", "simulate", "schema"),
 }
 """Commands and groups in the order of work, as the help shows them."""

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A Kalman filter on the bias of live sensors that does not follow contacts.
+
+The bias of each component is a random walk, with a part that is linear in temperature if wanted. It is measured where
+nothing touches: reading less weight of the tool. What is neither bias nor load (noise, vibration, inertia of the tool,
+errors of its model) has a stated deviation and a stated correlation time. Means over a short period are taken in. A
+mean that lies further from the bias than the gate is of a contact: nothing is taken in until the means have stayed
+within a narrower gate for a while. A contact within the gate is followed with the time constant of the filter.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import RecordingError
+
+_HOUR_S = 3600.0
+
+
+def _both(force: float, moment: float) -> FloatArray:
+    return np.repeat([force, moment], 3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tracking:
+    """How the bias may move, and what keeps it from following contacts."""
+
+    random_walk_N: float = 1.0
+    """Standard deviation by which the bias of a force moves in an hour; N."""
+    random_walk_Nm: float = 0.02
+    """The same of a moment; N m."""
+    noise_N: float = 0.2
+    """Standard deviation of what is neither bias nor load in a force, of means over the period; N."""
+    noise_Nm: float = 0.005
+    """The same of a moment; N m."""
+    noise_time_s: float = 1.0
+    """How long that stays alike; s."""
+    period_s: float = 0.1
+    """Period of the means; s."""
+    enter_gate: float = 5.0
+    """Standard deviations from which on a mean is of a contact."""
+    leave_gate: float = 3.0
+    """Standard deviations below which it is not of a contact that lasts."""
+    leave_after_s: float = 1.0
+    """Time that means stay below before the bias is tracked again; s."""
+    with_temperature: bool = False
+    """Whether a part of the bias is linear in temperature."""
+    coefficient_sd_N: float = 0.5
+    """Standard deviation of this part before any data, of a force; N per degC."""
+    coefficient_sd_Nm: float = 0.01
+    """The same of a moment; N m per degC."""
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            value = getattr(self, entry.name)
+            if not isinstance(value, bool) and not (math.isfinite(value) and value > 0.0):
+                raise RecordingError(f"tracking: {entry.name}: expected a number above 0, got {value}")
+        if self.leave_gate > self.enter_gate:
+            raise RecordingError(
+                f"tracking: leave_gate: expected at most enter_gate {self.enter_gate}, got {self.leave_gate}"
+            )
+
+
+class BiasTracker:
+    """Bias of s sensors, tracked from a tare on."""
+
+    def __init__(
+        self,
+        tracking: Tracking,
+        bias: FloatArray,
+        variance: FloatArray,
+        temperature: FloatArray | None = None,
+    ) -> None:
+        """Begin.
+
+        Args:
+            tracking: How the bias may move.
+            bias: Bias now; shape (s, 6); N, N m.
+            variance: Its variance; shape (s, 6).
+            temperature: Temperatures now; shape (s,); degC; needed with temperature.
+
+        Raises:
+            RecordingError: If there is no temperature although the bias depends on it.
+        """
+        if tracking.with_temperature and temperature is None:
+            raise RecordingError("tracking with temperature: expected a temperature with every sample, got none")
+        self.bias, self.variance = bias.copy(), variance.copy()
+        self.in_contact = np.zeros(len(bias), dtype=bool)
+        self._tracking = tracking
+        self._constant, self._constant_variance = bias.copy(), variance.copy()
+        self._coefficient, self._covariance = np.zeros_like(bias), np.zeros_like(bias)
+        spread = _both(tracking.coefficient_sd_N, tracking.coefficient_sd_Nm) ** 2
+        self._coefficient_variance = np.broadcast_to(spread, bias.shape).copy()
+        self._from = np.zeros(len(bias)) if temperature is None else np.array(temperature, dtype=np.float64)
+        self._step_variance = _both(tracking.random_walk_N, tracking.random_walk_Nm) ** 2 / _HOUR_S
+        self._gate_variance = _both(tracking.noise_N, tracking.noise_Nm) ** 2
+        self._within_s = np.zeros(len(bias))
+        self._sum, self._warmth = np.zeros_like(bias), np.zeros(len(bias))
+        self._counts = np.zeros(len(bias), dtype=np.int64)
+        self._last_ns: int | None = None
+
+    @property
+    def coefficient(self) -> FloatArray:
+        """Part that is linear in temperature; shape (s, 6); N, N m per degC."""
+        return self._coefficient
+
+    def add(self, unloaded: FloatArray, stamp_ns: int, temperature: FloatArray | None, usable: list[bool]) -> bool:
+        """Take a sample in.
+
+        Args:
+            unloaded: Readings less the weight of the tool, without any bias taken off; shape (s, 6); N, N m.
+            stamp_ns: Time of the sample; ns.
+            temperature: Temperatures; shape (s,); degC; None without.
+            usable: Which sensors have a sample without fault; s of them.
+
+        Returns:
+            Whether a period ended, so that the bias may be another.
+        """
+        if self._last_ns is None:
+            self._last_ns = stamp_ns
+        if all(usable):
+            self._sum += unloaded
+            self._counts += 1
+            if temperature is not None:
+                self._warmth += temperature
+        else:
+            for k in np.flatnonzero(usable):
+                self._sum[k] += unloaded[k]
+                self._counts[k] += 1
+                if temperature is not None:
+                    self._warmth[k] += temperature[k]
+        seconds = (stamp_ns - self._last_ns) * 1e-9
+        if seconds < self._tracking.period_s:
+            return False
+        self._last_ns = stamp_ns
+        self._end_period(seconds)
+        return True
+
+    def _end_period(self, seconds: float) -> None:
+        tracking, present = self._tracking, self._counts > 0
+        number = np.maximum(self._counts, 1)
+        mean = self._sum / number[:, None]
+        warmer = (self._warmth / number - self._from)[:, None] if tracking.with_temperature else np.zeros((1, 1))
+        self._sum[:], self._warmth[:], self._counts[:] = 0.0, 0.0, 0
+        self._constant_variance += self._step_variance * seconds
+        with_constant = self._constant_variance + self._covariance * warmer
+        with_coefficient = self._covariance + self._coefficient_variance * warmer
+        variance = with_constant + with_coefficient * warmer
+        innovation = mean - self._constant - self._coefficient * warmer
+        size = np.abs(innovation / np.sqrt(variance + self._gate_variance)).max(axis=1)
+        self._gate(size, present, seconds)
+        taken = (present & ~self.in_contact)[:, None]
+        # white noise of this variance has the spectrum at zero of what stays alike for the noise time
+        noise = self._gate_variance * max(tracking.noise_time_s / seconds, 1.0)
+        gain = np.where(taken, 1.0 / (variance + noise), 0.0)
+        self._constant += gain * with_constant * innovation
+        self._constant_variance -= gain * with_constant**2
+        if tracking.with_temperature:
+            self._coefficient += gain * with_coefficient * innovation
+            self._coefficient_variance -= gain * with_coefficient**2
+            self._covariance -= gain * with_constant * with_coefficient
+        self.bias = np.where(present[:, None], self._constant + self._coefficient * warmer, self.bias)
+        self.variance = np.where(
+            present[:, None],
+            self._constant_variance + warmer * (2.0 * self._covariance + warmer * self._coefficient_variance),
+            self.variance + self._step_variance * seconds,
+        )
+
+    def _gate(self, size: FloatArray, present: BoolArray, seconds: float) -> None:
+        tracking = self._tracking
+        entering = present & (size > tracking.enter_gate)
+        within = present & (size < tracking.leave_gate)
+        self._within_s = np.where(within, self._within_s + seconds, np.where(present, 0.0, self._within_s))
+        leaving = self.in_contact & (self._within_s >= tracking.leave_after_s)
+        self.in_contact = (self.in_contact & ~leaving) | entering

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque live`: lines of samples in, lines of corrected wrenches out."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import ExitStack, redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.base.output_file import declare_outputs
+from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, Lines, OffsetSource
+from forcetorque.results.terminal.options import DetailsOption, ForceOption
+from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
+
+if TYPE_CHECKING:
+    from forcetorque.live.outputs import Output
+
+_STANDARD_INPUT = 0
+"""Its descriptor."""
+
+
+def live(
+    calibrations: Annotated[list[Path], typer.Argument(help="Calibration file of each sensor; see docs/live.md.")],
+    form: Annotated[
+        Input | None, typer.Option("--input", help="Form of the lines on standard input. Nothing is guessed.")
+    ] = None,
+    quantity: Annotated[
+        HeldQuantity | None,
+        typer.Option(
+            "--quantity",
+            help="What samples hold: raw counts, or the wrench by the prior matrix of the calibration, N and N m.",
+        ),
+    ] = None,
+    channels: Annotated[
+        list[str] | None,
+        typer.Option("--channels", help="Columns of a table, [SENSOR=]ch1,ch2,..., in the order of the calibration."),
+    ] = None,
+    variables: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--variable",
+            help="Column of a variable, [SENSOR.]temperature=COLUMN, or its index in the temperatures of a device.",
+        ),
+    ] = None,
+    status: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--status", help="Column with the code of the device, [SENSOR=]COLUMN; 0 is valid (YARP MAS_status)."
+        ),
+    ] = None,
+    index: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--index", help="Index from 0 in the list of force-torque sensors of yarp-measures, [SENSOR=]INDEX."
+        ),
+    ] = None,
+    stamp: Annotated[
+        str | None,
+        typer.Option("--stamp", help="Column with the time, COLUMN:UNIT in s, ms, us or ns. Default: arrival."),
+    ] = None,
+    sequence: Annotated[str | None, typer.Option("--sequence", help="Column with the number of the packet.")] = None,
+    gravity: Annotated[
+        str | None,
+        typer.Option("--gravity", help="Three columns with gravity in the frame of the reading, m/s2, for a tool."),
+    ] = None,
+    envelope: Annotated[
+        bool, typer.Option("--envelope", help="Lines of yarp begin with number and time of the sender.")
+    ] = False,
+    frame: Annotated[str | None, typer.Option("--frame", help="Frame that messages of ros2-csv must be in.")] = None,
+    rate: Annotated[
+        float | None, typer.Option("--rate", help="Rate of the sender, Hz, so that gaps in time count as losses.")
+    ] = None,
+    replay: Annotated[
+        Path | None, typer.Option("--replay", help="Experiment file (TOML) whose recording takes the place of input.")
+    ] = None,
+    speed: Annotated[
+        float, typer.Option("--speed", help="Times as fast as it was recorded; 0 for as fast as possible.")
+    ] = 1.0,
+    ati: Annotated[str | None, typer.Option("--ati", help="Address of an ATI NET F/T box in place of input.")] = None,
+    ati_port: Annotated[int, typer.Option("--ati-port", help="Port of the box.")] = 49152,
+    ati_force: Annotated[
+        str | None,
+        typer.Option("--ati-force", help="Unit of a count of force, as '1e-6 N'. Default: what the box publishes."),
+    ] = None,
+    ati_torque: Annotated[
+        str | None, typer.Option("--ati-torque", help="Unit of a count of moment, as '1e-6 N m'.")
+    ] = None,
+    offset: Annotated[
+        OffsetSource,
+        typer.Option(
+            "--offset",
+            help="Where the offset comes from: fitted (of the calibration), tare (mean of the first seconds, without a "
+            "tool's weight), or tracked from a tare on.",
+        ),
+    ] = OffsetSource.FITTED,
+    session: Annotated[
+        str | None, typer.Option("--session", help="Power cycle that gives the fitted offset. Default: the last.")
+    ] = None,
+    tare_s: Annotated[float, typer.Option("--tare-s", help="Time that a tare takes, s.")] = 1.0,
+    tool_mass: Annotated[
+        float | None, typer.Option("--tool-mass", help="Mass of the tool that a tare keeps, kg.")
+    ] = None,
+    tool_centre: Annotated[
+        str | None, typer.Option("--tool-centre", help="Its centre of mass x,y,z in the frame of the reading, m.")
+    ] = None,
+    take_tool_off: Annotated[bool, typer.Option("--take-tool-off", help="Take the weight of the tool off.")] = False,
+    random_walk: Annotated[
+        str | None,
+        typer.Option("--random-walk", help="How far a tracked bias moves in an hour: N,N m. Default: 1,0.02."),
+    ] = None,
+    tracking_noise: Annotated[
+        str | None,
+        typer.Option("--tracking-noise", help="What is neither bias nor load: N,N m. Default: 0.2,0.005."),
+    ] = None,
+    with_temperature: Annotated[
+        bool, typer.Option("--with-temperature", help="Track a part that is linear in temperature too.")
+    ] = False,
+    policy: Annotated[
+        FaultPolicy,
+        typer.Option("--policy", help="Samples with a fault: flag them, hold the last good one, or write no line."),
+    ] = FaultPolicy.FLAG,
+    limit_counts: Annotated[
+        float | None, typer.Option("--limit-counts", help="Largest magnitude of a raw sample; near it is saturated.")
+    ] = None,
+    frozen_after: Annotated[
+        float, typer.Option("--frozen-after", help="Time for which all channels may repeat a reading, s; 0 for any.")
+    ] = 0.5,
+    silence: Annotated[float, typer.Option("--silence", help="Time without a packet that is counted, s.")] = 2.0,
+    lines: Annotated[Lines, typer.Option("--lines", help="Form of the lines on standard output.")] = Lines.CSV,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Parquet file of all corrected samples.")
+    ] = None,
+    udp: Annotated[
+        str | None, typer.Option("--udp", help="Loopback address of a UDP server of PlotJuggler, as 127.0.0.1:9870.")
+    ] = None,
+    watch: Annotated[bool, typer.Option("--watch", help="Show the state on standard error, in place.")] = False,
+    force: ForceOption = False,
+    details: DetailsOption = False,
+    output_format: Annotated[
+        Format, typer.Option("--format", help="Form of the account at the end, on standard error.")
+    ] = Format.TABLE,
+) -> None:
+    """Correct wrenches while the robot runs, from lines, recordings or a box.
+
+    Example: forcetorque live leg.json --input yarp --quantity wrench
+
+    Reads standard input, as `yarp read ... /robot/ft:o | forcetorque live ...`. Corrected samples go to standard
+    output; what was lost and what is wrong goes to standard error at the end.
+
+    Python: `live.Corrector(calibration).correct(counts)`
+    """
+    import time
+
+    from forcetorque.live.outputs import (
+        CsvOutput,
+        JsonLinesOutput,
+        UdpOutput,
+        discard_standard_output,
+        parquet_file,
+        refuse_other_names,
+    )
+    from forcetorque.live.run import LiveLoop
+    from forcetorque.live.settings import make_run, read_settings
+    from forcetorque.live.watch import Watch
+    from forcetorque.results.terminal.reading import read_calibrations
+
+    log = start_logging()
+    refuse_standard_output("--output", output)
+    refuse_other_names(output)
+    declare_outputs(output, force=force)
+    settings = read_settings({
+        "form": form, "quantity": quantity, "channels": channels, "variables": variables, "status": status,
+        "index": index, "stamp": stamp, "sequence": sequence, "gravity": gravity, "envelope": envelope,
+        "frame": frame, "rate_hz": rate, "replay": replay, "speed": speed, "ati": ati, "ati_port": ati_port,
+        "ati_force": ati_force, "ati_torque": ati_torque, "offset": offset, "session": session, "tare_s": tare_s,
+        "tool_mass_kg": tool_mass, "tool_centre_m": tool_centre, "take_tool_off": take_tool_off,
+        "random_walk": random_walk, "tracking_noise": tracking_noise, "with_temperature": with_temperature,
+        "policy": policy, "limit_counts": limit_counts, "frozen_after_s": frozen_after,
+    })  # fmt: skip
+    read = read_calibrations(calibrations, None)
+    clock = time.monotonic
+    with ExitStack() as stack:
+        source, correctors = make_run(settings, tuple(read.values()), descriptor=_STANDARD_INPUT, warn=log.warning)
+        outputs: list[Output] = []
+        datagrams = None
+        if lines is not Lines.NONE:
+            outputs.append(CsvOutput(sys.stdout) if lines is Lines.CSV else JsonLinesOutput(sys.stdout))
+        if udp is not None:
+            datagrams = UdpOutput(udp)
+            stack.callback(datagrams.close)
+            outputs.append(datagrams)
+        if output is not None:
+            outputs.append(stack.enter_context(parquet_file(output)))
+        shown = Watch(
+            sys.stderr, clock=clock, period_s=0.2 if sys.stderr.isatty() else 1.0, in_place=sys.stderr.isatty()
+        )
+        loop = LiveLoop(
+            source,
+            correctors,
+            outputs,
+            clock=clock,
+            silence_s=silence,
+            warn=log.warning,
+            **({"show": shown.show} if watch else {}),
+        )
+        ended_by = loop.run()
+        if watch:
+            shown.show(loop, at_once=True)
+    result = loop.result(ended_by, 0 if datagrams is None else datagrams.lost)
+    if output is not None:
+        result = result.model_copy(update={"output_file": str(output)})
+    with redirect_stdout(sys.stderr):  # standard output is for lines
+        show(result, output_format, details=details)
+    if ended_by == "closed output":
+        discard_standard_output()

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Packets of live sensors, and an account of those that are lost, repeated, late or out of time."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from dataclasses import dataclass
+from typing import Final
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.live.sample_status import Status
+
+_REMEMBERED: Final = 4096
+"""Sequence numbers that may still come late; a packet that lies further back means that the sender began again."""
+_LATE_BY: Final = 1.5
+"""Periods between two samples from which on samples are missing between them."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Packet:
+    """One sample of the sensors that are read together."""
+
+    values: FloatArray
+    """Samples; shape (s, c); counts, or N and N m."""
+    variables: FloatArray | None = None
+    """Variables; shape (s, v)."""
+    stamp_ns: int | None = None
+    """Time of the sender; ns; None where it sends none."""
+    sequence: int | None = None
+    """Number of the packet; None where it has none."""
+    gravity: FloatArray | None = None
+    """Acceleration of free fall in the frame of the reading; shape (3,); m/s2."""
+    faults: list[int] | None = None
+    """Bits of `Status` per sensor that the source knows of."""
+    group: int = 0
+    """Which corrector it is for, where streams have stamps of their own."""
+
+
+@dataclass(slots=True, kw_only=True)
+class PacketCounts:
+    """What became of packets."""
+
+    received: int = 0
+    """Packets that could be read, repeated and late ones among them."""
+    lost: int = 0
+    """Packets that never came, by gaps of the sequence, or of time where a rate is stated."""
+    repeated: int = 0
+    """Packets whose number or stamp was there already."""
+    late: int = 0
+    """Packets that came after one with a higher number or a later stamp."""
+    backwards: int = 0
+    """Packets in sequence whose stamp is older than the one before."""
+    restarts: int = 0
+    """Times that the sender began to count again."""
+    unreadable: int = 0
+    """Lines or datagrams that are no sample: wrong types, wrong lengths."""
+    oversized: int = 0
+    """Lines that are longer than a line may be."""
+    foreign: int = 0
+    """Datagrams from other addresses."""
+    silences: int = 0
+    """Times that nothing came for longer than the limit."""
+    longest_silence_s: float = 0.0
+    """Longest time without a packet; s."""
+    countable: bool = False
+    """Whether losses can be seen: packets have numbers, or a rate is stated."""
+
+    def total(self, other: PacketCounts) -> None:
+        """Add the counts of another source.
+
+        Args:
+            other: Its counts.
+        """
+        for name in self.__slots__:
+            own, added = getattr(self, name), getattr(other, name)
+            if name == "longest_silence_s":
+                setattr(self, name, max(own, added))
+            elif name == "countable":
+                self.countable = own or added
+            else:
+                setattr(self, name, own + added)
+
+
+class PacketAccount:
+    """Decides of each packet whether it is new, repeated or late, and counts those that are lost."""
+
+    def __init__(self, rate_hz: float | None = None, modulus: int = 1 << 32) -> None:
+        """Begin.
+
+        Args:
+            rate_hz: Rate of the sender, by which gaps in time are lost samples where packets have no numbers; None for
+                not known.
+            modulus: Number at which numbers of packets begin again at 0.
+        """
+        self.counts = PacketCounts(countable=rate_hz is not None)
+        self._period_ns = None if rate_hz is None else 1e9 / rate_hz
+        self._modulus = modulus
+        self._highest: int | None = None
+        self._stamp_ns: int | None = None
+        self._missing: OrderedDict[int, None] = OrderedDict()
+
+    def add(self, packet: Packet) -> Status:
+        """Count a packet.
+
+        Args:
+            packet: The packet.
+
+        Returns:
+            `REPEATED` or `LATE`; 0 for a packet in its order.
+        """
+        self.counts.received += 1
+        if packet.sequence is not None:
+            self.counts.countable = True
+            status = self._by_number(packet.sequence)
+            if not status and packet.stamp_ns is not None:
+                if self._stamp_ns is not None and packet.stamp_ns < self._stamp_ns:
+                    self.counts.backwards += 1
+                self._stamp_ns = packet.stamp_ns
+            return status
+        return Status(0) if packet.stamp_ns is None else self._by_time(packet.stamp_ns)
+
+    def _by_number(self, number: int) -> Status:
+        highest = self._highest
+        if highest is None:
+            self._highest = number
+            return Status(0)
+        step = (number - highest) % self._modulus
+        if step == 0:
+            self.counts.repeated += 1
+            return Status.REPEATED
+        if step < self._modulus // 2:
+            self._skip(highest, step - 1)
+            self._highest = number
+            return Status(0)
+        if number in self._missing:
+            del self._missing[number]
+            self.counts.lost -= 1
+            self.counts.late += 1
+            return Status.LATE
+        if self._modulus - step < _REMEMBERED:
+            self.counts.repeated += 1
+            return Status.REPEATED
+        self.counts.restarts += 1
+        self._missing.clear()
+        self._highest = number
+        return Status(0)
+
+    def _skip(self, highest: int, count: int) -> None:
+        self.counts.lost += count
+        for number in range(highest + max(1, count - _REMEMBERED + 1), highest + count + 1):
+            self._missing[number % self._modulus] = None
+        while len(self._missing) > _REMEMBERED:
+            self._missing.popitem(last=False)
+
+    def _by_time(self, stamp_ns: int) -> Status:
+        before = self._stamp_ns
+        if before is not None and stamp_ns <= before:
+            if stamp_ns == before:
+                self.counts.repeated += 1
+                return Status.REPEATED
+            self.counts.late += 1
+            self.counts.backwards += 1
+            return Status.LATE
+        if before is not None and self._period_ns is not None:
+            periods = (stamp_ns - before) / self._period_ns
+            if periods > _LATE_BY:
+                self.counts.lost += round(periods) - 1
+        self._stamp_ns = stamp_ns
+        return Status(0)

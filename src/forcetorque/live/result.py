@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a live run was worth: samples of every sensor, faults among them, bias, and packets that were lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import counted
+from forcetorque.results.result import Result
+from forcetorque.results.table import FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
+
+
+class LiveSensor(Row):
+    """One sensor of a live run."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Name."""
+    serial: Annotated[str, Shown("serial")]
+    """Serial number."""
+    samples: Annotated[int, Shown("samples")]
+    """Samples that were corrected."""
+    faulty: Annotated[int, Shown("with faults")]
+    """Samples with a fault, each once."""
+    not_finite: Annotated[int, Shown("not finite")]
+    """Samples with NaN or infinite values."""
+    saturated: Annotated[int, Shown("saturated")]
+    """Samples at the limit of the converter."""
+    frozen: Annotated[int, Shown("frozen")]
+    """Samples that repeat one reading for too long."""
+    repeated: Annotated[int, Shown("repeated")]
+    """Samples whose number or stamp was there already."""
+    late: Annotated[int, Shown("late")]
+    """Samples that came after later ones."""
+    device_errors: Annotated[int, Shown("device errors")]
+    """Samples with an error of the device."""
+    refused: Annotated[int, Shown("refused")]
+    """Samples without a line, by the policy."""
+    in_contact: Annotated[int, Shown("in contact")]
+    """Samples during which the bias was not tracked."""
+    wrench: Annotated[WrenchValues | None, ShownWrench("wrench", digits=3)]
+    """Last wrench; N, N m; None without a sample that is finite."""
+    bias: WrenchValues | None
+    """Bias at the end, taken off beside the fitted offset; N, N m; None where the fitted offset was kept."""
+    bias_half_width_95: WrenchValues | None
+    """Half-width of its 95 % interval."""
+    drift: WrenchValues | None
+    """Change of the bias since the tare; None where it was not tracked."""
+
+
+class LivePackets(Row):
+    """Packets of a live run."""
+
+    received: Annotated[int, Shown("received")]
+    """Packets that could be read, repeated and late ones among them."""
+    lost: Annotated[int | None, Shown("lost")]
+    """Packets that never came; None where neither numbers nor a rate show it."""
+    repeated: Annotated[int, Shown("repeated")]
+    """Packets whose number or stamp was there already."""
+    late: Annotated[int, Shown("late")]
+    """Packets that came after later ones."""
+    backwards: Annotated[int, Shown("time steps back")]
+    """Packets whose stamp is older than the one before."""
+    restarts: Annotated[int, Shown("restarts")]
+    """Times that the sender began to count again."""
+    unreadable: Annotated[int, Shown("unreadable")]
+    """Lines or datagrams that are no sample."""
+    oversized: Annotated[int, Shown("oversized")]
+    """Lines that are too long."""
+    foreign: Annotated[int, Shown("foreign")]
+    """Datagrams from other addresses."""
+    silences: Annotated[int, Shown("silences")]
+    """Times that nothing came for longer than the limit."""
+    longest_silence_s: Annotated[float, Shown("longest silence", "s", digits=1)]
+    """Longest time without a packet; s."""
+    unsent: Annotated[int, Shown("datagrams not taken")]
+    """Datagrams of `--udp` that could not be sent."""
+
+
+class LiveRun(Result):
+    """Account of a live run."""
+
+    schema_name: Literal["forcetorque/live/1"] = Field(default="forcetorque/live/1", alias="schema")
+    """Form of the result."""
+    duration_s: float
+    """Time between the first and the last sample, by the clock of the machine; s."""
+    ended_by: Literal["end of input", "interrupt", "closed output"]
+    """Why it ended."""
+    stamps: Literal["sender", "arrival"]
+    """Whose times samples have: the sender's, or those of arrival, in ns of a clock that begins at any time."""
+    sensors: tuple[LiveSensor, ...]
+    """One per sensor."""
+    packets: LivePackets
+    """What became of packets."""
+    slowest_s: FloatOrNull
+    """Longest time from a packet to its lines; s; null without a packet."""
+    output_file: str | None = None
+    """Parquet file; null where none was written."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Give the answer for every sensor: samples, faults and losses.
+
+        Yields:
+            One per sensor.
+        """
+        lost = self.packets.lost
+        for row in self.sensors:
+            missing = "losses not countable" if lost is None else f"{lost} lost"
+            bad = bool(lost or row.faulty or self.packets.unreadable or self.packets.oversized or self.packets.silences)
+            yield Answer(
+                subject=f"{row.sensor} ({row.serial})",
+                verdict=f"{counted(row.samples, 'sample')}, {missing}, {row.faulty} with faults",
+                why=tuple(self._why(row)),
+                step=self._step(),
+                written=(self.output_file,),
+                concern=Concern.UNCERTAIN if bad or not row.samples else Concern.NONE,
+            )
+
+    def _why(self, row: LiveSensor) -> Iterator[str]:
+        packets = self.packets
+        named = {
+            "repeated": packets.repeated,
+            "late": packets.late,
+            "back in time": packets.backwards,
+            "unreadable": packets.unreadable,
+            "oversized": packets.oversized,
+            "from other addresses": packets.foreign,
+            "restarts": packets.restarts,
+            "not finite": row.not_finite,
+            "saturated": row.saturated,
+            "frozen": row.frozen,
+            "device errors": row.device_errors,
+            "refused": row.refused,
+            "datagrams not taken": packets.unsent,
+        }
+        if counts := ", ".join(f"{count} {name}" for name, count in named.items() if count):
+            yield f"{counts}."
+        sentences = []
+        if packets.silences:
+            times = counted(packets.silences, "time")
+            sentences.append(f"The source was silent {times}, for up to {packets.longest_silence_s:.1f} s.")
+        if row.bias is not None and row.bias_half_width_95 is not None:
+            force = ", ".join(
+                f"{value:.2f} ±{half:.2f}" for value, half in zip(row.bias[:3], row.bias_half_width_95[:3], strict=True)
+            )
+            drift = "" if row.drift is None else f", {max(abs(row.drift[:3])):.2f} N away from the tare"
+            sentences.append(f"Bias of the force: {force} N{drift}.")
+        if sentences:
+            yield " ".join(sentences)
+
+    def _step(self) -> str:
+        if self.packets.lost is None:
+            return "state --rate, or send numbers of packets, so that lost samples are seen"
+        return "look at the network and at the rate of the sender" if self.packets.lost else ""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give the counts.
+
+        Yields:
+            Two tables and a sentence.
+        """
+        yield table_of(self.sensors, "samples of sensors, and the last wrench")
+        yield table_of((self.packets,), "packets")
+        slowest = "" if self.slowest_s != self.slowest_s else f", slowest sample {1e3 * self.slowest_s:.1f} ms"
+        yield f"ended by {self.ended_by} after {self.duration_s:.1f} s, stamps of the {self.stamps}{slowest}"

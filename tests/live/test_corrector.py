@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A live corrector gives what the same calibration gives offline, and says what is wrong with each sample."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import FitError, RecordingError, ShapeError
+from forcetorque.base.units import NORMAL_95
+from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_reading import Correction, wrench_at
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.live.choices import FaultPolicy, HeldQuantity, OffsetSource
+from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.replay import replayed_groups
+from forcetorque.live.sample_status import FAULTS, Status, status_of_device, status_text
+from forcetorque.live.tool import Tool
+from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
+from tests.scenes.experiments import PARQUET
+
+EQUAL = 1e-12
+"""Of numbers of up to 1e3: products are added up in another order."""
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+MS = 1_000_000
+RAW = np.array([100.0, -200.0, 300.0, -400.0, 500.0, -600.0])
+
+
+def _fitted(file: Path, sensor: str | None = None) -> tuple[SensorRun, Calibration]:
+    experiment = load_experiment(file)
+    run = SensorRun(experiment, sensor or experiment.sensors[0])
+    return run, calibrate_sensor(run, code_version="test", created="test")
+
+
+def _as_offline(run: SensorRun, calibration: Calibration, step: int = 1) -> int:
+    """Compare every sample of a log, or as many as are left by a step; the number of them."""
+    (group,) = replayed_groups(run.experiment, [calibration])
+    stamps = np.unique(group.stamp_ns)
+    offline = wrench_at(run.experiment, run.sensor, Correction.of("live", calibration), stamps)
+    options = CorrectorOptions(quantity=group.quantity, limit_counts=run.sensor.limit_counts)
+    corrector = Corrector(calibration, options)
+    posterior = calibration.posterior
+    compared = 0
+    for values, variables, stamp in zip(
+        group.values[::step], group.variables[::step], group.stamp_ns[::step], strict=True
+    ):
+        live = corrector.correct(values, variables=variables, stamp_ns=int(stamp))
+        wrench = offline[np.searchsorted(stamps, stamp)]
+        if live.status[0] & FAULTS or not np.isfinite(wrench).all():
+            continue
+        assert np.abs(live.wrench[0] - wrench).max() < EQUAL * max(1.0, np.abs(wrench).max())
+        if posterior is not None and compared % 50 == 0:
+            change = variables[0] - calibration.model.reference_values
+            session = calibration.sessions[-1].name
+            covariance = posterior.error_covariance(wrench, variables=change, session=session)
+            half_width = NORMAL_95 * np.sqrt(np.diag(covariance))
+            assert np.allclose(live.half_width[0], half_width, rtol=1e-9, atol=0.0)
+        compared += 1
+    return compared
+
+
+def test_samples_are_read_as_offline(arm: Path) -> None:
+    """Wrenches of a small log to 1e-12, their intervals by the same posterior."""
+    assert _as_offline(*_fitted(arm / PARQUET), 2) > 550
+
+
+def _yoga(data_dir: Path, folder: Path) -> Path:
+    file = folder / "yoga.toml"
+    text = next(EXAMPLES.glob("02_*.toml")).read_text(encoding="utf-8")
+    file.write_text(text.replace("../../shared/data", data_dir.as_posix()), encoding="utf-8")
+    return file
+
+
+@pytest.mark.real_data
+def test_a_real_log_is_read_as_offline(data_dir: Path, tmp_path: Path) -> None:
+    """The calibrated stream of an iCub's leg, whose counts come back through the prior."""
+    experiment = load_experiment(_yoga(data_dir, tmp_path))
+    run = SensorRun(experiment, experiment.sensors[0])
+    assert run.sensor.prior is not None
+    name, serial = run.sensor.name, run.sensor.serial
+    matrix = run.sensor.prior * np.linspace(0.9, 1.1, 36).reshape(6, 6)
+    assert _as_offline(run, make_calibration(name=name, serial=serial, matrix=matrix, prior=run.sensor.prior), 5) > 1000
+
+
+@pytest.mark.long
+@pytest.mark.real_data
+def test_a_fit_of_a_real_log_is_read_as_offline(data_dir: Path, tmp_path: Path) -> None:
+    """All samples, with the intervals of its posterior."""
+    assert _as_offline(*_fitted(_yoga(data_dir, tmp_path))) > 5000
+
+
+def test_several_sensors_are_read_in_one_call() -> None:
+    """Sensors with more channels, with and without a variable, each as alone."""
+    wide = make_calibration(name="wide", matrix=np.hstack([FACTORY, FACTORY[:, :2]]), prior=None)
+    warm = make_calibration(variables=(make_variable(),))
+    samples = np.zeros((2, 8))
+    samples[0], samples[1, :6] = np.arange(8) * 100.0, RAW
+    both = Corrector([wide, warm]).correct(samples, variables=[[0.0], [31.0]])
+    assert np.allclose(both.wrench[0], wide.apply(samples[0], serial="SN001"), rtol=0, atol=EQUAL)
+    expected = warm.apply(RAW, serial="SN001", variables={"temperature": 31.0})
+    assert np.allclose(both.wrench[1], expected, rtol=0, atol=EQUAL)
+    assert np.isnan(both.half_width).all()  # neither has a posterior
+
+
+def test_wrenches_go_through_the_secondary_matrix() -> None:
+    """A stream by the prior is corrected as its counts would be; without a prior it is refused."""
+    calibration = make_calibration()
+    corrector = Corrector(calibration, CorrectorOptions(quantity=HeldQuantity.WRENCH, limit_counts=1000.0))
+    given = corrector.correct(FACTORY @ RAW)
+    assert np.allclose(given.wrench[0], calibration.apply(RAW, serial="SN001"), rtol=0, atol=1e-11)
+    assert given.status[0] == 0
+    assert corrector.correct(FACTORY @ RAW * 2.0).status[0] == Status.SATURATED
+    with pytest.raises(FitError, match="prior matrix"):
+        Corrector(make_calibration(prior=None), CorrectorOptions(quantity=HeldQuantity.WRENCH))
+
+
+def test_each_fault_is_named() -> None:
+    """Not finite, saturated, frozen, repeated, late, and what the device says."""
+    corrector = Corrector(make_calibration(), CorrectorOptions(limit_counts=32768.0))
+    broken = np.where(np.arange(6) == 2, np.inf, RAW)
+    assert corrector.correct(broken).status[0] == Status.NOT_FINITE
+    assert corrector.correct(np.where(np.arange(6) == 1, 32767.0, RAW)).status[0] == Status.SATURATED
+    assert corrector.correct(RAW, faults=[int(status_of_device(2))]).status[0] == Status.SATURATED
+    assert corrector.correct(RAW, faults=[int(status_of_device(1))]).status[0] == Status.DEVICE
+    statuses = [int(corrector.correct(RAW, stamp_ns=k * 100 * MS).status[0]) for k in range(8)]
+    assert statuses == [0] * 6 + [Status.FROZEN] * 2
+    assert corrector.correct(RAW + 1.0, stamp_ns=700 * MS).status[0] == Status.REPEATED
+    assert corrector.correct(RAW + 1.0, stamp_ns=650 * MS).status[0] == Status.LATE
+    assert corrector.correct(RAW + 1.0, stamp_ns=800 * MS).status[0] == 0
+    assert status_text(int(Status.SATURATED | Status.LATE)) == "saturated|late"
+    assert status_text(0) == "ok"
+
+
+@pytest.mark.parametrize("policy", FaultPolicy)
+def test_faults_are_treated_as_stated(policy: FaultPolicy) -> None:
+    """A fault of one sensor leaves the other alone."""
+    corrector = Corrector([make_calibration(), make_calibration(name="other")], CorrectorOptions(policy=policy))
+    good = corrector.correct([RAW, RAW]).wrench.copy()
+    faulty = corrector.correct([RAW * 2.0, RAW * 2.0], faults=[int(Status.DEVICE), 0])
+    expected = {"flag": faulty.wrench[1], "hold": good[0], "refuse": np.full(6, np.nan)}[policy]
+    assert np.array_equal(faulty.wrench[0], expected, equal_nan=True)
+    assert np.abs(faulty.wrench[1] - good[1]).max() > 1.0
+
+
+def test_a_tare_keeps_the_tool() -> None:
+    """Once tared in one posture, the sensor reads the tool in another; taken off, it reads nothing."""
+    calibration = make_calibration()
+    tool = Tool(mass_kg=0.8, centre_m=np.array([0.01, 0.0, 0.05]))
+    weight = tool.per_gravity(calibration.sensor.measure_direction)
+    inverse = np.linalg.inv(calibration.matrix)
+    postures = [np.array([0.0, 0.0, -9.81]), np.array([9.81, 0.0, 0.0])]
+    bias = np.array([3.0, -2.0, 1.0, 0.1, 0.2, -0.1])
+    for take_off in (False, True):
+        options = CorrectorOptions(offset=OffsetSource.TARE, tare_s=0.1, tool=tool, take_tool_off=take_off)
+        corrector = Corrector(calibration, options)
+        for k in range(20):
+            raw = inverse @ (weight @ postures[0] + bias) + (-1.0) ** k
+            status = corrector.correct(raw, stamp_ns=k * 10 * MS, gravity=postures[0]).status[0]
+            assert bool(status & Status.TARING) == (k <= 10)
+        after = corrector.correct(inverse @ (weight @ postures[1] + bias), stamp_ns=MS * 10**6, gravity=postures[1])
+        expected = np.zeros(6) if take_off else weight @ postures[1]
+        # a mean of eleven alternating counts is off by an eleventh of one
+        assert np.abs(after.wrench[0] - expected).max() < np.abs(calibration.matrix).sum(axis=1).max() / 10.0
+
+
+def test_what_is_missing_is_refused() -> None:
+    """Shapes, variables, time and gravity are asked for by name."""
+    warm = make_calibration(variables=(make_variable(),))
+    with pytest.raises(ShapeError, match="temperature"):
+        Corrector(warm).correct(RAW)
+    with pytest.raises(ShapeError, match="expected samples of shape"):
+        Corrector(make_calibration()).correct(RAW[:5])
+    with pytest.raises(RecordingError, match="time of every sample"):
+        Corrector(make_calibration(), CorrectorOptions(offset=OffsetSource.TARE)).correct(RAW)
+    carried = CorrectorOptions(tool=Tool(mass_kg=1.0, centre_m=np.zeros(3)), take_tool_off=True)
+    with pytest.raises(RecordingError, match="gravity"):
+        Corrector(make_calibration(), carried).correct(RAW)
+    with pytest.raises(ShapeError, match=r"expected shape \(2, 3\)"):
+        Corrector([make_calibration()] * 2, carried).correct([RAW, RAW], gravity=np.zeros(3))
+    with pytest.raises(RecordingError, match="got 'fitted'"):
+        Corrector(make_calibration()).tare()
+    with pytest.raises(RecordingError, match="expected a tool"):
+        replace(carried, tool=None)
+    with pytest.raises(RecordingError, match="no session"):
+        Corrector(make_calibration(), CorrectorOptions(session="monday"))
+    with pytest.raises(RecordingError, match="at least one"):
+        Corrector([])

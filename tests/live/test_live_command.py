@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque live` as it is typed: lines on standard output, the account on standard error."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.loading import load_experiment
+from tests.app.outcome import Run
+from tests.scenes.calibrations import make_calibration
+from tests.scenes.experiments import PARQUET
+
+
+@pytest.fixture
+def fitted(arm: Path) -> Path:
+    """A calibration of the sensor of the small arm."""
+    make_calibration(name="arm_ft", serial="SIM001").save(arm / "arm.json")
+    return arm
+
+
+def test_a_recording_is_replayed(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every sample is a line and a row of the file; the account is the answer first, within twelve lines."""
+    monkeypatch.chdir(fitted)
+    outcome = run("live", "arm.json", "--replay", PARQUET, "--speed", 0, "-o", "live.parquet", "--watch", columns=80)
+    assert outcome.code == 0
+    rows = list(csv.DictReader(io.StringIO(outcome.out)))
+    raw = load_experiment(PARQUET).recording.stream("arm_ft").signal("raw").values
+    expected = read_calibration("arm.json").apply(raw, serial="SIM001")
+    assert np.allclose([float(row["fx_N"]) for row in rows], expected[:, 0], rtol=1e-7)
+    assert pq.read_table("live.parquet").num_rows == len(rows) == len(raw)
+    watched, account = outcome.err.split("arm_ft (SIM001)")
+    assert "fx " in watched
+    assert "\x1b" not in watched  # no terminal
+    assert account.startswith(" ")
+    assert "1200 samples, losses not countable, 0 with faults" in account
+    assert "written: live.parquet" in account
+    assert account.count("\n") <= 12
+    assert max(map(len, account.splitlines())) <= 80
+
+
+def test_lines_and_account_may_be_json(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a rate, losses are countable."""
+    monkeypatch.chdir(fitted)
+    outcome = run(
+        "live", "arm.json", "--replay", PARQUET, "--speed", 0, "--lines", "json", "--format", "json", "--rate", 50
+    )
+    assert json.loads(outcome.out.splitlines()[0])["sensor"] == "arm_ft"
+    assert json.loads(outcome.err)["packets"]["lost"] == 0
+
+
+def test_what_cannot_be_done_is_refused(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before anything is read: another sensor, another name of a file, a number that is none."""
+    monkeypatch.chdir(fitted)
+    make_calibration(name="arm_ft", serial="SN9").save(fitted / "other.json")
+    replay = ("--replay", PARQUET, "--speed", 0)
+    assert "SN9" in run("live", "other.json", *replay).error()
+    assert ".parquet" in run("live", "arm.json", *replay, "-o", "live.csv").error()
+    assert "finite" in run("live", "arm.json", "--replay", PARQUET, "--speed", "nan").error()
+    assert "--quantity" in run("live", "arm.json", *replay, "--quantity", "wrench").error()
+    assert "one calibration per sensor" in run("live", "arm.json", "other.json", *replay).error()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("ending", ["pipe", "interrupt"])
+def test_a_process_ends_cleanly(fitted: Path, ending: str) -> None:
+    """When nobody reads its lines any more, and by Ctrl-C: exit code 0, the account, no traceback."""
+    words = ("live", "arm.json", "--input", "yarp", "--quantity", "raw")
+    with subprocess.Popen(
+        [sys.executable, "-m", "forcetorque", *words],
+        cwd=fitted, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    ) as process:  # fmt: skip
+        assert process.stdin is not None
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdin.write("1 2 3 4 5 6\n" * 3)
+        process.stdin.flush()
+        assert process.stdout.readline().startswith("stamp_ns")
+        assert process.stdout.readline().endswith("ok\n")
+        if ending == "interrupt":
+            process.send_signal(signal.SIGINT)
+        else:
+            process.stdout.close()
+            process.stdin.write("1 2 3 4 5 7\n" * 3)
+            process.stdin.flush()
+        err = process.stderr.read()
+        assert process.wait(30) == 0
+    assert "arm_ft (SIM001)" in err
+    assert "Traceback" not in err
+    assert "BrokenPipe" not in err

@@ -1,0 +1,337 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lines become samples as stated, and whatever is wrong with them is counted and survived."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.live import outputs
+from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
+from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, parquet_file
+from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
+from forcetorque.live.result import LiveRun
+from forcetorque.live.run import LiveLoop
+from forcetorque.live.sample_status import Status
+from forcetorque.live.settings import Settings, make_run
+from forcetorque.live.sources import LONGEST_LINE, LineSource
+from forcetorque.live.text_lines import RosCsvLines, YarpLines, stamp_of
+from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
+
+RAW = np.array([[100.0, -200.0, 300.0, -400.0, 500.0, -600.0]])
+CHANNELS = "c1,c2,c3,c4,c5,c6"
+TABLE: dict[str, Any] = {
+    "form": Input.CSV,
+    "quantity": HeldQuantity.RAW,
+    "channels": (CHANNELS,),
+    "stamp": "t:s",
+    "sequence": "n",
+}
+
+
+class Kept:
+    """An output that keeps its rows."""
+
+    def __init__(self) -> None:
+        self.rows: list[CorrectedRow] = []
+
+    def write(self, row: CorrectedRow) -> None:
+        self.rows.append(row)
+
+    def flush(self) -> None:
+        """Nothing waits."""
+
+
+def _run(text: str, settings: Settings) -> tuple[LiveRun, list[CorrectedRow]]:
+    """What becomes of a text on standard input."""
+    kept, time_s = Kept(), iter(np.arange(1e6) * 1e-3)
+    with TemporaryFile() as file:
+        file.write(text.encode())
+        file.seek(0)
+        source, correctors = make_run(settings, [make_calibration()], descriptor=file.fileno(), warn=lambda _: None)
+        loop = LiveLoop(source, correctors, [kept], clock=lambda: float(next(time_s)))
+        return loop.result(loop.run()), kept.rows
+
+
+def _line(number: int, stamp_s: float | str, values: Sequence[float] = RAW[0].tolist()) -> str:
+    return ",".join(map(str, (number, stamp_s, *values))) + "\n"
+
+
+def test_no_sample_is_lost_without_a_count() -> None:
+    """Gaps, repeated and reordered numbers, words, NaN, steps back in time, and lines that are too long."""
+    lines = [_line(k, k * 0.01, (RAW[0] + k % 3).tolist()) for k in range(30)]
+    lines[4] = lines[20] = ""
+    lines[8], lines[9] = lines[9], lines[8]
+    lines[12] += lines[12]
+    lines[15] = _line(15, "soon")
+    lines[17] = _line(17, 0.05)
+    lines[22] = _line(22, 0.22, [float("nan")] * 6)
+    lines[25] = "9" * (LONGEST_LINE + 10) + "\n"
+    result, rows = _run("".join(["n,t," + CHANNELS + "\n", *lines]), Settings(**TABLE))
+    packets, sensor = result.packets, result.sensors[0]
+    # two were not sent; of two the lines could not be read
+    assert (packets.lost, packets.unreadable, packets.oversized) == (4, 1, 1)
+    assert (packets.late, packets.repeated, packets.backwards) == (1, 1, 1)
+    assert (sensor.samples, sensor.not_finite, sensor.late, sensor.repeated) == (27, 1, 2, 1)
+    assert packets.received == len(rows) == 27
+    assert sensor.samples + (packets.lost or 0) - packets.repeated == 30
+    assert [row.status for row in rows if row.status & Status.NOT_FINITE] == [Status.NOT_FINITE]
+    assert "4 lost" in next(result.answers()).verdict
+    assert len(result.text(80).splitlines()) > 12  # with tables
+
+
+def test_sensors_variables_and_status_are_where_they_are_stated() -> None:
+    """Two sensors of one table, one with a temperature, one with a code of the device."""
+    warm, plain = make_calibration(name="warm", variables=(make_variable(),)), make_calibration(name="plain")
+    columns = [f"{name}{k}" for name in "ab" for k in range(6)]
+    settings = Settings(
+        form=Input.CSV, quantity=HeldQuantity.RAW, stamp="t:ms", status=("plain=code",), variables=("temperature=T",),
+        channels=("warm=" + ",".join(columns[:6]), "plain=" + ",".join(columns[6:])),
+    )  # fmt: skip
+    text = ",".join(["t", *columns, "T", "code"]) + "\n" + ",".join(map(str, [5, *RAW[0], *RAW[0], 31.5, 2])) + "\n"
+    reading, writing = os.pipe()
+    os.write(writing, text.encode())
+    os.close(writing)
+    kept = Kept()
+    source, correctors = make_run(settings, [warm, plain], descriptor=reading, warn=lambda _: None)
+    LiveLoop(source, correctors, [kept], clock=lambda: 0.0).run()
+    os.close(reading)
+    first, second = kept.rows
+    assert (first.stamp_ns, first.status, second.status) == (5_000_000, 0, Status.SATURATED)
+    assert np.allclose(first.values[:6], warm.apply(RAW[0], serial="SN001", variables={"temperature": 31.5}))
+    assert np.allclose(second.values[:6], plain.apply(RAW[0], serial="SN001"))
+
+
+def test_lists_of_a_device_are_read_by_their_indices() -> None:
+    """The order is of the configuration; a stamp of the board that stays is a sample that repeats."""
+    wrench = " ".join(map(str, FACTORY @ RAW[0]))
+    lists = f"() () () () (((31.0) 8.0) ((33.0) 9.0)) (((1 2 3 4 5 6) 8.0) (({wrench}) {{stamp}})) () () () ()"
+    text = "".join(f"{k} 1.{k} {lists.format(stamp=stamp)}\n" for k, stamp in ((1, 9.0), (2, 9.0), (3, 10.0)))
+    settings = Settings(form=Input.YARP_MEASURES, quantity=HeldQuantity.WRENCH, envelope=True, index=("1",))
+    result, rows = _run(text + "4 1.4 (1 2)\n", settings)
+    assert [row.status for row in rows] == [0, Status.REPEATED, 0]
+    assert result.packets.unreadable == 1
+    assert np.allclose(rows[0].values[:6], make_calibration().apply(RAW[0], serial="SN001"))
+
+
+@pytest.mark.real_data
+def test_captured_lines_are_read(data_dir: Path) -> None:
+    """`yarp read` with and without its envelope, and `ros2 topic echo --csv`: the known truth."""
+    forms = {
+        "yarp_read_analog_envelope.txt": YarpLines(channels=6, envelope=True),
+        "yarp_read_analog.txt": YarpLines(channels=6, envelope=False),
+        "ros2_topic_echo_csv.txt": RosCsvLines(frame="ft_sensor"),
+    }
+    for name, form in forms.items():
+        packets = [form.packet(line) for line in (data_dir / "live" / name).read_text().splitlines() if line]
+        assert len(packets) == 5
+        values = np.array([packet.values[0] for packet in packets if packet is not None])
+        wrench = [0.1, -2.5, 30.25, 0.01, -0.02, 0.003] if "yarp" in name else [1.0, -2.0, 3.5, 0.1, 0.2, -0.3]
+        assert np.allclose(values[0], wrench)
+        assert np.allclose(np.diff(values[:, 0]), wrench[0])
+    ros = forms["ros2_topic_echo_csv.txt"].packet("1700000000,5000000,ft_sensor,1,2,3,4,5,6")
+    assert ros is not None
+    assert ros.stamp_ns == 1_700_000_000_005_000_000
+    with pytest.raises(FormatError, match="frame"):
+        forms["ros2_topic_echo_csv.txt"].packet("1,2,other,1,2,3,4,5,6")
+
+
+def test_stamps_are_read_exactly() -> None:
+    """Sixteen digits and more are not rounded by a float."""
+    texts = {"1700000000.010000": 1_700_000_000_010_000_000, "-0.5": -500_000_000, "1e-3": 1_000_000, "7": 7 * 10**9}
+    assert {text: stamp_of(text, "s") for text in texts} == texts
+    assert stamp_of("1700000000123456789", "ns") == 1_700_000_000_123_456_789
+    for text in ("nan", "inf", "soon", ""):
+        with pytest.raises(FormatError):
+            stamp_of(text, "s")
+
+
+def test_losses_need_numbers_or_a_rate() -> None:
+    """Gaps in time count with a rate; without, the answer says that they cannot be counted."""
+    text = (
+        "t," + CHANNELS + "\n" + "".join(f"{t}," + ",".join(map(str, RAW[0] + t)) + "\n" for t in (0, 10, 20, 50, 60))
+    )
+    stated = TABLE | {"sequence": None, "stamp": "t:ms"}
+    result, _ = _run(text, Settings(**stated, rate_hz=100.0))
+    assert result.packets.lost == 2
+    result, _ = _run(text, Settings(**stated))
+    assert result.packets.lost is None
+    assert "not countable" in next(result.answers()).verdict
+
+
+def test_numbers_wrap_around_and_begin_again() -> None:
+    """After 2^32, and after the sender was restarted."""
+    account = PacketAccount()
+
+    def add(*numbers: int) -> list[Status]:
+        return [account.add(Packet(values=RAW, sequence=number)) for number in numbers]
+
+    top = (1 << 32) - 1
+    assert add(top - 1, top, 1, 0, 0) == [0, 0, 0, Status.LATE, Status.REPEATED]
+    assert account.counts == PacketCounts(received=5, late=1, repeated=1, countable=True)
+    assert add(100_000, 1) == [0, 0]
+    assert (account.counts.lost, account.counts.restarts) == (99_998, 1)
+
+
+def test_a_gap_of_millions_takes_no_memory() -> None:
+    """Of a long gap only the last numbers may still come late."""
+    account = PacketAccount()
+    for number in (0, 1 << 30, (1 << 30) - 1, 5):
+        account.add(Packet(values=RAW, sequence=number))
+    assert account.counts.lost == (1 << 30) - 2
+    assert len(account._missing) < 5000
+
+
+def test_a_source_that_stops_is_reported_and_waited_for() -> None:
+    """The silence is told once when it begins, and counted when it ends."""
+    warnings: list[str] = []
+    reading, writing = os.pipe()
+    times = iter([0.0, 0.1, 0.2, 3.0, 5.0, 9.0, *[9.1] * 20])
+    source = LineSource(reading, YarpLines(channels=6, envelope=False))
+
+    def packets() -> Iterator[Packet | None]:
+        yield Packet(values=RAW)
+        yield None
+        yield None
+        yield None
+        yield Packet(values=RAW + 1.0)
+
+    source.packets = packets  # type: ignore[method-assign]
+    loop = LiveLoop(source, [Corrector(make_calibration())], [], clock=lambda: next(times), warn=warnings.append)
+    result = loop.result(loop.run())
+    os.close(reading)
+    os.close(writing)
+    assert len(warnings) == 1
+    assert (result.packets.silences, result.stamps) == (1, "arrival")
+    assert result.packets.longest_silence_s > 8.0
+    assert "silent 1 time" in next(result.answers()).why[0]
+
+
+@pytest.mark.parametrize(("raised", "ended_by"), [(KeyboardInterrupt, "interrupt"), (BrokenPipeError, "closed output")])
+def test_an_interrupt_ends_with_an_account(raised: type[BaseException], ended_by: str) -> None:
+    """What was read until then is in it."""
+
+    class Closed(Kept):
+        def write(self, row: CorrectedRow) -> None:
+            super().write(row)
+            if len(self.rows) == 2:
+                raise raised
+
+    source = LineSource(0, YarpLines(channels=6, envelope=False))
+    source.packets = lambda: iter([Packet(values=RAW + k) for k in range(5)])  # type: ignore[method-assign]
+    loop = LiveLoop(source, [Corrector(make_calibration())], [Closed()], clock=lambda: 0.0)
+    result = loop.result(loop.run())
+    assert (result.ended_by, result.sensors[0].samples) == (ended_by, 2)
+
+
+def test_refused_samples_have_no_line() -> None:
+    """By the policy; they are counted."""
+    text = "n,t," + CHANNELS + "\n" + _line(0, 0.0) + _line(1, 0.01, [float("nan")] * 6) + _line(2, 0.02)
+    result, rows = _run(text, Settings(**TABLE, policy=FaultPolicy.REFUSE))
+    assert len(rows) == 2
+    assert (result.sensors[0].refused, result.sensors[0].samples) == (1, 3)
+
+
+def test_a_tracked_bias_is_in_the_account() -> None:
+    """With its interval and its drift since the tare."""
+    rng = np.random.default_rng(2)
+    lines = [_line(k, k * 0.01, (RAW[0] + rng.normal(0.0, 1.0, 6)).tolist()) for k in range(400)]
+    settings = Settings(**TABLE, offset=OffsetSource.TRACKED, tare_s=1.0)
+    result, rows = _run("".join(["n,t," + CHANNELS + "\n", *lines]), settings)
+    sensor = result.sensors[0]
+    assert sensor.bias is not None
+    assert sensor.drift is not None
+    assert np.abs(sensor.bias - make_calibration().apply(RAW[0], serial="SN001")).max() < 0.1
+    assert np.abs(rows[-1].values[:6]).max() < 0.5
+    assert "Bias of the force" in next(result.answers()).why[0]
+    assert json.loads(result.json_text())["sensors"][0]["drift"] is not None
+
+
+def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All rows, no more than a group in memory; no file of a run that failed."""
+    monkeypatch.setattr(outputs, "ROW_GROUP", 10)
+    file = tmp_path / "live.parquet"
+    with parquet_file(file) as output:
+        for k in range(25):
+            output.write(CorrectedRow(k, "leg", tuple(np.arange(12.0) + k), 0 if k else 1))
+        assert not file.exists()
+    table = pq.read_table(file)
+    assert table.column_names == list(COLUMNS)
+    assert pq.ParquetFile(file).num_row_groups == 3
+    assert table["stamp_ns"].to_pylist() == list(range(25))
+    assert table["status"].to_pylist()[:2] == ["not_finite", "ok"]
+    with pytest.raises(FormatError), parquet_file(tmp_path / "other.parquet"):
+        raise FormatError("broken")
+    assert [path.name for path in tmp_path.iterdir()] == ["live.parquet"]
+
+
+def test_datagrams_go_to_this_machine_only() -> None:
+    """JSON with a time and a name per sensor; another machine is refused."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as server:
+        server.bind(("127.0.0.1", 0))
+        server.settimeout(2.0)
+        output = UdpOutput(f"127.0.0.1:{server.getsockname()[1]}")
+        output.write(CorrectedRow(1_500_000_000, "leg", (1.0, *[float("nan")] * 11), 0))
+        content = json.loads(server.recv(4096))
+        output.close()
+    assert content["timestamp"] == 1.5
+    assert (content["leg"]["fx_N"], content["leg"]["fy_N"]) == (1.0, None)
+    for address in ("192.168.1.2:9870", "127.0.0.1", "127.0.0.1:0", "localhost:1"):
+        with pytest.raises(RecordingError, match="loopback"):
+            UdpOutput(address)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"form": None}, "expected one of --input"),
+        ({"quantity": None}, "expected --quantity"),
+        ({"channels": ()}, "--channels with 6 columns"),
+        ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
+        ({"stamp": "t"}, "COLUMN:UNIT"),
+        ({"envelope": True}, "--envelope: not of"),
+        ({"frame": "tool"}, "--frame: not of --input csv"),
+        ({"form": None, "ati": "127.0.0.1"}, "--channels: not of --ati"),
+        ({"variables": ("temperature=T",)}, "SENSOR.]NAME=COLUMN"),
+        ({"tool_mass_kg": 1.0}, "both --tool-mass and --tool-centre"),
+        ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0"}, "needs --gravity"),
+        ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0"}, "3 numbers"),
+        ({"form": Input.YARP}, "--channels: not of"),
+        ({"form": Input.ROS2_CSV}, "--quantity wrench"),
+        ({"form": Input.YARP_MEASURES, "channels": (), "stamp": None, "sequence": None}, "expected --index"),
+    ],
+)
+def test_nothing_is_guessed(changed: dict[str, Any], message: str) -> None:
+    """What is needed and not stated, or stated and not needed, is refused by name."""
+    settings = Settings(**(TABLE | changed))
+    with pytest.raises(RecordingError, match=message.replace("[", "[[]")):
+        make_run(settings, [make_calibration()], descriptor=0, warn=lambda _: None)
+
+
+def test_a_heading_must_have_the_columns() -> None:
+    """A name that is not there ends the run."""
+    with pytest.raises(RecordingError, match="one column 't'"):
+        _run("n,time," + CHANNELS + "\n", Settings(**TABLE))
+
+
+def test_options_of_tracking_are_read() -> None:
+    """Numbers between commas."""
+    given = make_run(
+        Settings(**TABLE, random_walk="2,0.1", tracking_noise="0.3,0.01"),
+        [make_calibration()],
+        descriptor=0,
+        warn=lambda _: None,
+    )[1][0].options.tracking
+    assert (given.random_walk_N, given.random_walk_Nm, given.noise_N, given.noise_Nm) == (2.0, 0.1, 0.3, 0.01)
+    assert CorrectorOptions().tracking.random_walk_N == 1.0
