@@ -5,8 +5,14 @@ import type { Sensor, WrenchSeries } from "./scene_types";
 
 /** Ink of text, axes and the expected wrench. */
 export const INK = "#1f2430";
+/** Text and lines of less weight. */
+export const MUTED = "#59606c";
 /** Lines that only guide the eye. */
 export const FAINT = "#c9ced6";
+/** Lines of a grid behind a plot. */
+export const PALE = "#eceff3";
+/** Error of a wrench on the robot. */
+export const ERROR = "#D62246";
 /** Current sample and chosen things. */
 export const ACCENT = "#0072B2";
 /** Findings. */

@@ -3,6 +3,7 @@
 
 import { Box3, DirectionalLight, GridHelper, HemisphereLight, Vector3 } from "three";
 
+import { ErrorOnRobot } from "./error_on_robot";
 import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
 import { origin, RobotModel } from "./robot_model";
@@ -18,6 +19,7 @@ const POSTURES = 24;
 export class RobotView extends View3D {
   readonly wrenches: WrenchArrows;
   readonly skin: SkinView;
+  readonly error: ErrorOnRobot;
   private readonly model: RobotModel;
 
   constructor(
@@ -36,7 +38,8 @@ export class RobotView extends View3D {
     this.wrenches = new WrenchArrows(data, size);
     this.scene.add(this.wrenches);
     this.skin = new SkinView(data, size);
-    this.scene.add(this.skin);
+    this.error = new ErrorOnRobot(data, this.model, size);
+    this.scene.add(this.skin, this.error);
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
     this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
@@ -48,6 +51,7 @@ export class RobotView extends View3D {
     this.model.place(poses);
     this.wrenches.update(state, poses);
     this.skin.update(state, poses);
+    this.error.update(state, poses);
     this.frames.later(this);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene with its arrays.
 
+import { Columns } from "./columns";
 import type { ArrayRef, ContactSeries, Scene, Sensor, WrenchSeries } from "./scene_types";
-import { range } from "./thin";
 
 /** What a wrench is made of. */
 export type Quantity = "force" | "moment";
@@ -20,7 +20,8 @@ export class SceneData {
   readonly time: Float64Array;
   readonly positions: Float32Array;
   readonly root: Float32Array;
-  private readonly ranges = new Map<string, [number, number] | null>();
+  /** Quantities over time. */
+  readonly columns = new Columns(this);
 
   constructor(
     readonly scene: Scene,
@@ -58,16 +59,6 @@ export class SceneData {
     return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
   }
 
-  /** Lowest and highest value of a series at one place of its rows; null if all are absent. */
-  range(series: WrenchSeries, place: number): [number, number] | null {
-    const key = `${series.values.offset} ${place}`;
-    const known = this.ranges.get(key);
-    if (known !== undefined) return known;
-    const found = range(this.floats(series.values), place);
-    this.ranges.set(key, found);
-    return found;
-  }
-
   /** Coordinate of a column at a sample; rad or m; NaN where absent. */
   position(sample: number, column: number): number {
     return this.positions[sample * this.scene.coordinates.length + column] ?? Number.NaN;
@@ -94,6 +85,12 @@ export class SceneData {
       else high = middle;
     }
     return Math.max(0, low - 1);
+  }
+
+  /** First sample at or after an instant; the number of samples if there is none. */
+  firstAt(seconds: number): number {
+    const before = this.sampleAt(seconds);
+    return (this.time[before] ?? seconds) < seconds ? before + 1 : before;
   }
 
   /** Sample closest to an instant. */

@@ -99,8 +99,12 @@ export interface WrenchSeries {
   readonly name: string;
   /** At most one series of a sensor is expected. */
   readonly role: "expected" | "measured";
+  /** Whether a calibration gives it, and not the prior or the log. */
+  readonly calibrated: boolean;
   /** Shape (n, 6) float32; N, N m. */
   readonly values: ArrayRef;
+  /** Standard deviation of its error by the posterior of its calibration; shape (n, 6) float32; N, N m; or null. */
+  readonly deviation: ArrayRef | null;
   /** Sphere that gravity draws by the model; on the expected series; N. */
   readonly reference_force: Sphere | null;
   /** The same of the moments; N m. */

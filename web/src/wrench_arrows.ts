@@ -109,18 +109,16 @@ export class WrenchArrows extends Group {
   }
 
   private unit(quantity: Quantity): number {
-    const first = quantity === "force" ? 0 : 3;
-    const all = this.data.scene.sensors.flatMap(({ wrenches }) => {
-      const expected = wrenches.filter(({ role }) => role === "expected");
-      return expected.some((series) => this.data.range(series, first) !== null) ? expected : wrenches;
+    const largest = this.data.scene.sensors.flatMap(({ wrenches }) => {
+      const expected = wrenches.filter(({ role }) => role === "expected").map((one) => this.largest(one, quantity));
+      const known = expected.filter((size) => size > -Infinity);
+      return known.length > 0 ? known : wrenches.map((one) => this.largest(one, quantity));
     });
-    const largest = all.flatMap((series) =>
-      [0, 1, 2].map((axis) => {
-        const found = this.data.range(series, first + axis);
-        return found ? Math.max(-found[0], found[1]) : 0;
-      }),
-    );
     const peak = Math.max(0, ...largest);
     return peak > 0 ? (LONGEST * this.size) / peak : 1;
+  }
+
+  private largest(series: WrenchSeries, quantity: Quantity): number {
+    return this.data.columns.measured(series, quantity, 3).summary(0, this.data.samples).high;
   }
 }

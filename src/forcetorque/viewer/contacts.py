@@ -198,7 +198,9 @@ def _part(place: tuple[str, str], residuals: Sequence[PartResidual], seconds: Fl
             WrenchSeries(
                 name=series,
                 role="measured",
+                calibrated=series == _AFTER,
                 values=block.add(values, "float32"),
+                deviation=None,
                 reference_force=None,
                 reference_moment=None,
                 ellipsoid_force=None,

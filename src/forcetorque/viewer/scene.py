@@ -125,8 +125,12 @@ class WrenchSeries:
     """What it is, in words."""
     role: Literal["expected", "measured"]
     """At most one series of a sensor is expected."""
+    calibrated: bool
+    """Whether a calibration gives it, and not the prior or the log."""
     values: ArrayRef
     """Shape (n, 6) float32; N, N m."""
+    deviation: ArrayRef | None
+    """Standard deviation of its error by the posterior of its calibration; shape (n, 6) float32; N, N m; or null."""
     reference_force: Sphere | None
     """Sphere that gravity draws by the model; on the expected series; N."""
     reference_moment: Sphere | None
