@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of a sensor's force or moment space, shared by the view in space and the planes.
 
-import { seriesColour } from "./colours";
+import { INK, seriesColour } from "./colours";
 import { ignoredSpans } from "./marks";
 import { FIRST, type Quantity, type SceneData } from "./scene_data";
 import type { Ellipsoid, Sphere, WrenchSeries } from "./scene_types";
@@ -84,7 +84,7 @@ function makeClouds(
   const samples = everyKth(data.samples, limit, (i) => left[i] === 0);
   const clouds = (sensor?.wrenches ?? []).map((series) => ({
     series,
-    colour: sensor ? seriesColour(sensor, series) : "#000000",
+    colour: sensor ? seriesColour(sensor, series) : INK,
     points: pick(data.floats(series.values), samples, FIRST[quantity]),
     ellipsoid: quantity === "force" ? series.ellipsoid_force : series.ellipsoid_moment,
     sphere: quantity === "force" ? series.reference_force : series.reference_moment,

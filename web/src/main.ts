@@ -2,6 +2,7 @@
 // Puts the page together.
 
 import "uplot/dist/uPlot.min.css";
+import "./visual_roles.css";
 import "./style.css";
 
 import { CloudMaker } from "./clouds";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The clouds along each axis: planes x-y, y-z and x-z.
 
-import { faded, FAINT, INK, MUTED, PALE } from "./colours";
+import { faded, FAINT, INK, MUTED, PALE, PAPER } from "./colours";
 import type { Cloud, CloudMaker, Clouds } from "./clouds";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
@@ -14,7 +14,7 @@ import { asEllipsoid, outline } from "./wireframes";
 const MARGIN = { left: 32, right: 6, top: 5, bottom: 16 };
 const MOVED = 4; // pixels after which a click is a drag
 const REACH = 10; // pixels within which a click takes a point
-const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
+const FONT = `${Math.round(0.92 * Number.parseFloat(getComputedStyle(document.body).fontSize))}px system-ui, 'DejaVu Sans', sans-serif`;
 
 /** One planar view. */
 export class PlaneView implements Drawable {
@@ -93,9 +93,9 @@ export class PlaneView implements Drawable {
     for (const cloud of this.visible(clouds)) {
       const [x, y] = this.place(clouds, this.data.vector(cloud.series, state.sample, state.quantity));
       for (const [radius, colour] of [
-        [6.5, "#ffffff"],
+        [6.5, PAPER],
         [5, cloud.colour],
-        [1.8, "#ffffff"],
+        [1.8, PAPER],
       ] as const) {
         pen.fillStyle = colour;
         pen.beginPath();
@@ -126,7 +126,7 @@ export class PlaneView implements Drawable {
       }
       if (!this.store.state.wireframes) continue;
       const shapes = [
-        [cloud.sphere && asEllipsoid(cloud.sphere), "#777777"],
+        [cloud.sphere && asEllipsoid(cloud.sphere), MUTED],
         [cloud.ellipsoid, cloud.colour],
       ] as const;
       for (const [shape, colour] of shapes) {
@@ -244,7 +244,7 @@ function prepare(canvas: HTMLCanvasElement, width: number, height: number): Canv
   const pen = canvas.getContext("2d");
   if (!pen) throw new Error("this browser draws nothing on a canvas");
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-  pen.fillStyle = "#ffffff";
+  pen.fillStyle = PAPER;
   pen.fillRect(0, 0, width, height);
   return pen;
 }

@@ -4,7 +4,7 @@
 
 import uPlot from "uplot";
 
-import { faded, INK, MUTED, PALE, seriesColour, USES } from "./colours";
+import { faded, INK, MUTED, PALE, seriesColour, seriesDash, USES } from "./colours";
 import type { Column, Component } from "./columns";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
@@ -22,7 +22,7 @@ export const RIGHT = 10;
 const AXIS_LABEL = 13; // pixels; the style sheet gives the last plot 33 more
 const MOVED = 4; // pixels after which a click is a drag
 const WHEEL = 0.0015; // logarithm of the factor by which a pixel of the wheel stretches the window
-const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
+const FONT = `${Math.round(0.92 * Number.parseFloat(getComputedStyle(document.body).fontSize))}px system-ui, 'DejaVu Sans', sans-serif`;
 
 /** What a plot shows. */
 export interface Shown {
@@ -119,9 +119,9 @@ export class ComponentPlot implements Drawable {
       ...this.drawn().map(({ series, column }) => {
         const value = column.at(hover ?? sample);
         const digits = this.shown.quantity === "force" ? 2 : 3;
-        const text = el("span", {}, Number.isFinite(value) ? value.toFixed(digits) : "–");
-        if (sensor) text.style.color = seriesColour(sensor, series);
-        return text;
+        const chip = el("span", { class: "chip" });
+        if (sensor) chip.style.background = seriesColour(sensor, series);
+        return el("span", {}, chip, Number.isFinite(value) ? value.toFixed(digits) : "–");
       }),
     );
   }
@@ -214,6 +214,7 @@ export class ComponentPlot implements Drawable {
           label: series.name,
           stroke: colour(series),
           width: series.role === "expected" ? 2 : 1,
+          dash: sensor ? seriesDash(sensor, series).map((length) => length * devicePixelRatio) : [],
           points: { show: false },
         })),
         ...bands.flatMap(() => [0, 1].map(() => ({ width: 0, points: { show: false } }))),

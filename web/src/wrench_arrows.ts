@@ -4,7 +4,7 @@
 import { Group, Matrix3, Matrix4, Vector3 } from "three";
 
 import { Arrow, axes, toMatrix } from "./arrows";
-import { CONTACT, seriesColour } from "./colours";
+import { CONTACT, INK, seriesColour } from "./colours";
 import { compose, IDENTITY, type Pose } from "./kinematics";
 import { label } from "./labels3d";
 import type { Quantity, SceneData } from "./scene_data";
@@ -88,7 +88,7 @@ export class WrenchArrows extends Group {
     frame.matrixAutoUpdate = false;
     frame.matrix = new Matrix4();
     frame.add(axes(0.07 * this.size, 0.002 * this.size, sensor !== null));
-    const text = label(name, sensor === null ? CONTACT : "#1f2430", 0.032 * this.size, true);
+    const text = label(name, sensor === null ? CONTACT : INK, 0.032 * this.size, true);
     text.position.set(0, 0, -0.035 * this.size);
     frame.add(text);
     this.add(frame);
