@@ -71,7 +71,7 @@ export class ErrorOnRobot extends Group {
     const error = sensor && series && this.data.columns.error(sensor, series, state.quantity, 3);
     const worst = error && sample !== null ? error.at(sample) : 0;
     const expected = expectedOf(sensor);
-    const load = expected ? this.data.columns.measured(expected, state.quantity, 3).summary(0, this.data.samples).high : 0;
+    const load = expected?.peak[state.quantity === "force" ? 0 : 1] ?? 0;
     this.metresPer = worst > 0 ? (LONGEST * this.size) / worst : null;
     this.fullColour = load > 0 ? TINTED * load : null;
   }

@@ -43,7 +43,7 @@ export function fromFragment(data: SceneData, fragment: string): Partial<State> 
 /** Keep the fragment of the address as the state is, and the state as a fragment that is typed. */
 export function keepAddress(data: SceneData, store: Store): void {
   let waiting = 0;
-  let written = "";
+  let known = location.hash;
   let first = true;
   store.on(["sample", "sensor", "quantity", "window", "hidden", "large"], () => {
     if (first) {
@@ -52,11 +52,15 @@ export function keepAddress(data: SceneData, store: Store): void {
     }
     clearTimeout(waiting);
     waiting = setTimeout(() => {
-      written = `#${toFragment(data, store.state)}`;
-      history.replaceState(null, "", written);
+      if (location.hash !== known) return; // one that was just typed is about to be shown
+      known = `#${toFragment(data, store.state)}`;
+      history.replaceState(null, "", known);
+      known = location.hash; // as the browser writes it
     }, PATIENCE_MS);
   });
   addEventListener("hashchange", () => {
-    if (location.hash !== written) store.set({ ...fromFragment(data, location.hash), playing: false });
+    if (location.hash === known) return;
+    known = location.hash;
+    store.set({ ...fromFragment(data, known), playing: false });
   });
 }

@@ -2,6 +2,7 @@
 // The scene with its arrays.
 
 import { Columns } from "./columns";
+import { PackedArray } from "./packed";
 import type { ArrayRef, ContactSeries, Scene, Sensor, WrenchSeries } from "./scene_types";
 
 /** What a wrench is made of. */
@@ -18,8 +19,8 @@ type Vector = [number, number, number];
 /** Header and arrays of a scene. */
 export class SceneData {
   readonly time: Float64Array;
-  readonly positions: Float32Array;
-  readonly root: Float32Array;
+  private readonly unpacked = new Map<number, Float32Array>();
+  private readonly packed = new Map<number, PackedArray>();
   /** Quantities over time. */
   readonly columns = new Columns(this);
 
@@ -28,8 +29,6 @@ export class SceneData {
     private readonly block: ArrayBuffer,
   ) {
     this.time = this.doubles(scene.time_s);
-    this.positions = this.floats(scene.positions);
-    this.root = this.floats(scene.root);
   }
 
   /** Number of samples. */
@@ -37,9 +36,30 @@ export class SceneData {
     return this.scene.samples;
   }
 
-  /** Values of a float32 array. */
+  /** Values of a float32 array, unpacked when they are first asked for. */
   floats(ref: ArrayRef): Float32Array {
+    if (ref.packed_bytes !== null) {
+      const values = this.unpacked.get(ref.offset) ?? this.rows(ref).all();
+      this.unpacked.set(ref.offset, values);
+      return values;
+    }
     return new Float32Array(this.block, this.placed(ref, "float32", 4), size(ref));
+  }
+
+  /** Values of one row of a float32 array over time, of which no more than a block is unpacked. */
+  row(ref: ArrayRef, index: number): Float32Array {
+    if (ref.packed_bytes !== null) return this.rows(ref).row(index);
+    const columns = ref.shape[1] ?? 1;
+    return this.floats(ref).subarray(index * columns, (index + 1) * columns);
+  }
+
+  private rows(ref: ArrayRef): PackedArray {
+    const known = this.packed.get(ref.offset);
+    if (known) return known;
+    this.within(ref.offset + (ref.packed_bytes ?? 0));
+    const packed = new PackedArray(this.block, ref.offset, ref.shape[0] ?? 0, ref.shape[1] ?? 0);
+    this.packed.set(ref.offset, packed);
+    return packed;
   }
 
   /** Values of a float64 array. */
@@ -54,14 +74,14 @@ export class SceneData {
 
   /** Force or moment of a series at a sample; NaN where absent. */
   vector(series: WrenchSeries | ContactSeries, sample: number, quantity: Quantity): Vector {
-    const values = this.floats(series.values);
-    const at = 6 * sample + FIRST[quantity];
+    const values = this.row(series.values, sample);
+    const at = FIRST[quantity];
     return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
   }
 
   /** Coordinate of a column at a sample; rad or m; NaN where absent. */
   position(sample: number, column: number): number {
-    return this.positions[sample * this.scene.coordinates.length + column] ?? Number.NaN;
+    return this.row(this.scene.positions, sample)[column] ?? Number.NaN;
   }
 
   /** Whether a coordinate is a length; its joint is then prismatic. */
@@ -108,11 +128,13 @@ export class SceneData {
 
   private placed(ref: ArrayRef, dtype: ArrayRef["dtype"], bytes: number): number {
     if (ref.dtype !== dtype) throw new Error(`expected an array of ${dtype}, got ${ref.dtype}`);
-    if (ref.offset + bytes * size(ref) > this.block.byteLength) {
-      const needed = ref.offset + bytes * size(ref);
-      throw new Error(`an array ends at byte ${needed}, the data are ${this.block.byteLength} bytes long`);
-    }
+    this.within(ref.offset + bytes * size(ref));
     return ref.offset;
+  }
+
+  private within(end: number): void {
+    const { byteLength } = this.block;
+    if (end > byteLength) throw new Error(`an array ends at byte ${end}, the data are ${byteLength} bytes long`);
   }
 }
 

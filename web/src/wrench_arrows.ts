@@ -110,15 +110,10 @@ export class WrenchArrows extends Group {
 
   private unit(quantity: Quantity): number {
     const largest = this.data.scene.sensors.flatMap(({ wrenches }) => {
-      const expected = wrenches.filter(({ role }) => role === "expected").map((one) => this.largest(one, quantity));
-      const known = expected.filter((size) => size > -Infinity);
-      return known.length > 0 ? known : wrenches.map((one) => this.largest(one, quantity));
+      const expected = wrenches.filter(({ role }) => role === "expected");
+      return (expected.length > 0 ? expected : wrenches).map(({ peak }) => peak[quantity === "force" ? 0 : 1] ?? 0);
     });
     const peak = Math.max(0, ...largest);
     return peak > 0 ? (LONGEST * this.size) / peak : 1;
-  }
-
-  private largest(series: WrenchSeries, quantity: Quantity): number {
-    return this.data.columns.measured(series, quantity, 3).summary(0, this.data.samples).high;
   }
 }

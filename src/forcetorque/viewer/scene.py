@@ -22,6 +22,8 @@ class ArrayRef:
     """Its shape."""
     dtype: Literal["float32", "float64", "uint32"]
     """Its type."""
+    packed_bytes: int | None = None
+    """Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,6 +129,8 @@ class WrenchSeries:
     """At most one series of a sensor is expected."""
     calibrated: bool
     """Whether a calibration gives it, and not the prior or the log."""
+    peak: tuple[float, ...]
+    """Largest force and largest moment; N, N m; 0 where all are absent."""
     values: ArrayRef
     """Shape (n, 6) float32; N, N m."""
     deviation: ArrayRef | None

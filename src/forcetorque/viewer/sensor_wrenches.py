@@ -28,7 +28,7 @@ from forcetorque.robot.mechanics.root_motion import joints_to_support
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.model import SensorFrame
 from forcetorque.robot.tree import BodyTree, build_tree
-from forcetorque.viewer.arrays import Block, Priors, SceneDraft
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft, peak
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
@@ -249,6 +249,7 @@ def _series(
         name=name,
         role="expected" if reading is None else "measured",
         calibrated=reading is not None and reading.correction.calibration is not None,
+        peak=peak(values),
         values=block.add(values, "float32"),
         deviation=None if deviation is None else block.add(deviation, "float32"),
         reference_force=sphere,

@@ -14,7 +14,7 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.arrays import Block
+from forcetorque.viewer.arrays import Block, peak
 from forcetorque.viewer.geometry import flat, robot_geometry
 from forcetorque.viewer.posture import scene_joints
 from forcetorque.viewer.scene import (
@@ -234,6 +234,7 @@ def _sensor(
                 name=series,
                 role="expected" if series == "expected" else "measured",
                 calibrated=series.startswith("calibration"),
+                peak=peak(values),
                 values=block.add(values, "float32"),
                 deviation=block.add(DEVIATION * np.abs(truth), "float32") if series.endswith("March") else None,
                 reference_force=reference if series == "expected" else None,
