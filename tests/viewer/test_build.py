@@ -70,9 +70,8 @@ def _notes(built: BuiltScene) -> str:
 
 def _arrays(value: object) -> list[dict[str, object]]:
     if isinstance(value, dict):
-        return (
-            [value] if set(value) == {"offset", "shape", "dtype"} else [a for v in value.values() for a in _arrays(v)]
-        )
+        fields = {"offset", "shape", "dtype", "packed_bytes"}
+        return [value] if set(value) == fields else [a for v in value.values() for a in _arrays(v)]
     return [array for item in value for array in _arrays(item)] if isinstance(value, list) else []
 
 
@@ -86,6 +85,7 @@ def test_the_header_is_json_and_its_arrays_lie_in_the_block(built: BuiltScene) -
     for array in arrays:
         assert array["offset"] % 8 == 0
         assert array["offset"] == end
+        assert array["packed_bytes"] is None
         end += -(-int(np.prod(array["shape"])) * np.dtype(array["dtype"]).itemsize // 8) * 8
     assert end == len(built.block)
 

@@ -41,7 +41,7 @@ def _plots(page: Page, kind: str) -> list[dict[str, Any]]:
 def _over(page: Page, place: int = 0) -> dict[str, float]:
     box = page.locator(".u-over").nth(place).bounding_box()
     assert box is not None
-    return dict(box)
+    return {"x": box["x"], "y": box["y"], "width": box["width"], "height": box["height"]}
 
 
 def _window(page: Page) -> tuple[float, float]:
