@@ -32,7 +32,7 @@ from forcetorque.viewer.scene import scene_json
 from forcetorque.viewer.scene_builder import BuiltScene
 
 MOST_SAMPLES = 200_000
-"""Samples above which a page is not written as one file: that of a humanoid then has some 90 MB, read at once."""
+"""Samples above which a page is not written as one file: that of a humanoid with six sensors then has some 40 MB."""
 
 ASSETS: Traversable = files("forcetorque.viewer") / "assets"
 """The page's template, and the bundle that `make web` builds."""
