@@ -67,9 +67,9 @@ web:
 web-check: $(VENV)/test.stamp
 	$(BIN)/python web/check_bundle.py
 
-# the classes of src/forcetorque/viewer/scene.py as the page reads them
+# the classes of src/forcetorque/viewer/scene.py, and colours, as the page reads them
 web-types: $(VENV)/run.stamp
-	$(BIN)/python -m forcetorque.viewer.typescript web/src/scene_types.ts
+	$(BIN)/python -m forcetorque.viewer.typescript web/src
 
 # uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed; bytecode is made once,
 # where the first commands, and every test process, would otherwise compile all they import

@@ -24,6 +24,7 @@ from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.simulation.trace import record
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import ASSETS, BUNDLE, DATA_URL, MOST_SAMPLES, ViewerServer, page_of, write_page
 from forcetorque.viewer.scene import scene_json
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
@@ -132,7 +133,8 @@ def in_browser(built: BuiltScene, folder: Path, browser: Path, *, rounds: int) -
             write_page(folder / "view.html", built)
             url = (folder / "view.html").as_uri()
         else:
-            server = ViewerServer(page_of(built, data_url=DATA_URL), built.block, None)
+            served = packed(built)
+            server = ViewerServer(page_of(served, data_url=DATA_URL), served.block, None)
             url = stack.enter_context(server).url
         driver = stack.enter_context(sync_playwright())
         program = stack.enter_context(driver.chromium.launch(executable_path=str(browser), args=list(FLAGS)))
@@ -159,7 +161,7 @@ def _page_size(built: BuiltScene, folder: Path) -> int:
         for name in BUNDLE:
             (folder / name).write_text("", encoding="utf-8")
     served = None if built.scene.samples <= MOST_SAMPLES else "data.bin"
-    return len(page_of(built, data_url=served, assets=assets))
+    return len(page_of(packed(built), data_url=served, assets=assets))
 
 
 def _experiment(folder: Path, urdf: Path, samples: int, *, rate_hz: float = 100.0) -> Experiment:

@@ -38,7 +38,7 @@ def _view(file: Path, calibrations: dict[str, Calibration] | None = None, **opti
     return build_scene(load_experiment(file), calibrations or {}, **options)  # type: ignore[arg-type]
 
 
-def _fitted(experiment: Experiment, *, regularisation: float) -> Calibration:
+def _fitted(experiment: Experiment, *, regularisation: float | None) -> Calibration:
     return calibrate_sensor(
         SensorRun(experiment, experiment.sensors[0]),
         code_version="1",
@@ -70,9 +70,8 @@ def _notes(built: BuiltScene) -> str:
 
 def _arrays(value: object) -> list[dict[str, object]]:
     if isinstance(value, dict):
-        return (
-            [value] if set(value) == {"offset", "shape", "dtype"} else [a for v in value.values() for a in _arrays(v)]
-        )
+        fields = {"offset", "shape", "dtype", "packed_bytes"}
+        return [value] if set(value) == fields else [a for v in value.values() for a in _arrays(v)]
     return [array for item in value for array in _arrays(item)] if isinstance(value, list) else []
 
 
@@ -86,6 +85,7 @@ def test_the_header_is_json_and_its_arrays_lie_in_the_block(built: BuiltScene) -
     for array in arrays:
         assert array["offset"] % 8 == 0
         assert array["offset"] == end
+        assert array["packed_bytes"] is None
         end += -(-int(np.prod(array["shape"])) * np.dtype(array["dtype"]).itemsize // 8) * 8
     assert end == len(built.block)
 
@@ -152,6 +152,25 @@ def test_series_are_expected_prior_and_every_calibration(intact: Path) -> None:
     inside = (seconds >= 0.5) & (seconds < 14.0)
     difference = (_values(built, "prior") - _values(built, "expected"))[inside].mean(axis=0)
     np.testing.assert_allclose(difference, 0.0, rtol=0, atol=1e-4)  # its offset is that of the calibration interval
+
+
+def test_deviations_are_those_of_the_posterior_under_the_expected_load(intact: Path) -> None:
+    """Where nothing is expected there is none; a series without a posterior has none at all."""
+    experiment = load_experiment(intact / PARQUET)
+    fitted = _fitted(experiment, regularisation=None)
+    built = build_scene(experiment, {"fitted.json": fitted})
+    (sensor,) = built.scene.sensors
+    assert [series.calibrated for series in sensor.wrenches] == [False, False, True]
+    assert _series(sensor, "prior").deviation is None
+    reference = _series(sensor, "fitted.json").deviation
+    assert reference is not None
+    deviation, expected = read_array(built.block, reference), _values(built, "expected").astype(np.float64)
+    known = np.flatnonzero(np.isfinite(expected).all(axis=1))
+    assert np.array_equal(np.isfinite(deviation).all(axis=1), np.isfinite(expected).all(axis=1))
+    assert fitted.posterior is not None
+    for session, sample in zip(fitted.posterior.sessions[-1:] * 3, known[[0, len(known) // 2, -1]], strict=True):
+        covariance = fitted.posterior.error_covariance(expected[sample], session=session)
+        np.testing.assert_allclose(deviation[sample], np.sqrt(np.diag(covariance)), rtol=1e-5)
 
 
 @pytest.mark.long

@@ -55,6 +55,6 @@ def test_new_source_is_seen(copy: Path) -> None:
 def test_licences_of_all_packages_are_shipped() -> None:
     """What the bundle contains is named with the text of its licence."""
     licences = (ROOT / ASSETS / "THIRD_PARTY_LICENSES.txt").read_text()
-    for package in ("three", "uplot", "mp4-muxer"):
+    for package in ("fflate", "three", "uplot", "mp4-muxer"):
         assert f"\n{package} " in licences
-    assert licences.count("Permission is hereby granted") == 3
+    assert licences.count("Permission is hereby granted") == 4

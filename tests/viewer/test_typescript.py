@@ -10,14 +10,15 @@ from typing import Any
 import pytest
 
 from forcetorque.viewer import scene
-from forcetorque.viewer.typescript import scene_types, typescript_of
+from forcetorque.viewer.typescript import SHARED, scene_types, typescript_of
 
-TYPES = Path(__file__).parents[2] / "web" / "src" / "scene_types.ts"
+SOURCES = Path(__file__).parents[2] / "web" / "src"
 
 
-def test_the_page_has_the_classes_of_the_library() -> None:
-    """The committed TypeScript is what the classes give; `make web-types` writes it."""
-    assert TYPES.read_text(encoding="utf-8") == scene_types()
+@pytest.mark.parametrize("name", SHARED)
+def test_the_page_has_the_classes_and_colours_of_the_library(name: str) -> None:
+    """The committed files are what the library gives; `make web-types` writes them."""
+    assert (SOURCES / name).read_text(encoding="utf-8") == SHARED[name]()
 
 
 def test_every_class_and_every_field_is_there() -> None:

@@ -13,8 +13,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from forcetorque.viewer.packing import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
@@ -110,7 +112,10 @@ def test_a_page_is_served_until_interrupted(run: Run, arm: Path, monkeypatch: py
     result = run("view", PARQUET, "--format", "json").result()
     assert opened == [result["url"]]
     assert b'data-url="data.bin"' in seen[""]
-    assert len(seen["data.bin"]) > 100_000
+    (text,) = re.findall(r'id="scene">(.*?)</script>', seen[""].decode(), re.DOTALL)
+    place = json.loads(text)["positions"]
+    data = seen["data.bin"][place["offset"] : place["offset"] + place["packed_bytes"]]
+    assert np.isfinite(unpack(data, tuple(place["shape"]))).all()
     assert (arm / "parquet.samples.csv").read_text(encoding="utf-8").splitlines()[1].startswith("5,")
     assert (arm / "parquet.intervals.toml").is_file()
     with pytest.raises(OSError, match="refused"):

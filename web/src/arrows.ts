@@ -3,7 +3,7 @@
 
 import { ConeGeometry, CylinderGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 
-import { AXES } from "./colours";
+import { AXES, INK } from "./colours";
 import type { Pose } from "./kinematics";
 import { label } from "./labels3d";
 import type { Quantity } from "./scene_data";
@@ -57,7 +57,7 @@ export function axes(length: number, width: number, named: boolean): Group {
   const group = new Group();
   const directions = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
   directions.forEach((direction, k) => {
-    const colour = AXES[k] ?? "#000000";
+    const colour = AXES[k] ?? INK;
     const arrow = new Arrow(colour, width, "force");
     arrow.point(new Vector3(), direction.clone().multiplyScalar(length));
     group.add(arrow);

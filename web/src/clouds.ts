@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of a sensor's force or moment space, shared by the view in space and the planes.
 
-import { seriesColour } from "./colours";
+import { INK, seriesColour } from "./colours";
 import { ignoredSpans } from "./marks";
 import { FIRST, type Quantity, type SceneData } from "./scene_data";
 import type { Ellipsoid, Sphere, WrenchSeries } from "./scene_types";
 import type { State } from "./store";
 import { everyKth } from "./thin";
+import type { Window } from "./time_window";
 
 /** Most points of all series together. */
 const LIMIT = 20_000;
@@ -34,22 +35,37 @@ export interface Clouds {
   readonly half: number;
 }
 
+const NONE: Clouds = { samples: new Uint32Array(), clouds: [], centre: [0, 0, 0], half: 1 };
+
 /** Makes the clouds of the state, and remembers the last ones. */
 export class CloudMaker {
-  private key = "";
-  private last: Clouds = { samples: new Uint32Array(), clouds: [], centre: [0, 0, 0], half: 1 };
+  private readonly last = {
+    whole: { key: "", clouds: NONE },
+    window: { key: "", clouds: NONE },
+  };
 
   constructor(private readonly data: SceneData) {}
 
-  /** Clouds of all series of the chosen sensor, whether they are shown or not. */
+  /** Clouds of all series of the chosen sensor in the window, whether they are shown or not. */
   of(state: State): Clouds {
+    const { sensor, quantity, window } = state;
     const spans = state.hideIgnored ? ignoredSpans(this.data, state.marks) : [];
-    const key = JSON.stringify([state.sensor, state.quantity, spans.map((s) => [s.start_s, s.end_s])]);
-    if (key !== this.key) {
-      this.key = key;
-      this.last = makeClouds(this.data, state.sensor, state.quantity, spans);
-    }
-    return this.last;
+    const key = JSON.stringify([sensor, quantity, spans.map((s) => [s.start_s, s.end_s])]);
+    const all = this.data.span;
+    const whole = this.remembered("whole", key, () => {
+      const clouds = makeClouds(this.data, sensor, quantity, spans, all);
+      return { ...clouds, ...bounds(clouds.clouds) };
+    });
+    if (window[0] <= all[0] && window[1] >= all[1]) return whole;
+    return this.remembered("window", `${key} ${window.join(" ")}`, () => {
+      const clouds = makeClouds(this.data, sensor, quantity, spans, window);
+      return { ...clouds, centre: whole.centre, half: whole.half }; // what is left stays where it was
+    });
+  }
+
+  private remembered(which: "whole" | "window", key: string, make: () => Clouds): Clouds {
+    if (this.last[which].key !== key) this.last[which] = { key, clouds: make() };
+    return this.last[which].clouds;
   }
 }
 
@@ -58,26 +74,22 @@ function makeClouds(
   place: number,
   quantity: Quantity,
   spans: readonly { start_s: number; end_s: number }[],
-): Clouds {
-  const left = new Uint8Array(data.samples);
-  for (const { start_s, end_s } of spans) left.fill(1, firstAt(data, start_s), firstAt(data, end_s));
+  window: Window,
+): Pick<Clouds, "samples" | "clouds"> {
+  const left = new Uint8Array(data.samples).fill(1);
+  left.fill(0, data.firstAt(window[0]), data.sampleAt(window[1]) + 1);
+  for (const { start_s, end_s } of spans) left.fill(1, data.firstAt(start_s), data.firstAt(end_s));
   const sensor = data.sensor(place);
   const limit = Math.floor(LIMIT / Math.max(1, sensor?.wrenches.length ?? 0));
   const samples = everyKth(data.samples, limit, (i) => left[i] === 0);
   const clouds = (sensor?.wrenches ?? []).map((series) => ({
     series,
-    colour: sensor ? seriesColour(sensor, series) : "#000000",
+    colour: sensor ? seriesColour(sensor, series) : INK,
     points: pick(data.floats(series.values), samples, FIRST[quantity]),
     ellipsoid: quantity === "force" ? series.ellipsoid_force : series.ellipsoid_moment,
     sphere: quantity === "force" ? series.reference_force : series.reference_moment,
   }));
-  return { samples, clouds, ...bounds(clouds) };
-}
-
-/** First sample at or after an instant. */
-function firstAt(data: SceneData, seconds: number): number {
-  const before = data.sampleAt(seconds);
-  return (data.time[before] ?? 0) < seconds ? before + 1 : before;
+  return { samples, clouds };
 }
 
 function pick(values: Float32Array, samples: Uint32Array, first: number): Float32Array {

@@ -1,37 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours that are told apart without colour vision: Okabe and Ito, "Color universal design", 2008.
+// Colours by their role, for the ground that the page opened on.
 
 import type { Sensor, WrenchSeries } from "./scene_types";
+import { ROLES, SURFACES } from "./visual_roles";
 
-/** Ink of text, axes and the expected wrench. */
-export const INK = "#1f2430";
+/** Whether the page has a dark ground, as the system asks for when it opens. */
+export const DARK = matchMedia("(prefers-color-scheme: dark)").matches;
+
+document.documentElement.dataset["ground"] = DARK ? "dark" : "light";
+
+const role = (name: keyof typeof ROLES): string => ROLES[name].colours[DARK ? 1 : 0];
+const surface = (name: keyof typeof SURFACES): string => SURFACES[name][DARK ? 1 : 0];
+
+/** Ink of text and axes. */
+export const INK = surface("ink");
+/** Text and lines of less weight. */
+export const MUTED = surface("muted");
 /** Lines that only guide the eye. */
-export const FAINT = "#c9ced6";
+export const FAINT = surface("guide");
+/** Lines of a grid behind a plot. */
+export const PALE = surface("grid");
+/** Ground of views. */
+export const PAPER = surface("panel");
+/** Light from above and from below. */
+export const [SKY, EARTH] = [surface("sky"), surface("earth")];
 /** Current sample and chosen things. */
-export const ACCENT = "#0072B2";
+export const ACCENT = surface("accent");
 /** Findings. */
-export const ALARM = "#D55E00";
+export const ALARM = role("finding");
+/** Error of a wrench on the robot. */
+export const ERROR = role("limit");
+/** Expected wrench. */
+export const EXPECTED = role("expected");
 /** Axes x, y, z of frames. */
-export const AXES = ["#D55E00", "#009E73", "#0072B2"] as const;
+export const AXES = [role("axis-x"), role("axis-y"), role("axis-z")] as const;
 /** Wrenches of the world on the robot. */
-export const CONTACT = "#7a4a00";
+export const CONTACT = role("contact");
 /** Contacts on skin, and their uncertainty. */
-export const SKIN = "#882255";
+export const SKIN = role("skin");
 /** Contacts whose force is a heuristic. */
-export const HEURISTIC = "#5b6472";
-/** Pressure from none to the largest: lightness alone tells it. */
-export const PRESSURES = ["#f3efe6", "#f2c14e", "#d1495b", "#3b0f70"] as const;
+export const HEURISTIC = role("heuristic");
 /** Tints of intervals by their use. */
-export const USES = { calibration: "#56B4E9", validation: "#009E73", ignore: "#8a8f98" } as const;
+export const USES = {
+  calibration: role("use-calibration"),
+  validation: role("use-validation"),
+  ignore: role("use-ignore"),
+} as const;
 
-const EXPECTED = "#000000";
-const MEASURED = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"] as const;
+const CALIBRATIONS = [
+  "calibration-1",
+  "calibration-2",
+  "calibration-3",
+  "calibration-4",
+  "calibration-5",
+  "calibration-6",
+] as const;
 
-/** Colour of a sensor's series: black if expected, else by its place among the measured ones. */
+/** Role of a sensor's series: expected, prior where no calibration gives it, else by its place among calibrations. */
+function roleOf(sensor: Sensor, series: WrenchSeries): keyof typeof ROLES {
+  if (series.role === "expected") return "expected";
+  if (!series.calibrated) return "prior";
+  const place = sensor.wrenches.filter((one) => one.calibrated).indexOf(series);
+  return CALIBRATIONS[place % CALIBRATIONS.length] ?? CALIBRATIONS[0];
+}
+
+/** Colour of a sensor's series. */
 export function seriesColour(sensor: Sensor, series: WrenchSeries): string {
-  if (series.role === "expected") return EXPECTED;
-  const place = sensor.wrenches.filter((w) => w.role === "measured").indexOf(series);
-  return MEASURED[place % MEASURED.length] ?? MEASURED[0];
+  return role(roleOf(sensor, series));
+}
+
+/** Strokes and gaps of its line, in widths of the line. */
+export function seriesDash(sensor: Sensor, series: WrenchSeries): readonly number[] {
+  return ROLES[roleOf(sensor, series)].dash;
 }
 
 /** The same colour with an opacity from 0 to 1. */

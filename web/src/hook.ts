@@ -3,6 +3,7 @@
 
 import { linkPoses } from "./kinematics";
 import type { PlaneView } from "./planes";
+import type { ComponentPlot, PlotRange } from "./plots";
 import type { SkinShown } from "./skin_view";
 import type { SpaceView } from "./space_view";
 import { makeVideo, type Stage, type VideoOptions } from "./video";
@@ -23,6 +24,8 @@ export interface Hook {
   spacePoint(series: number, sample: number): { x: number; y: number } | null;
   /** The same in a plane: 0 is x-y, 1 is y-z, 2 is x-z. */
   planePoint(plane: number, series: number, sample: number): { x: number; y: number } | null;
+  /** What the drawn time plots show, with the ends of their axes. */
+  plots(): readonly PlotRange[];
   /** Samples whose points are in the clouds. */
   cloudSamples(): number[];
   /** What is drawn of skin: pressed taxels of each patch, and arrows of contacts, tip by tip in the world. */
@@ -38,7 +41,12 @@ declare global {
 }
 
 /** Fill the hook. */
-export function openHook(stage: Stage, space: SpaceView, planes: readonly PlaneView[]): Omit<Hook, "ready"> {
+export function openHook(
+  stage: Stage,
+  space: SpaceView,
+  planes: readonly PlaneView[],
+  plots: readonly ComponentPlot[],
+): Omit<Hook, "ready"> {
   const first = stage.store.state;
   return {
     reset() {
@@ -60,6 +68,7 @@ export function openHook(stage: Stage, space: SpaceView, planes: readonly PlaneV
       return at && { x: box.left + at.x, y: box.top + at.y };
     },
     planePoint: (plane, series, sample) => planes[plane]?.sampleOnScreen(series, sample) ?? null,
+    plots: () => plots.flatMap((plot) => plot.range() ?? []),
     cloudSamples: () => [...space.samples()],
     skin: () => stage.robot.skin.shown(),
     video: async (options = {}) => base64(await makeVideo(stage, options, () => undefined)),

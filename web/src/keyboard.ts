@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Keys that work wherever nothing else takes them.
 
+import { nextEvent, worstSample } from "./points_of_interest";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
+import { moved, zoomed } from "./time_window";
 import { save, step, togglePlay } from "./transport";
+
+const STRETCH = 1.5; // factor of one press
+const SHIFT = 0.25; // share of the window
 
 /** What the keys do, for the help of the page. */
 export const KEYS: readonly (readonly [key: string, does: string])[] = [
   ["← →", "one sample back, on; with Shift ten"],
   ["Home End", "first, last sample"],
   ["Space", "play, pause"],
+  ["w", "worst sample of the validation data in view"],
+  ["n, Shift+n", "next, previous event: interval, finding, saved sample"],
+  ["+ − 0", "stretch, shrink the time in view, all of it; wheel likewise"],
+  ["[ ]", "move the time in view; drag likewise, Shift+drag chooses it"],
+  ["Esc", "forget what was encircled in a plane"],
   ["f t", "force, torque"],
   ["p b e", "the saved sample is a point, begin, end"],
   ["s", "save the sample"],
@@ -22,6 +32,15 @@ export function listen(data: SceneData, store: Store, say: (text: string) => voi
     Home: () => store.set({ sample: 0, playing: false }),
     End: () => store.set({ sample: Math.max(0, data.samples - 1), playing: false }),
     " ": () => togglePlay(data, store),
+    w: () => goToWorst(data, store),
+    n: () => goToEvent(data, store, 1),
+    N: () => goToEvent(data, store, -1),
+    "+": () => stretch(data, store, 1 / STRETCH),
+    "-": () => stretch(data, store, STRETCH),
+    "0": () => store.set({ window: data.span }),
+    "[": () => shift(data, store, -SHIFT),
+    "]": () => shift(data, store, SHIFT),
+    Escape: () => store.set({ selected: [] }),
     f: () => store.set({ quantity: "force" }),
     t: () => store.set({ quantity: "moment" }),
     p: () => store.set({ markKind: "point" }),
@@ -37,6 +56,35 @@ export function listen(data: SceneData, store: Store, say: (text: string) => voi
     event.preventDefault();
     action();
   });
+}
+
+/** Show the sample with the largest error of the validation data in view. */
+export function goToWorst(data: SceneData, store: Store): void {
+  const sample = worstSample(data, store.state);
+  if (sample !== null) store.set({ sample, playing: false });
+}
+
+/** Show where the next event begins, or the one before; the window follows. */
+export function goToEvent(data: SceneData, store: Store, direction: 1 | -1): void {
+  const sample = nextEvent(data, store.state, direction);
+  if (sample === null) return;
+  const { window } = store.state;
+  const now = data.time[sample] ?? 0;
+  const seen = window[0] <= now && now <= window[1];
+  const next = seen ? window : moved(window, now - (window[0] + window[1]) / 2, data.span);
+  store.set({ sample, playing: false, window: next });
+}
+
+function stretch(data: SceneData, store: Store, factor: number): void {
+  const { window, sample } = store.state;
+  const now = data.time[sample] ?? 0;
+  const about = window[0] <= now && now <= window[1] ? now : (window[0] + window[1]) / 2;
+  store.set({ window: zoomed(window, factor, about, data.span, data.samples) });
+}
+
+function shift(data: SceneData, store: Store, share: number): void {
+  const { window } = store.state;
+  store.set({ window: moved(window, share * (window[1] - window[0]), data.span) });
 }
 
 /** Give the arrows back after a choice by mouse: a list or radio button would keep them for itself. */

@@ -25,7 +25,7 @@ export function compose(a: Pose, b: Pose): Pose {
 
 /** Pose of the root link in the world at a sample. */
 export function rootPose(data: SceneData, sample: number): Pose {
-  const values = data.root.subarray(7 * sample, 7 * sample + 7);
+  const values = data.row(data.scene.root, sample);
   const [x = 0, y = 0, z = 0, qw = 1, qx = 0, qy = 0, qz = 0] = values;
   if (values.length < 7 || values.some(Number.isNaN)) return IDENTITY;
   const s = 2 / (qw * qw + qx * qx + qy * qy + qz * qz); // float32 components are a unit only nearly

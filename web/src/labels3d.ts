@@ -3,6 +3,8 @@
 
 import { CanvasTexture, Sprite, SpriteMaterial } from "three";
 
+import { faded, PAPER } from "./colours";
+
 const HEIGHT = 64; // pixels of the texture
 
 /** Make a text; `height` in the units of the scene. */
@@ -21,7 +23,7 @@ export function label(text: string, colour: string, height: number, onTop = fals
     pen.textBaseline = "middle";
     pen.lineWidth = 6;
     pen.lineJoin = "round";
-    pen.strokeStyle = "rgba(255,255,255,0.85)";
+    pen.strokeStyle = faded(PAPER, 0.85);
     pen.strokeText(text, canvas.width / 2, HEIGHT / 2);
     pen.fillStyle = colour;
     pen.fillText(text, canvas.width / 2, HEIGHT / 2);

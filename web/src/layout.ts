@@ -2,17 +2,29 @@
 // Where everything is on the page.
 
 import { button, choice, el } from "./dom";
-import { KEYS } from "./keyboard";
+import { COMPONENTS } from "./columns";
+import { goToEvent, goToWorst, KEYS } from "./keyboard";
+import type { Shown } from "./plots";
 import type { Quantity, SceneData } from "./scene_data";
-import type { Store } from "./store";
+import type { Large, Store } from "./store";
+
+/** Columns of the time plots. */
+const KINDS: readonly Shown["kind"][] = ["error", "measured"];
+
+/** A panel with what is drawn in it. */
+export interface Plot {
+  readonly panel: HTMLElement;
+  readonly shown: Shown;
+}
 
 /** Panels into which views are drawn. */
 export interface Panels {
   readonly robot: HTMLElement;
   readonly space: HTMLElement;
   readonly planes: readonly HTMLElement[];
-  readonly strip: HTMLElement;
-  readonly plots: readonly HTMLElement[];
+  /** Strips of intervals above the plots. */
+  readonly strips: readonly HTMLElement[];
+  readonly plots: readonly Plot[];
   readonly side: HTMLElement;
   /** Text over the robot that says how long arrows are. */
   readonly scale: HTMLElement;
@@ -30,8 +42,7 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
   const space = el("div", { class: "view" });
   const scale = el("p", { class: "overlay" });
   const planes = [0, 1, 2].map(() => el("div", { class: "view" }));
-  const strip = el("div", { class: "strip" });
-  const plots = [0, 1, 2].map(() => el("div", { class: "plot" }));
+  const times = timePlots(data, store);
   const side = el("aside", { class: "side", "aria-label": "Details" });
   const robotTitle = el("div", { class: "tools" });
   const spaceTitle = el("div", { class: "tools" });
@@ -47,18 +58,11 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
   store.on(["large"], () => {
     views.dataset["large"] = store.state.large ?? "";
   });
-  const unzoom = button("Whole recording", () => store.set({ window: data.span }), { class: "unzoom" });
-  store.on(["window"], () => {
-    const [start, end] = data.span;
-    unzoom.hidden = store.state.window[0] === start && store.state.window[1] === end;
-  });
-  const courses = data.scene.sensors.length === 0 ? [] : plots;
-  const time = el("section", { class: "times", "aria-label": "Time plots" }, strip, ...courses, unzoom);
   const app = el(
     "div",
     { class: "app" },
     header(data, store),
-    el("main", {}, views, time),
+    el("main", {}, views, times.root),
     side,
     footer((text) => {
       status.textContent = text;
@@ -68,7 +72,8 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
     const heading = app.querySelector(".space h2");
     if (heading) heading.textContent = store.state.quantity === "force" ? "Force space" : "Torque space";
   });
-  return { robot, space, planes, strip, plots, side, scale, robotTitle, spaceTitle, status, app };
+  const { strips, plots } = times;
+  return { robot, space, planes, strips, plots, side, scale, robotTitle, spaceTitle, status, app };
 }
 
 function header(data: SceneData, store: Store): HTMLElement {
@@ -98,19 +103,83 @@ function header(data: SceneData, store: Store): HTMLElement {
   return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), sensor, quantity, keys);
 }
 
-function panel(
-  store: Store,
-  title: string,
-  name: "robot" | "space" | "planes",
-  tools: HTMLElement,
-  ...content: HTMLElement[]
-): HTMLElement {
+/** Errors on the left, wrenches on the right: a row for each component, those of moments shown when enlarged too. */
+function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<Panels, "strips" | "plots"> {
+  // both show the same: one is enough for who listens
+  const strips = KINDS.map((kind) => el("div", { class: "strip", "aria-hidden": kind === "error" ? null : "true" }));
+  const plots: Plot[] = [];
+  const quantities = ["force", "moment"] as const;
+  const groups = data.scene.sensors.length === 0 ? [] : quantities;
+  const rows = groups.map((quantity) => {
+    const panels = COMPONENTS.flatMap((component) =>
+      KINDS.map((kind) => {
+        const last = component === 3;
+        const panel = el("div", { class: last ? "plot last" : "plot", "data-kind": kind });
+        plots.push({ panel, shown: { kind, quantity, component, last } });
+        return panel;
+      }),
+    );
+    return el("div", { class: `rows ${quantity}` }, ...panels);
+  });
+  const when = el("span", { class: "muted" });
+  store.on(["sample", "hover"], () => {
+    const { sample, hover } = store.state;
+    when.textContent = `at ${(data.time[hover ?? sample] ?? 0).toFixed(3)} s`;
+  });
+  const head = el(
+    "div",
+    { class: "heading columns" },
+    el("h2", {}, "Error: measured − expected ", when),
+    el("h2", {}, "Measured and expected"),
+    timeTools(data, store),
+  );
+  const root = el(
+    "section",
+    { class: "times", "aria-label": "Time plots" },
+    head,
+    el("div", { class: "strips" }, ...strips),
+    ...rows,
+  );
+  store.on(["quantity"], () => {
+    root.dataset["quantity"] = store.state.quantity;
+  });
+  return { root, strips, plots };
+}
+
+function timeTools(data: SceneData, store: Store): HTMLElement {
+  const unzoom = button("Whole recording", () => store.set({ window: data.span }));
+  store.on(["window"], () => {
+    const [start, end] = data.span;
+    unzoom.hidden = store.state.window[0] === start && store.state.window[1] === end;
+  });
+  const tools = el("div", { class: "tools" }, unzoom);
+  if (data.scene.sensors.length > 0) {
+    tools.append(
+      button("Worst sample", () => goToWorst(data, store), { title: "Largest error of the validation data in view (w)" }),
+      button("Next event", () => goToEvent(data, store, 1), { title: "Next interval, finding or saved sample (n)" }),
+      largerButton(store, "time plots", "times"),
+    );
+  }
+  return tools;
+}
+
+function largerButton(store: Store, title: string, name: Large): HTMLButtonElement {
   const larger = button("⤢", () => store.set({ large: store.state.large === name ? null : name }), {
-    "aria-label": `Enlarge ${title.toLowerCase()}`,
+    "aria-label": `Enlarge ${title}`,
     title: "Enlarge",
   });
   store.on(["large"], () => larger.setAttribute("aria-pressed", String(store.state.large === name)));
-  tools.append(larger);
+  return larger;
+}
+
+function panel(
+  store: Store,
+  title: string,
+  name: Large,
+  tools: HTMLElement,
+  ...content: HTMLElement[]
+): HTMLElement {
+  tools.append(largerButton(store, title.toLowerCase(), name));
   const heading = el("div", { class: "heading" }, el("h2", {}, title), tools);
   return el("section", { class: `panel ${name}`, "aria-label": title }, heading, ...content);
 }

@@ -2,6 +2,7 @@
 // Puts the page together.
 
 import "uplot/dist/uPlot.min.css";
+import "./visual_roles.css";
 import "./style.css";
 
 import { CloudMaker } from "./clouds";
@@ -13,14 +14,16 @@ import { listen, releaseAfterMouse } from "./keyboard";
 import { layout, type Panels } from "./layout";
 import { readBlock, readHeader } from "./load";
 import { marksPanel } from "./marks_panel";
-import { openingSample } from "./opening";
+import { fromFragment, keepAddress } from "./permalink";
 import { PlaneView } from "./planes";
-import { AxisPlot } from "./plots";
+import { ComponentPlot } from "./plots";
+import { worstSample } from "./points_of_interest";
 import { RobotView } from "./robot_view";
-import { SceneData } from "./scene_data";
+import { SceneData, UNIT } from "./scene_data";
 import { seriesPanel, switchPanel } from "./series_panel";
 import { skinPanel } from "./skin_panel";
 import { SpaceView } from "./space_view";
+import { StatisticsPanel } from "./statistics_panel";
 import { Store } from "./store";
 import { TimeStrip } from "./time_strip";
 import { player, transport } from "./transport";
@@ -55,11 +58,10 @@ async function start(): Promise<boolean> {
 }
 
 function build(data: SceneData): void {
+  const first = { sensor: 0, quantity: "force", hidden: new Set<string>(), window: data.span } as const;
   const store = new Store({
-    sample: openingSample(data, 0),
-    sensor: 0,
-    quantity: "force",
-    hidden: new Set(),
+    ...first,
+    sample: worstSample(data, first) ?? 0,
     forceArrows: true,
     momentArrows: true,
     allSensors: true,
@@ -70,10 +72,14 @@ function build(data: SceneData): void {
     hideIgnored: false,
     marks: [],
     markKind: "point",
-    window: data.span,
+    hover: null,
+    selected: [],
+    errorOnRobot: true,
+    scaleByCalibrations: false,
     large: null,
     playing: false,
     speed: 1,
+    ...fromFragment(data, location.hash),
   });
   const frames = new Frames();
   const say = (text: string): void => {
@@ -90,31 +96,29 @@ function build(data: SceneData): void {
   panels.spaceTitle.prepend(
     button("⟲", () => space.reset(), { "aria-label": "Reset the space's view", title: "Reset the view" }),
   );
-  store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts", "skin", "skinEvents"], () =>
-    robot.update(store.state),
-  );
-  store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () =>
+  const arrows = ["forceArrows", "momentArrows", "allSensors", "contacts", "errorOnRobot"] as const;
+  store.on(["sample", "sensor", "quantity", "hidden", ...arrows, "skin", "skinEvents"], () => robot.update(store.state));
+  store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks", "window"], () =>
     space.update(store.state),
   );
+  const plots = panels.plots.map(({ panel, shown }) => new ComponentPlot(panel, shown, frames, data, store));
   const planes = connectFlat(panels, frames, data, maker, store);
   const stage: Stage = { data, store, robot, space, flush: () => frames.flush() };
   fillSide(panels, frames, stage, say);
   describe(panels, stage, robot);
   player(data, store);
   listen(data, store, say);
+  keepAddress(data, store);
   releaseAfterMouse();
-  Object.assign(window.ft, openHook(stage, space, planes));
+  Object.assign(window.ft, openHook(stage, space, planes, plots));
   frames.flush();
 }
 
 function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: CloudMaker, store: Store): PlaneView[] {
-  panels.plots.forEach((panel, k) => {
-    const plot = new AxisPlot(panel, ([0, 1, 2] as const)[k] ?? 0, frames, data, store);
-    store.on(["sensor", "quantity", "hidden", "window", "marks"], () => plot.update());
-    store.on(["sample"], () => plot.moveCursor());
-  });
-  const strip = new TimeStrip(panels.strip, frames, data, store);
-  store.on(["window", "marks"], () => strip.update());
+  for (const panel of panels.strips) {
+    const strip = new TimeStrip(panel, frames, data, store);
+    store.on(["window", "marks", "selected"], () => strip.update());
+  }
   return panels.planes.map((panel, k) => {
     const plane = new PlaneView(
       panel,
@@ -130,7 +134,8 @@ function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: Clo
       maker,
       store,
     );
-    store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => plane.update());
+    const drawn = ["sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks", "window", "selected"] as const;
+    store.on(["sample", ...drawn], () => plane.update());
     return plane;
   });
 }
@@ -140,6 +145,7 @@ function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: stri
   const section = (title: string, ...content: HTMLElement[]): HTMLElement =>
     el("section", { "aria-label": title }, el("h2", {}, title), ...content);
   const values = new ValuesPanel(data, store, frames);
+  const statistics = new StatisticsPanel(data, store, frames);
   const joints = new JointsPanel(data, store, frames);
   const provenance = el(
     "details",
@@ -150,6 +156,7 @@ function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: stri
   panels.side.append(
     ...notes(data),
     section("Series", seriesPanel(data, store), values.root),
+    section("Error in view", statistics.root),
     section("Shown", switchPanel(data, store)),
     ...skinPanel(data, store, frames, stage.robot.skin.metresPer),
     section("Saved samples", marksPanel(data, store, say), panels.status),
@@ -165,7 +172,14 @@ function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: stri
 function describe(panels: Panels, { data, store, space }: Stage, robot: RobotView): void {
   const { force, moment } = robot.wrenches.metresPer;
   const round = (unit: number): string => String(Number((0.1 / unit).toPrecision(2)));
-  panels.scale.textContent = `0.1 m of arrow: ${round(force)} N, ${round(moment)} N m`;
+  store.on(["sensor", "quantity", "hidden", "errorOnRobot"], () => {
+    const { quantity, errorOnRobot } = store.state;
+    const { metresPer, fullColour } = robot.error;
+    const known = errorOnRobot && metresPer !== null && fullColour !== null;
+    const limb = known ? Number(fullColour.toPrecision(2)) : 0;
+    const error = known ? `; of error: ${round(metresPer)} ${UNIT[quantity]}; limb red at ${limb} ${UNIT[quantity]}` : "";
+    panels.scale.textContent = `0.1 m of arrow: ${round(force)} N, ${round(moment)} N m${error}`;
+  });
   store.on(["sample", "sensor", "quantity"], () => {
     const { sample, sensor, quantity } = store.state;
     const when = `sample ${sample}, ${(data.time[sample] ?? 0).toFixed(3)} s`;

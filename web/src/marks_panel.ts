@@ -5,6 +5,7 @@ import { button, choice, download, el, fileName } from "./dom";
 import { toAnnotations, toCsv, toToml } from "./exports";
 import { inOrder, markedIntervals, unpaired, type Mark, type Use } from "./marks";
 import type { SceneData } from "./scene_data";
+import { asMarks } from "./selection";
 import type { Store } from "./store";
 
 const USES: readonly (readonly [Use, string])[] = [
@@ -34,7 +35,26 @@ export function marksPanel(data: SceneData, store: Store, say: (text: string) =>
     if (marks.length > 0 && !kept.has(marks)) event.preventDefault(); // the browser asks before they are lost
   });
   const keep = (marks: readonly Mark[]): void => void kept.add(marks);
-  return el("div", {}, list, intervals, exportButtons(data, store, say, keep));
+  return el("div", {}, list, intervals, selectionButtons(data, store, say), exportButtons(data, store, say, keep));
+}
+
+/** What was encircled in a plane may become intervals. */
+function selectionButtons(data: SceneData, store: Store, say: (text: string) => void): HTMLElement {
+  const row = el("div", { class: "row" });
+  store.on(["selected"], () => {
+    const { selected } = store.state;
+    row.hidden = selected.length === 0;
+    const total = selected.reduce((sum, { start_s, end_s }) => sum + end_s - start_s, 0);
+    row.replaceChildren(
+      el("span", { class: "muted" }, `Selected: ${total.toFixed(2)} s in ${selected.length} interval(s)`),
+      button("Save as intervals", () => {
+        store.set({ marks: asMarks(data, selected, store.state.marks), selected: [] });
+        say(`Saved ${selected.length} interval(s).`);
+      }),
+      button("Forget", () => store.set({ selected: [] })),
+    );
+  });
+  return row;
 }
 
 function markRow(mark: Mark, store: Store): HTMLLIElement {

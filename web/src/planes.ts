@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The clouds along each axis: planes x-y, y-z and x-z.
 
-import { FAINT, INK } from "./colours";
+import { faded, FAINT, INK, MUTED, PALE, PAPER } from "./colours";
 import type { Cloud, CloudMaker, Clouds } from "./clouds";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import { UNIT, type SceneData } from "./scene_data";
-import type { Store } from "./store";
+import { contains, spansOf } from "./selection";
+import type { Span, Store } from "./store";
 import { ticks } from "./thin";
 import { asEllipsoid, outline } from "./wireframes";
 
 const MARGIN = { left: 32, right: 6, top: 5, bottom: 16 };
+const MOVED = 4; // pixels after which a click is a drag
 const REACH = 10; // pixels within which a click takes a point
-const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
+const FONT = `${Math.round(0.92 * Number.parseFloat(getComputedStyle(document.body).fontSize))}px system-ui, 'DejaVu Sans', sans-serif`;
 
 /** One planar view. */
 export class PlaneView implements Drawable {
@@ -20,6 +22,8 @@ export class PlaneView implements Drawable {
   private readonly points = document.createElement("canvas");
   private key = "";
   private last: Clouds | null = null;
+  /** What a drag encircles; pixels. */
+  private path: readonly (readonly [number, number])[] = [];
 
   constructor(
     private readonly panel: HTMLElement,
@@ -35,7 +39,7 @@ export class PlaneView implements Drawable {
       "aria-label": `Plane ${"xyz"[i] ?? ""}-${"xyz"[j] ?? ""} of the force or moment space`,
     });
     panel.append(this.canvas);
-    this.canvas.addEventListener("click", (event) => this.jump(event));
+    this.encircle();
     new ResizeObserver(() => frames.later(this)).observe(panel);
   }
 
@@ -72,7 +76,7 @@ export class PlaneView implements Drawable {
     if (width === 0 || height === 0) return;
     const { state } = this.store;
     const clouds = this.maker.of(state);
-    const key = JSON.stringify([width, height, devicePixelRatio, [...state.hidden], state.wireframes]);
+    const key = JSON.stringify([width, height, devicePixelRatio, [...state.hidden], state.wireframes, state.selected]);
     if (key !== this.key || clouds !== this.last) {
       this.key = key;
       this.last = clouds;
@@ -80,12 +84,18 @@ export class PlaneView implements Drawable {
     }
     const pen = prepare(this.canvas, width, height);
     pen.drawImage(this.points, 0, 0, width, height);
+    if (this.path.length > 1) {
+      pen.strokeStyle = INK;
+      pen.beginPath();
+      for (const [x, y] of this.path) pen.lineTo(x, y);
+      pen.stroke();
+    }
     for (const cloud of this.visible(clouds)) {
       const [x, y] = this.place(clouds, this.data.vector(cloud.series, state.sample, state.quantity));
       for (const [radius, colour] of [
-        [6.5, "#ffffff"],
+        [6.5, PAPER],
         [5, cloud.colour],
-        [1.8, "#ffffff"],
+        [1.8, PAPER],
       ] as const) {
         pen.fillStyle = colour;
         pen.beginPath();
@@ -106,15 +116,17 @@ export class PlaneView implements Drawable {
     pen.beginPath();
     pen.rect(left, top, this.panel.clientWidth - left - right, this.panel.clientHeight - top - bottom);
     pen.clip();
+    const { selected } = this.store.state;
+    const chosen = Uint8Array.from(clouds.samples, (sample) => (isIn(selected, this.data.time[sample] ?? 0) ? 1 : 0));
     for (const cloud of this.visible(clouds)) {
-      pen.fillStyle = cloud.colour;
       for (let k = 0; k + 2 < cloud.points.length; k += 3) {
         const [x, y] = this.place(clouds, cloud.points.subarray(k, k + 3));
+        pen.fillStyle = selected.length === 0 || chosen[k / 3] ? cloud.colour : faded(cloud.colour, 0.12);
         if (Number.isFinite(x + y)) pen.fillRect(x - 0.8, y - 0.8, 1.6, 1.6);
       }
       if (!this.store.state.wireframes) continue;
       const shapes = [
-        [cloud.sphere && asEllipsoid(cloud.sphere), "#777777"],
+        [cloud.sphere && asEllipsoid(cloud.sphere), MUTED],
         [cloud.ellipsoid, cloud.colour],
       ] as const;
       for (const [shape, colour] of shapes) {
@@ -141,8 +153,8 @@ export class PlaneView implements Drawable {
     const pixels = Math.min(width - left - right, height - top - bottom) / (2 * clouds.half);
     const reach = [(width - left - right) / 2 / pixels, (height - top - bottom) / 2 / pixels] as const;
     pen.font = FONT;
-    pen.fillStyle = "#59606c";
-    pen.strokeStyle = "#eceff3";
+    pen.fillStyle = MUTED;
+    pen.strokeStyle = PALE;
     pen.textAlign = "center";
     for (const value of ticks(ci - reach[0], ci + reach[0], width / 45)) {
       const x = this.place(clouds, i === 0 ? [value, cj, cj] : [cj, value, cj])[0];
@@ -166,6 +178,47 @@ export class PlaneView implements Drawable {
     pen.fillText(`${letter}${"xyz"[i] ?? ""} [${unit}]`, width - right - 4, height - bottom - 5);
   }
 
+  /** A click goes to a point; a drag chooses what it encircles. */
+  private encircle(): void {
+    let path: [number, number][] | null = null;
+    const at = (event: MouseEvent): [number, number] => {
+      const box = this.canvas.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    this.canvas.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      path = [at(event)];
+      this.canvas.setPointerCapture(event.pointerId);
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      if (path === null) return;
+      path.push(at(event));
+      this.path = path;
+      this.frames.later(this);
+    });
+    this.canvas.addEventListener("pointerup", (event) => {
+      const drawn = path ?? [];
+      [path, this.path] = [null, []];
+      const [x, y] = drawn[0] ?? [0, 0];
+      if (drawn.every(([a, b]) => Math.hypot(a - x, b - y) <= MOVED)) this.jump(event);
+      else this.store.set({ selected: this.within(drawn) });
+      this.frames.later(this);
+    });
+    this.canvas.addEventListener("pointercancel", () => {
+      [path, this.path] = [null, []];
+      this.frames.later(this);
+    });
+  }
+
+  /** Time of the points in a polygon on the canvas. */
+  private within(polygon: readonly [number, number][]): Span[] {
+    const clouds = this.maker.of(this.store.state);
+    const visible = this.visible(clouds);
+    return spansOf(this.data, clouds, (k) =>
+      visible.some(({ points }) => contains(polygon, ...this.place(clouds, points.subarray(3 * k, 3 * k + 3)))),
+    );
+  }
+
   private jump(event: MouseEvent): void {
     const clouds = this.maker.of(this.store.state);
     const box = this.canvas.getBoundingClientRect();
@@ -181,13 +234,17 @@ export class PlaneView implements Drawable {
   }
 }
 
+function isIn(spans: readonly Span[], seconds: number): boolean {
+  return spans.some(({ start_s, end_s }) => start_s <= seconds && seconds < end_s);
+}
+
 function prepare(canvas: HTMLCanvasElement, width: number, height: number): CanvasRenderingContext2D {
   canvas.width = Math.round(width * devicePixelRatio);
   canvas.height = Math.round(height * devicePixelRatio);
   const pen = canvas.getContext("2d");
   if (!pen) throw new Error("this browser draws nothing on a canvas");
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-  pen.fillStyle = "#ffffff";
+  pen.fillStyle = PAPER;
   pen.fillRect(0, 0, width, height);
   return pen;
 }

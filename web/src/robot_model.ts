@@ -18,15 +18,18 @@ import {
 } from "three";
 
 import { toMatrix } from "./arrows";
-import { INK } from "./colours";
+import { ERROR, INK } from "./colours";
 import type { Pose } from "./kinematics";
 import type { SceneData } from "./scene_data";
 import type { Shape } from "./scene_types";
+
+const ERROR_COLOUR = new Color(ERROR);
 
 /** What is drawn of the robot itself. */
 export class RobotModel extends Group {
   private readonly links = new Map<string, Group>();
   private readonly bones: LineSegments | null;
+  private readonly surfaces: { link: string; material: MeshLambertMaterial; own: Color }[] = [];
 
   constructor(private readonly data: SceneData) {
     super();
@@ -58,6 +61,12 @@ export class RobotModel extends Group {
     );
   }
 
+  /** Give some links a share of the colour of errors, and all others their own. */
+  tint(links: ReadonlySet<string>, share: number): void {
+    for (const { link, material, own } of this.surfaces)
+      material.color.copy(own).lerp(ERROR_COLOUR, links.has(link) ? share : 0);
+  }
+
   private solid(shape: Shape): Mesh {
     const [red = 0.7, green = 0.7, blue = 0.7, opacity = 1] = shape.colour;
     const material = new MeshLambertMaterial({
@@ -67,6 +76,7 @@ export class RobotModel extends Group {
       flatShading: true, // scanned and drawn parts alike keep their edges, and files need no normals
       side: DoubleSide,
     });
+    this.surfaces.push({ link: shape.link, material, own: material.color.clone() });
     const mesh = new Mesh(this.surface(shape), material);
     mesh.matrixAutoUpdate = false;
     mesh.matrix.copy(toMatrix(shape.link_H_shape));

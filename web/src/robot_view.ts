@@ -3,6 +3,8 @@
 
 import { Box3, DirectionalLight, GridHelper, HemisphereLight, Vector3 } from "three";
 
+import { EARTH, FAINT, PALE, SKY } from "./colours";
+import { ErrorOnRobot } from "./error_on_robot";
 import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
 import { origin, RobotModel } from "./robot_model";
@@ -18,6 +20,7 @@ const POSTURES = 24;
 export class RobotView extends View3D {
   readonly wrenches: WrenchArrows;
   readonly skin: SkinView;
+  readonly error: ErrorOnRobot;
   private readonly model: RobotModel;
 
   constructor(
@@ -26,9 +29,9 @@ export class RobotView extends View3D {
     private readonly data: SceneData,
   ) {
     super(panel, "Robot in its posture at the current sample", frames);
-    const light = new DirectionalLight("#ffffff", 1.9);
+    const light = new DirectionalLight(SKY, 1.9);
     light.position.set(2, -3, 5);
-    this.scene.add(new HemisphereLight("#ffffff", "#b9bec8", 2.2), light);
+    this.scene.add(new HemisphereLight(SKY, EARTH, 2.2), light);
     this.model = new RobotModel(data);
     this.scene.add(this.model);
     const room = this.reach();
@@ -36,7 +39,8 @@ export class RobotView extends View3D {
     this.wrenches = new WrenchArrows(data, size);
     this.scene.add(this.wrenches);
     this.skin = new SkinView(data, size);
-    this.scene.add(this.skin);
+    this.error = new ErrorOnRobot(data, this.model, size);
+    this.scene.add(this.skin, this.error);
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
     this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
@@ -48,6 +52,7 @@ export class RobotView extends View3D {
     this.model.place(poses);
     this.wrenches.update(state, poses);
     this.skin.update(state, poses);
+    this.error.update(state, poses);
     this.frames.later(this);
   }
 
@@ -67,7 +72,7 @@ export class RobotView extends View3D {
   }
 
   private floor(room: Box3, size: number): void {
-    const grid = new GridHelper(2 * size, 20, "#c9ced6", "#e6e9ee");
+    const grid = new GridHelper(2 * size, 20, FAINT, PALE);
     grid.rotateX(Math.PI / 2); // drawn in x-z, wanted in x-y
     const middle = room.getCenter(new Vector3());
     grid.position.set(middle.x, middle.y, room.min.z);

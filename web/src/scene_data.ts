@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene with its arrays.
 
+import { Columns } from "./columns";
+import { PackedArray } from "./packed";
 import type { ArrayRef, ContactSeries, Scene, Sensor, WrenchSeries } from "./scene_types";
-import { range } from "./thin";
 
 /** What a wrench is made of. */
 export type Quantity = "force" | "moment";
@@ -18,17 +19,16 @@ type Vector = [number, number, number];
 /** Header and arrays of a scene. */
 export class SceneData {
   readonly time: Float64Array;
-  readonly positions: Float32Array;
-  readonly root: Float32Array;
-  private readonly ranges = new Map<string, [number, number] | null>();
+  private readonly unpacked = new Map<number, Float32Array>();
+  private readonly packed = new Map<number, PackedArray>();
+  /** Quantities over time. */
+  readonly columns = new Columns(this);
 
   constructor(
     readonly scene: Scene,
     private readonly block: ArrayBuffer,
   ) {
     this.time = this.doubles(scene.time_s);
-    this.positions = this.floats(scene.positions);
-    this.root = this.floats(scene.root);
   }
 
   /** Number of samples. */
@@ -36,9 +36,30 @@ export class SceneData {
     return this.scene.samples;
   }
 
-  /** Values of a float32 array. */
+  /** Values of a float32 array, unpacked when they are first asked for. */
   floats(ref: ArrayRef): Float32Array {
+    if (ref.packed_bytes !== null) {
+      const values = this.unpacked.get(ref.offset) ?? this.rows(ref).all();
+      this.unpacked.set(ref.offset, values);
+      return values;
+    }
     return new Float32Array(this.block, this.placed(ref, "float32", 4), size(ref));
+  }
+
+  /** Values of one row of a float32 array over time, of which no more than a block is unpacked. */
+  row(ref: ArrayRef, index: number): Float32Array {
+    if (ref.packed_bytes !== null) return this.rows(ref).row(index);
+    const columns = ref.shape[1] ?? 1;
+    return this.floats(ref).subarray(index * columns, (index + 1) * columns);
+  }
+
+  private rows(ref: ArrayRef): PackedArray {
+    const known = this.packed.get(ref.offset);
+    if (known) return known;
+    this.within(ref.offset + (ref.packed_bytes ?? 0));
+    const packed = new PackedArray(this.block, ref.offset, ref.shape[0] ?? 0, ref.shape[1] ?? 0);
+    this.packed.set(ref.offset, packed);
+    return packed;
   }
 
   /** Values of a float64 array. */
@@ -53,24 +74,14 @@ export class SceneData {
 
   /** Force or moment of a series at a sample; NaN where absent. */
   vector(series: WrenchSeries | ContactSeries, sample: number, quantity: Quantity): Vector {
-    const values = this.floats(series.values);
-    const at = 6 * sample + FIRST[quantity];
+    const values = this.row(series.values, sample);
+    const at = FIRST[quantity];
     return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
-  }
-
-  /** Lowest and highest value of a series at one place of its rows; null if all are absent. */
-  range(series: WrenchSeries, place: number): [number, number] | null {
-    const key = `${series.values.offset} ${place}`;
-    const known = this.ranges.get(key);
-    if (known !== undefined) return known;
-    const found = range(this.floats(series.values), place);
-    this.ranges.set(key, found);
-    return found;
   }
 
   /** Coordinate of a column at a sample; rad or m; NaN where absent. */
   position(sample: number, column: number): number {
-    return this.positions[sample * this.scene.coordinates.length + column] ?? Number.NaN;
+    return this.row(this.scene.positions, sample)[column] ?? Number.NaN;
   }
 
   /** Whether a coordinate is a length; its joint is then prismatic. */
@@ -96,6 +107,12 @@ export class SceneData {
     return Math.max(0, low - 1);
   }
 
+  /** First sample at or after an instant; the number of samples if there is none. */
+  firstAt(seconds: number): number {
+    const before = this.sampleAt(seconds);
+    return (this.time[before] ?? seconds) < seconds ? before + 1 : before;
+  }
+
   /** Sample closest to an instant. */
   nearestSample(seconds: number): number {
     const before = this.sampleAt(seconds);
@@ -111,11 +128,13 @@ export class SceneData {
 
   private placed(ref: ArrayRef, dtype: ArrayRef["dtype"], bytes: number): number {
     if (ref.dtype !== dtype) throw new Error(`expected an array of ${dtype}, got ${ref.dtype}`);
-    if (ref.offset + bytes * size(ref) > this.block.byteLength) {
-      const needed = ref.offset + bytes * size(ref);
-      throw new Error(`an array ends at byte ${needed}, the data are ${this.block.byteLength} bytes long`);
-    }
+    this.within(ref.offset + bytes * size(ref));
     return ref.offset;
+  }
+
+  private within(end: number): void {
+    const { byteLength } = this.block;
+    if (end > byteLength) throw new Error(`an array ends at byte ${end}, the data are ${byteLength} bytes long`);
   }
 }
 

@@ -9,6 +9,8 @@ export interface ArrayRef {
   readonly shape: readonly number[];
   /** Its type. */
   readonly dtype: "float32" | "float64" | "uint32";
+  /** Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is. */
+  readonly packed_bytes: number | null;
 }
 
 /**
@@ -99,8 +101,14 @@ export interface WrenchSeries {
   readonly name: string;
   /** At most one series of a sensor is expected. */
   readonly role: "expected" | "measured";
+  /** Whether a calibration gives it, and not the prior or the log. */
+  readonly calibrated: boolean;
+  /** Largest force and largest moment; N, N m; 0 where all are absent. */
+  readonly peak: readonly number[];
   /** Shape (n, 6) float32; N, N m. */
   readonly values: ArrayRef;
+  /** Standard deviation of its error by the posterior of its calibration; shape (n, 6) float32; N, N m; or null. */
+  readonly deviation: ArrayRef | null;
   /** Sphere that gravity draws by the model; on the expected series; N. */
   readonly reference_force: Sphere | null;
   /** The same of the moments; N m. */

@@ -6,9 +6,11 @@ import { checkBox, el } from "./dom";
 import type { SceneData } from "./scene_data";
 import type { State, Store } from "./store";
 
-type Switch = "forceArrows" | "momentArrows" | "allSensors" | "contacts" | "skin" | "skinEvents" | "wireframes" | "hideIgnored";
+type Switch = "errorOnRobot" | "scaleByCalibrations" | "forceArrows" | "momentArrows" | "allSensors" | "contacts" | "skin" | "skinEvents" | "wireframes" | "hideIgnored";
 
 const SWITCHES: readonly (readonly [key: Switch, text: string])[] = [
+  ["errorOnRobot", "Error as an arrow and as the colour of the limb"],
+  ["scaleByCalibrations", "Scale of errors by calibrations alone"],
   ["forceArrows", "Force arrows"],
   ["momentArrows", "Moment arrows (two heads)"],
   ["allSensors", "Arrows of all sensors"],

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the colours of skin mean, and the numbers of its contacts at the current sample.
 
-import { HEURISTIC, PRESSURES, SKIN } from "./colours";
+import { HEURISTIC, SKIN } from "./colours";
+import { PRESSURES } from "./visual_roles";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import type { SceneData } from "./scene_data";

@@ -14,7 +14,8 @@ import {
 } from "three";
 
 import { Arrow, toMatrix } from "./arrows";
-import { HEURISTIC, PRESSURES, SKIN } from "./colours";
+import { HEURISTIC, SKIN } from "./colours";
+import { PRESSURES } from "./visual_roles";
 import type { Pose } from "./kinematics";
 import { label } from "./labels3d";
 import type { SceneData } from "./scene_data";

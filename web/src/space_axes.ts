@@ -4,7 +4,7 @@
 import { BufferGeometry, Group, LineBasicMaterial, LineSegments, Vector3 } from "three";
 
 import type { Clouds } from "./clouds";
-import { AXES, FAINT } from "./colours";
+import { AXES, FAINT, MUTED } from "./colours";
 import { label } from "./labels3d";
 import { UNIT, type Quantity } from "./scene_data";
 import { ticks } from "./thin";
@@ -42,7 +42,7 @@ function scale(clouds: Clouds, quantity: Quantity, axis: number): (Group | LineS
   const values = ticks(middle - clouds.half, middle + clouds.half, 4);
   const strokes = values.flatMap((value) => [along(value, 0), along(value, 0.04)]);
   const ends = [along(middle - clouds.half, 0), along(middle + clouds.half, 0)];
-  const names = values.map((value) => placed(label(String(value), "#59606c", TEXT), along(value, 0.2)));
+  const names = values.map((value) => placed(label(String(value), MUTED, TEXT), along(value, 0.2)));
   const title = label(`${LETTER[quantity]}${"xyz"[axis] ?? ""} [${UNIT[quantity]}]`, colour, 1.15 * TEXT);
   return [lines([...strokes, ...ends], colour), ...names, placed(title, along(middle + 1.2 * clouds.half, 0))];
 }

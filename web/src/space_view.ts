@@ -4,6 +4,7 @@
 import { BufferAttribute, BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
 
 import type { Cloud, CloudMaker, Clouds } from "./clouds";
+import { EXPECTED, PAPER } from "./colours";
 import { empty } from "./dispose";
 import { dotTexture } from "./dot_texture";
 import type { Frames } from "./frames";
@@ -66,7 +67,7 @@ export class SpaceView extends View3D {
       this.fixedParts.add(points(clouds, cloud));
       if (!state.wireframes) continue;
       const lines = new Group();
-      if (cloud.sphere) lines.add(wireframe(asEllipsoid(cloud.sphere), "#000000", 0.22));
+      if (cloud.sphere) lines.add(wireframe(asEllipsoid(cloud.sphere), EXPECTED, 0.22));
       if (cloud.ellipsoid) lines.add(wireframe(cloud.ellipsoid, cloud.colour, 0.45));
       lines.scale.setScalar(1 / clouds.half);
       lines.position.copy(toCube(clouds, [0, 0, 0]));
@@ -82,9 +83,9 @@ export class SpaceView extends View3D {
       if (!Number.isFinite(at.x + at.y + at.z)) continue;
       const geometry = new BufferGeometry().setFromPoints([at]);
       for (const [size, colour] of [
-        [17, "#ffffff"],
+        [17, PAPER],
         [14, cloud.colour],
-        [5, "#ffffff"],
+        [5, PAPER],
       ] as const) {
         const dot = new Points(
           geometry,

@@ -3,6 +3,19 @@
 
 import type { Mark } from "./marks";
 import type { Quantity } from "./scene_data";
+import type { Window } from "./time_window";
+
+/** A part of the time, its end excluded; s. */
+export interface Span {
+  readonly start_s: number;
+  readonly end_s: number;
+}
+
+/** Panels that can be enlarged. */
+export const LARGE = ["robot", "space", "planes", "times"] as const;
+
+/** A panel that can be enlarged. */
+export type Large = (typeof LARGE)[number];
 
 /** What the page shows. */
 export interface State {
@@ -27,9 +40,17 @@ export interface State {
   /** What the next saved sample is. */
   readonly markKind: Mark["mark"];
   /** Instants between which the time plots show; s. */
-  readonly window: readonly [number, number];
+  readonly window: Window;
+  /** Sample under the pointer in a time plot. */
+  readonly hover: number | null;
+  /** Time in which the wrenches lie in what was encircled in a plane. */
+  readonly selected: readonly Span[];
+  /** Whether the error of the chosen sensor is drawn on the robot. */
+  readonly errorOnRobot: boolean;
+  /** Whether the scale of the plots of errors leaves out what no calibration gives. */
+  readonly scaleByCalibrations: boolean;
   /** The panel that takes the place of all views. */
-  readonly large: "robot" | "space" | "planes" | null;
+  readonly large: Large | null;
   readonly playing: boolean;
   /** Seconds of the recording per second. */
   readonly speed: number;

@@ -56,6 +56,11 @@ export class TimeStrip implements Drawable {
     );
     for (const { label, start_s, end_s, use } of intervals) this.bar(pen, start_s, end_s, use, label);
     for (const { start_s, end_s } of findings) this.finding(pen, start_s, end_s);
+    for (const { start_s, end_s } of this.store.state.selected) {
+      const [from, to] = [Math.max(LEFT, this.pixel(start_s)), Math.min(width - RIGHT, this.pixel(end_s))];
+      pen.fillStyle = faded(INK, 0.45);
+      if (to >= from) pen.fillRect(from, 0, Math.max(1, to - from), height);
+    }
     for (const mark of this.store.state.marks) this.flag(pen, mark.time_s, mark.mark);
     pen.fillStyle = INK;
     pen.fillText("intervals", 4, INTERVALS.top + 11);

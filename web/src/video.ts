@@ -5,7 +5,7 @@
 
 import { ArrayBufferTarget, Muxer } from "mp4-muxer";
 
-import { INK, seriesColour } from "./colours";
+import { INK, PAPER, seriesColour } from "./colours";
 import type { RobotView } from "./robot_view";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
@@ -162,7 +162,7 @@ function drawFrame(stage: Stage, canvas: OffscreenCanvas, sample: number): void 
   const pen = canvas.getContext("2d");
   if (!pen) throw new Error("video: this browser draws nothing on a canvas");
   const { width, height } = canvas;
-  pen.fillStyle = "#ffffff";
+  pen.fillStyle = PAPER;
   pen.fillRect(0, 0, width, height);
   pen.drawImage(robot.canvas, 0, 0);
   pen.drawImage(space.canvas, width / 2, 0);

@@ -4,6 +4,7 @@
 import { Color, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+import { PAPER } from "./colours";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 
@@ -35,7 +36,7 @@ export class View3D implements Drawable {
     panel.append(this.canvas);
     if (!this.renderer)
       panel.append(el("p", { class: "overlay absent" }, "This browser draws nothing in 3-D: it has no WebGL 2."));
-    this.scene.background = new Color("#ffffff");
+    this.scene.background = new Color(PAPER);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.addEventListener("change", () => frames.later(this));

@@ -4,7 +4,7 @@
 import { Group, Matrix3, Matrix4, Vector3 } from "three";
 
 import { Arrow, axes, toMatrix } from "./arrows";
-import { CONTACT, seriesColour } from "./colours";
+import { CONTACT, INK, seriesColour } from "./colours";
 import { compose, IDENTITY, type Pose } from "./kinematics";
 import { label } from "./labels3d";
 import type { Quantity, SceneData } from "./scene_data";
@@ -88,7 +88,7 @@ export class WrenchArrows extends Group {
     frame.matrixAutoUpdate = false;
     frame.matrix = new Matrix4();
     frame.add(axes(0.07 * this.size, 0.002 * this.size, sensor !== null));
-    const text = label(name, sensor === null ? CONTACT : "#1f2430", 0.032 * this.size, true);
+    const text = label(name, sensor === null ? CONTACT : INK, 0.032 * this.size, true);
     text.position.set(0, 0, -0.035 * this.size);
     frame.add(text);
     this.add(frame);
@@ -109,17 +109,10 @@ export class WrenchArrows extends Group {
   }
 
   private unit(quantity: Quantity): number {
-    const first = quantity === "force" ? 0 : 3;
-    const all = this.data.scene.sensors.flatMap(({ wrenches }) => {
+    const largest = this.data.scene.sensors.flatMap(({ wrenches }) => {
       const expected = wrenches.filter(({ role }) => role === "expected");
-      return expected.some((series) => this.data.range(series, first) !== null) ? expected : wrenches;
+      return (expected.length > 0 ? expected : wrenches).map(({ peak }) => peak[quantity === "force" ? 0 : 1] ?? 0);
     });
-    const largest = all.flatMap((series) =>
-      [0, 1, 2].map((axis) => {
-        const found = this.data.range(series, first + axis);
-        return found ? Math.max(-found[0], found[1]) : 0;
-      }),
-    );
     const peak = Math.max(0, ...largest);
     return peak > 0 ? (LONGEST * this.size) / peak : 1;
   }

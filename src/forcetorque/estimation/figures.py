@@ -15,6 +15,8 @@ from forcetorque.base.errors import ShapeError, UnitError, known_names
 from forcetorque.base.units import NORMAL_95
 from forcetorque.results.figures import (
     DRAWN_SAMPLES,
+    GRID,
+    MUTED,
     REFERENCE_COLOUR,
     ROW_INCHES,
     Look,
@@ -24,7 +26,7 @@ from forcetorque.results.figures import (
     in_figure_style,
     instants,
     legend_below,
-    look,
+    looks,
     new_figure,
     shown_name,
     text_inches,
@@ -85,13 +87,14 @@ def contact_figure(
     figure = new_figure(4 * _ROW_HEIGHT)
     panels = figure.subplots(4, 1, sharex=True, height_ratios=(1.6, 1.0, 1.0, 1.0))
     keys = []
+    styles = looks(list(by_name))
     for k, (name, values) in enumerate(by_name.items()):
         columns = np.column_stack([np.linalg.norm(values, axis=1), values])
         at, lines = _thinned(sessions, columns)
         for row, panel in enumerate(panels):
-            draw_over_time(panel, at, lines[:, row], look(k), turn=k, count=len(by_name))
+            draw_over_time(panel, at, lines[:, row], styles[name], turn=k, count=len(by_name))
         magnitudes = np.concatenate([columns[session.samples, 0] for session in sessions])
-        keys.append((f"{shown_name(name)}: {_mean(magnitudes, unit)}", look(k).key | {"linestyle": "-"}))
+        keys.append((f"{shown_name(name)}: {_mean(magnitudes, unit)}", styles[name].key | {"linestyle": "-"}))
     for panel, label in zip(panels, _AXES[unit], strict=True):
         _dress(panel, f"{label}, {unit}", sessions)
     figure.align_ylabels()
@@ -143,10 +146,10 @@ def _mean(magnitudes: FloatArray, unit: str) -> str:
 def _dress(panel: Axes, label: str, sessions: list[_Session]) -> None:
     panel.set_ylabel(label)
     panel.margins(x=0.005)
-    panel.grid(visible=True, axis="y", color="0.9", linewidth=0.6)
+    panel.grid(visible=True, axis="y", color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
     for session in sessions[1:]:
-        panel.axvline(session.time_s[0], color="0.4", linestyle=(0, (4, 3)), linewidth=min(1.0, 16.0 / len(sessions)))
+        panel.axvline(session.time_s[0], color=MUTED, linestyle=(0, (4, 3)), linewidth=min(1.0, 16.0 / len(sessions)))
 
 
 def _name_sessions(panel: Axes, sessions: list[_Session]) -> None:
@@ -228,20 +231,18 @@ def torque_figure(
     truth = None if reference is None else drawable(reference[1], name="reference", shape=shape)
     figure = new_figure(0.6 * ROW_INCHES[1] * len(joints))
     panels = figure.subplots(len(joints), 1, sharex=True, squeeze=False)[:, 0]
+    styles = looks(list(torques))
     for column, (panel, joint) in enumerate(zip(panels, joints, strict=True)):
         for k, (name, torque) in enumerate(torques.items()):
             sd = spread[name][:, column] if name in spread else None
-            _draw(panel, time, torque[:, column], sd, look(k), turn=k, count=len(torques))
+            _draw(panel, time, torque[:, column], sd, styles[name], turn=k, count=len(torques))
         if truth is not None:
             at, lines = thinned_line(time, truth[:, column, None])
             panel.plot(at, lines[:, 0], **_REFERENCE)
         panel.set_ylabel(f"{shown_name(joint)}, N m")
     figure.align_ylabels()
     panels[-1].set_xlabel("time, s")
-    keys = [
-        (_named(name, torque, truth), look(k).key | {"linestyle": "-"})
-        for k, (name, torque) in enumerate(torques.items())
-    ]
+    keys = [(_named(name, torque, truth), styles[name].key | {"linestyle": "-"}) for name, torque in torques.items()]
     legend_below(figure, [*keys, *([] if reference is None else [(shown_name(reference[0]), _REFERENCE)])])
     return figure
 

@@ -15,6 +15,9 @@ from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, polic
 from forcetorque.locomotion.standing.interval import IntervalBalance
 from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
 from forcetorque.results.figures import (
+    GRID,
+    MUTED,
+    PAPER,
     REFERENCE_COLOUR,
     ROW_INCHES,
     Look,
@@ -22,6 +25,7 @@ from forcetorque.results.figures import (
     in_figure_style,
     legend_below,
     look,
+    looks,
     new_figure,
     shown_name,
     thinned_line,
@@ -148,30 +152,30 @@ def coherence_figure(result: Coherence) -> Figure:
     """
     offsets = list(dict.fromkeys((row.offset, row.offset_interval) for row in result.rows))
     names = short_names([row.calibration for row in result.rows])
-    looks = {candidate: look(k) for k, candidate in enumerate(names)}
+    styles = looks(list(dict.fromkeys(names)))
     figure = new_figure(ROW_INCHES[1] * len(offsets))
     for line, panels in zip(offsets, figure.subplots(len(offsets), 3, squeeze=False, sharey="row"), strict=True):
         rows = [row for row in result.rows if (row.offset, row.offset_interval) == line]
         for axis, panel in enumerate(panels):
-            _draw_coherence(panel, rows, looks, axis)
+            _draw_coherence(panel, rows, styles, axis)
             panel.set_title(f"E{'xyz'[axis]}", loc="left")
         panels[0].set_ylabel(shown_name(f"{policy_words(*line)}; N"))
     keys: list[tuple[str, dict[str, Any]]] = [
         (shown_name(names[candidate]), {"color": one.colour, "marker": one.marker, "linestyle": "none"})
-        for candidate, one in looks.items()
+        for candidate, one in styles.items()
     ]
     if not all(row.evidence for row in result.rows):
-        hollow = {"color": "0.4", "marker": "o", "markerfacecolor": "white", "linestyle": "none"}
+        hollow = {"color": MUTED, "marker": "o", "markerfacecolor": PAPER, "linestyle": "none"}
         keys.append(("not evidence: the phase gave offset or matrix", hollow))
     legend_below(figure, keys)
     return figure
 
 
-def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Look], axis: int) -> None:
+def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], styles: dict[str, Look], axis: int) -> None:
     phases = list(dict.fromkeys(row.phase for row in rows))
-    shift = dict(zip(looks, _SPREAD * (np.linspace(0.0, 1.0, len(looks) + 2)[1:-1] - 0.5), strict=True))
+    shift = dict(zip(styles, _SPREAD * (np.linspace(0.0, 1.0, len(styles) + 2)[1:-1] - 0.5), strict=True))
     for row in rows:
-        one, x = looks[row.calibration], phases.index(row.phase) + shift[row.calibration]
+        one, x = styles[row.calibration], phases.index(row.phase) + shift[row.calibration]
         half = row.force_half_width_95_N[axis]
         panel.errorbar(
             [x],
@@ -180,11 +184,11 @@ def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Lo
             color=one.colour,
             marker=one.marker,
             markersize=5.0,
-            markerfacecolor=one.colour if row.evidence else "white",
+            markerfacecolor=one.colour if row.evidence else PAPER,
             linewidth=1.0,
             capsize=2.0,
         )
-    panel.axhline(0.0, color="0.5", linewidth=0.8, zorder=0)
+    panel.axhline(0.0, color=MUTED, linewidth=0.8, zorder=0)
     turned = max(map(len, phases)) * len(phases) > 3 * _LONGEST_LABEL
     panel.set_xticks(
         range(len(phases)),
@@ -193,7 +197,7 @@ def _draw_coherence(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Lo
         ha="right" if turned else "center",
     )
     panel.set_xlim(-0.6, len(phases) - 0.4)
-    panel.grid(visible=True, axis="y", color="0.9", linewidth=0.6)
+    panel.grid(visible=True, axis="y", color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 

@@ -37,6 +37,7 @@ from forcetorque.results.table import Table, short_names, table_of, without_vagu
 from forcetorque.sensor.bandwidth.bandwidth import Response
 from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.report_blocks import skin_section
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import MOST_SAMPLES, page_of
 from forcetorque.viewer.scene_builder import scene_of
 
@@ -332,7 +333,7 @@ def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str
             "out and serve them with `forcetorque view`"
         )
     page = Page(
-        html=page_of(built),
+        html=page_of(packed(built)),
         title=f"Viewer of {experiment.name}",
         instead=f"The HTML file has a viewer here; `forcetorque view {path}` opens it too.",
     )

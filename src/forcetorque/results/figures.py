@@ -17,6 +17,7 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import MissingExtraError, ShapeError, install_line
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.recording.alignment import GAP_PERIODS
+from forcetorque.results.visual_roles import CALIBRATIONS, EXPECTED, HIGHLIGHT, LIMIT, PRIOR, SURFACES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,12 +30,16 @@ DOTS_PER_INCH = 100
 ROW_INCHES = (12.0, 3.6)
 """Width of every figure and usual height of one of its rows; inch."""
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
-"""The palette of Okabe and Ito, which the colour-blind tell apart; the faint yellow comes last."""
-REFERENCE_COLOUR = "#000000"
+COLOURS = (*(role.colour for role in CALIBRATIONS), EXPECTED.colour, HIGHLIGHT)
+"""Colours that the colour-blind tell apart; the faint yellow comes last."""
+REFERENCE_COLOUR = EXPECTED.colour
 """Colour of what the others are compared with; no `look` has it."""
+PAPER, MUTED, GUIDE, GRID = (SURFACES[name][0] for name in ("panel", "muted", "guide", "grid"))
+"""Colours of the ground, of what has less weight, of lines that guide the eye, and of a grid."""
 REFERENCE_LINE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.6}
 """Line of what the others are compared with, such as a limit."""
+LIMIT_LINE: dict[str, Any] = {"color": LIMIT.colour, "linestyle": (0, LIMIT.dash), "linewidth": 1.6}
+"""Line of what must not be exceeded."""
 THIN_REFERENCE_LINE: dict[str, Any] = {**REFERENCE_LINE, "linewidth": 1.2}
 """The same in small panels."""
 
@@ -64,7 +69,7 @@ LONGEST_NAME = 60
 _LEGEND_ROW_INCHES, _KEY_INCHES = 0.22, 0.82
 """Height of a row of a legend, and width of what stands beside its text; inch."""
 
-_HUES = COLOURS[:6]
+_HUES = COLOURS[: len(CALIBRATIONS)]
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2, 1, 2)), (0, (1, 1)))
 
@@ -97,6 +102,23 @@ def look(k: int) -> Look:
     """
     return Look(colour=_HUES[k % len(_HUES)], marker=_MARKERS[k % len(_MARKERS)], dashes=_DASHES[k % len(_DASHES)])
 
+
+def looks(names: Sequence[str]) -> dict[str, Look]:
+    """Looks of curves by name: grey for the prior and for what was logged, blue and on for calibrations.
+
+    Args:
+        names: Names of curves.
+
+    Returns:
+        The look of each.
+    """
+    others = [name for name in names if name not in _BEFORE]
+    before = Look(colour=PRIOR.colour, marker=PRIOR.marker, dashes=(0, PRIOR.dash))
+    return {name: before if name in _BEFORE else look(others.index(name)) for name in names}
+
+
+_BEFORE = ("prior", "logged")
+"""Names of curves before a calibration."""
 
 _P = ParamSpec("_P")
 
@@ -411,7 +433,7 @@ def draw_over_time(panel: Axes, time_s: FloatArray, values: FloatArray, style: L
         linewidth=1.0,
         marker=style.marker,
         markersize=6.5,
-        markeredgecolor="white",
+        markeredgecolor=PAPER,
         markeredgewidth=0.6,
         markevery=[int(k) for k in points if np.isfinite(values[k])],
     )

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.results.figures import (
     COLOURS,
+    LIMIT_LINE,
     REFERENCE_COLOUR,
     ROW_INCHES,
     in_figure_style,
@@ -21,6 +22,7 @@ from forcetorque.results.figures import (
     thinned_cloud,
     thinned_line,
 )
+from forcetorque.results.visual_roles import LIMIT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,8 +67,9 @@ def gain_figure(sensors: Sequence[SensorGains]) -> Figure:
 def _draw_range(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: str) -> None:
     limit = gains.limit_counts
     for sign in (-1.0, 1.0):
-        panel.axhline(sign * limit, color="black", linestyle="--", linewidth=1.0)
-        panel.axhspan(sign * (1.0 - gains.margin) * limit, sign * limit, color="black", alpha=0.08, linewidth=0.0)
+        near = sign * (1.0 - gains.margin) * limit
+        panel.axhline(sign * limit, **LIMIT_LINE)
+        panel.axhspan(near, sign * limit, color=LIMIT.colour, alpha=0.08, linewidth=0.0)
     time, drawn = thinned_line(gains.time_s, counts)
     for k, channel in enumerate(gains.channels):
         # channels beyond the palette share a colour and differ in style

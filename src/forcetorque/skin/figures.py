@@ -12,6 +12,8 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.results.figures import (
     COLOURS,
+    GRID,
+    PAPER,
     PLANES,
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -101,7 +103,7 @@ def _draw_plane(panel: Axes, places: FloatArray, arrows: FloatArray, plane: tupl
     panel.set_ylabel(f"{'xyz'[plane[1]]}, mm", labelpad=0.0)
     panel.set_aspect("equal", adjustable="datalim")
     panel.tick_params(labelsize=SMALL_PANEL_POINTS)
-    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.grid(visible=True, color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 
@@ -229,7 +231,7 @@ def _draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> None
     across, along = 1e3 * picture.places.T
     facets = Triangulation(across, along, picture.triangles)
     drawn = panel.tripcolor(facets, picture.pressed_kPa, shading="gouraud", cmap="cividis")
-    panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color="#FFFFFF")
+    panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color=PAPER)
     bar = figure.colorbar(drawn, ax=panel)
     bar.set_label("pressure, kPa")
     panel.set_aspect("equal")

@@ -28,6 +28,7 @@ from forcetorque.calibration.figures.lambda_curves import (
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, ValidationSet
 from forcetorque.results.figures import (
+    MUTED,
     REFERENCE_COLOUR,
     ROW_INCHES,
     drawable_each,
@@ -309,4 +310,4 @@ def _keys(hues: list[str], kinds: list[str]) -> list[tuple[str, dict[str, Any]]]
     if len(hues) == 1:
         return [(shown_name(kind), look(k).key) for k, kind in enumerate(kinds)]
     sets = [(shown_name(name), {"color": look(k).colour, "linewidth": 5.0}) for k, name in enumerate(hues)]
-    return sets + [(shown_name(kind), look(k).key | {"color": "0.35"}) for k, kind in enumerate(kinds)]
+    return sets + [(shown_name(kind), look(k).key | {"color": MUTED}) for k, kind in enumerate(kinds)]

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
@@ -67,6 +68,19 @@ def read_array(block: bytes, reference: ArrayRef) -> npt.NDArray[Any]:
     dtype = np.dtype(reference.dtype).newbyteorder("<")
     count = int(np.prod(reference.shape))
     return np.frombuffer(block, dtype=dtype, count=count, offset=reference.offset).reshape(reference.shape)
+
+
+def peak(wrenches: npt.NDArray[Any]) -> tuple[float, float]:
+    """Find the largest force and the largest moment.
+
+    Args:
+        wrenches: Wrenches, NaN where absent; shape (n, 6); N, N m.
+
+    Returns:
+        Largest norm of each; N, N m; 0 where all are absent.
+    """
+    force, moment = (np.linalg.norm(wrenches[:, part], axis=1) for part in FORCE_AND_MOMENT)
+    return float(np.nanmax(force, initial=0.0)), float(np.nanmax(moment, initial=0.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -126,14 +126,16 @@ def _refuse_contradictions(output: Path | None, port: int | None, video: Path | 
 def _serve(
     path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format, *, details: bool
 ) -> None:
+    from forcetorque.viewer.packing import packed
     from forcetorque.viewer.page import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer, page_of
     from forcetorque.viewer.scene_builder import View
 
     log = start_logging()
-    page = page_of(built, data_url=DATA_URL, annotations_url=ANNOTATIONS_URL)
+    served = packed(built)
+    page = page_of(served, data_url=DATA_URL, annotations_url=ANNOTATIONS_URL)
     session = Session(path, built, log.info)
     try:  # around all of it: who reads the address may interrupt before the command waits
-        with ViewerServer(page, built.block, session.save, port=port) as server:
+        with ViewerServer(page, served.block, session.save, port=port) as server:
             show(View.of(built).model_copy(update={"url": server.url}), output_format, details=details)
             sys.stdout.flush()
             if open_browser and not _opened(server.url):

@@ -24,7 +24,7 @@ from forcetorque.recording.alignment import gap_limit_ns, seconds_since
 from forcetorque.recording.recording import Use
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.tree import build_tree
-from forcetorque.viewer.arrays import Block, Priors, SceneDraft
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft, peak
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import ContactSeries, Sensor, WrenchSeries
@@ -198,7 +198,10 @@ def _part(place: tuple[str, str], residuals: Sequence[PartResidual], seconds: Fl
             WrenchSeries(
                 name=series,
                 role="measured",
+                calibrated=series == _AFTER,
+                peak=peak(values),
                 values=block.add(values, "float32"),
+                deviation=None,
                 reference_force=None,
                 reference_moment=None,
                 ellipsoid_force=None,

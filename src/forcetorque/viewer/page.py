@@ -27,11 +27,12 @@ from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.validation_text import first_error
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.scene import scene_json
 from forcetorque.viewer.scene_builder import BuiltScene
 
 MOST_SAMPLES = 200_000
-"""Samples above which a page is not written as one file: that of a humanoid then has some 90 MB, read at once."""
+"""Samples above which a page is not written as one file: that of a humanoid with six sensors then has some 40 MB."""
 
 ASSETS: Traversable = files("forcetorque.viewer") / "assets"
 """The page's template, and the bundle that `make web` builds."""
@@ -111,7 +112,7 @@ def write_page(path: Path, built: BuiltScene, *, assets: Traversable | None = No
             f"{path}: expected at most {MOST_SAMPLES} samples for one file, got {built.scene.samples}; leave out "
             "--output to look at all of them from this machine"
         )
-    page = page_of(built, assets=assets)
+    page = page_of(packed(built), assets=assets)
     write_bytes_atomically(path, page)
     return len(page)
 

@@ -22,6 +22,8 @@ class ArrayRef:
     """Its shape."""
     dtype: Literal["float32", "float64", "uint32"]
     """Its type."""
+    packed_bytes: int | None = None
+    """Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,8 +127,14 @@ class WrenchSeries:
     """What it is, in words."""
     role: Literal["expected", "measured"]
     """At most one series of a sensor is expected."""
+    calibrated: bool
+    """Whether a calibration gives it, and not the prior or the log."""
+    peak: tuple[float, ...]
+    """Largest force and largest moment; N, N m; 0 where all are absent."""
     values: ArrayRef
     """Shape (n, 6) float32; N, N m."""
+    deviation: ArrayRef | None
+    """Standard deviation of its error by the posterior of its calibration; shape (n, 6) float32; N, N m; or null."""
     reference_force: Sphere | None
     """Sphere that gravity draws by the model; on the expected series; N."""
     reference_moment: Sphere | None

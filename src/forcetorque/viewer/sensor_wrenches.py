@@ -28,13 +28,15 @@ from forcetorque.robot.mechanics.root_motion import joints_to_support
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.model import SensorFrame
 from forcetorque.robot.tree import BodyTree, build_tree
-from forcetorque.viewer.arrays import Block, Priors, SceneDraft
+from forcetorque.viewer.arrays import Block, Priors, SceneDraft, peak
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
 
 _SPHERE_SAMPLES = 50_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""
+_COVARIANCES = 20_000
+"""Covariances that are held at once."""
 LOGGED = "logged"
 """Name of the series of a stream that holds wrenches."""
 
@@ -75,12 +77,13 @@ def scene_sensor(
     by_candidate = _spheres(experiment, sensor, calibrations, draft)
     series = []
     if np.isfinite(expected).any():
-        series.append(_series("expected", "expected", draft.block, expected, sphere=_weight(by_candidate)))
+        series.append(_series("expected", draft.block, expected, sphere=_weight(by_candidate)))
     for reading in readings:
         values = _values(experiment, sensor, reading.correction, posture.stamp_ns, draft)
         offset = reading.correction.model.offset if reading.candidate == PRIOR else np.zeros(6)
         fits = _ellipsoids(by_candidate.get(reading.candidate), offset)
-        series.append(_series(reading.name, "measured", draft.block, values, force=fits[0], moment=fits[1]))
+        deviation = _deviation(experiment, reading.correction, expected, posture)
+        series.append(_series(reading.name, draft.block, values, reading, deviation, force=fits[0], moment=fits[1]))
     tag = experiment.model.sensor(sensor.name)
     joint = experiment.model.joints[tag.joint]
     ends = (joint.child, joint.parent)
@@ -139,6 +142,25 @@ def _values(
     except ForceTorqueError as error:
         draft.notes.append(f"sensor {sensor.name!r}: no reading by {correction.source}: {error}")
         return np.full((len(at_ns), 6), np.nan)
+
+
+def _deviation(
+    experiment: Experiment, correction: Correction, expected: FloatArray, posture: Posture
+) -> FloatArray | None:
+    """Standard deviation of the error under the expected wrench, with the offset of each interval's session."""
+    posterior = None if correction.calibration is None else correction.calibration.posterior
+    if posterior is None:
+        return None
+    deviation = np.full_like(expected, np.nan)
+    for interval in experiment.recording.intervals:
+        inside = np.flatnonzero(interval.holds(posture.stamp_ns) & np.isfinite(expected).all(axis=1))
+        names = experiment.session_names(interval.label)
+        session = next((name for name in names if name in posterior.sessions), posterior.sessions[-1])
+        for start in range(0, len(inside), _COVARIANCES):
+            rows = inside[start : start + _COVARIANCES]
+            covariance = posterior.error_covariance(expected[rows], session=session)
+            deviation[rows] = np.sqrt(np.maximum(np.einsum("nii->ni", covariance), 0.0))
+    return deviation
 
 
 def _spheres(
@@ -214,9 +236,10 @@ def _ellipsoid(fit: EllipsoidFit | None, offset: FloatArray) -> Ellipsoid | None
 
 def _series(
     name: str,
-    role: str,
     block: Block,
     values: FloatArray,
+    reading: _Reading | None = None,
+    deviation: FloatArray | None = None,
     *,
     sphere: Sphere | None = None,
     force: Ellipsoid | None = None,
@@ -224,8 +247,11 @@ def _series(
 ) -> WrenchSeries:
     return WrenchSeries(
         name=name,
-        role="expected" if role == "expected" else "measured",
+        role="expected" if reading is None else "measured",
+        calibrated=reading is not None and reading.correction.calibration is not None,
+        peak=peak(values),
         values=block.add(values, "float32"),
+        deviation=None if deviation is None else block.add(deviation, "float32"),
         reference_force=sphere,
         reference_moment=None,
         ellipsoid_force=force,

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The classes of a scene as TypeScript: `python -m forcetorque.viewer.typescript web/src/scene_types.ts`."""
+"""What the page shares with the library, in files for its bundle: `python -m forcetorque.viewer.typescript web/src`."""
 
 from __future__ import annotations
 
 import ast
 import dataclasses
 import inspect
+import json
 import sys
 import types
 from pathlib import Path
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.results.visual_roles import PRESSURES, SURFACES, css_variables, named_roles
 from forcetorque.viewer import scene
 
-_HEAD = (
-    "// SPDX-License-Identifier: BSD-3-Clause",
-    "// Written by `make web-types` from src/forcetorque/viewer/scene.py; change that file instead.",
-)
+_LICENCE = "SPDX-License-Identifier: BSD-3-Clause"
+_ORIGIN = "Written by `make web-types` from src/forcetorque/{file}; change that file instead."
 _WORDS = {str: "string", int: "number", float: "number", bool: "boolean", type(None): "null"}
 
 
@@ -30,7 +30,42 @@ def scene_types() -> str:
     classes = [
         member for member in vars(scene).values() if inspect.isclass(member) and dataclasses.is_dataclass(member)
     ]
-    return "\n\n".join(["\n".join(_HEAD), *map(_interface, classes)]) + "\n"
+    return "\n\n".join([_head("viewer/scene.py"), *map(_interface, classes)]) + "\n"
+
+
+def visual_roles() -> str:
+    """Write the visual roles as TypeScript.
+
+    Returns:
+        Text of the module.
+    """
+    roles = {
+        name: {"word": role.word, "colours": [role.colour, role.dark], "dash": list(role.dash)}
+        for name, role in named_roles().items()
+    }
+    constants = {"ROLES": roles, "SURFACES": SURFACES, "PRESSURES": PRESSURES}
+    lines = [f"export const {name} = {json.dumps(value, indent=2)} as const;" for name, value in constants.items()]
+    return "\n\n".join([_head("results/visual_roles.py"), *lines]) + "\n"
+
+
+def visual_style() -> str:
+    """Write the visual roles as variables of a style sheet: for a light ground, a dark one, and paper.
+
+    Returns:
+        Text of the style sheet.
+    """
+    light, dark = (css_variables(dark=ground) for ground in (False, True))
+    head = "\n".join(f"/* {line} */" for line in (_LICENCE, _ORIGIN.format(file="results/visual_roles.py")))
+    paper = "@media print {\n:root[data-ground] {\n" + light + "\n}\n}\n"
+    return f'{head}\n:root {{\n{light}\n}}\n:root[data-ground="dark"] {{\n{dark}\n}}\n{paper}'
+
+
+SHARED = {"scene_types.ts": scene_types, "visual_roles.ts": visual_roles, "visual_roles.css": visual_style}
+"""Files in the folder of the page's sources, and what writes them."""
+
+
+def _head(file: str) -> str:
+    return "\n".join(f"// {line}" for line in (_LICENCE, _ORIGIN.format(file=file)))
 
 
 def _interface(cls: type) -> str:
@@ -89,4 +124,5 @@ def _comment(text: str, indent: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    write_bytes_atomically(Path(sys.argv[1]), scene_types().encode())
+    for name, text in SHARED.items():
+        write_bytes_atomically(Path(sys.argv[1]) / name, text().encode())

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.excitation import excitation_figure
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
-from forcetorque.results.figures import look, png_bytes
+from forcetorque.results.figures import PAPER, REFERENCE_COLOUR, look, png_bytes
 from tests.report.drawing import excitation_of_sensors, legend_of, panels, words
 
 TURN = np.sqrt(0.5)
@@ -60,7 +60,7 @@ def test_directions_are_written_with_their_largest_part_positive(drawn: list[Fig
     written = np.reshape([text.get_text() for text in parts.texts], (3, 3)).tolist()
     assert written == [["0.71", "0.71", "0.00"], ["0.00", "0.00", "1.00"], ["0.71", "−0.71", "0.00"]]
     np.testing.assert_allclose(parts.images[0].get_array()[0], [TURN, TURN, 0.0])
-    assert [text.get_color() for text in parts.texts[3:6]] == ["black", "black", "white"]
+    assert [text.get_color() for text in parts.texts[3:6]] == [REFERENCE_COLOUR, REFERENCE_COLOUR, PAPER]
     flipped = (*SENSOR[:4], [-SENSOR[4][0]])
     assert png_bytes(excitation_figure(*flipped)) == png_bytes(excitation_figure(*SENSOR))
 

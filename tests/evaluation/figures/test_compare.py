@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import index_figure, sphere_figure
 from forcetorque.evaluation.trials.trials import mean_of_trials
-from forcetorque.results.figures import look, png_bytes
+from forcetorque.results.figures import PAPER, look, png_bytes
 from tests.report.drawing import legend_of, panels, recorded_figures, size_of, trial_groups, words
 
 
@@ -62,7 +62,7 @@ def test_the_smallest_index_is_on_top_and_what_is_unknown_below() -> None:
     assert set(names[3:]) == {name for name, value in index.items() if value is None}
     assert legend_of(figure)[-1] == "not identifiable"
     faces = {line.get_markerfacecolor() for line in panels(figure)[-1].get_lines() if line.get_marker() == "o"}
-    assert "white" in faces
+    assert PAPER in faces
     assert "not identifiable" not in words(_drawn(sensors=1))
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.errors_and_matrices import difference_figure
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figures import PAPER, REFERENCE_COLOUR, png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import panels, size_of, words
 
@@ -83,7 +83,7 @@ def test_numbers_are_readable_on_their_colours(drawn: list[Figure]) -> None:
         high, low = sorted((light(text.get_color()), light(ground)), reverse=True)
         assert (high + 0.05) / (low + 0.05) >= READABLE_CONTRAST
         colours.add(text.get_color())
-    assert colours == {"black", "white"}
+    assert colours == {REFERENCE_COLOUR, PAPER}
 
 
 def test_the_colours_grow_lighter_with_the_difference(drawn: list[Figure]) -> None:

@@ -49,7 +49,7 @@ def test_a_name_looks_alike_in_all_rows(drawn: list[Figure]) -> None:
     force_space_figure({"a": [("prior", _cloud(9)), ("model", _cloud(9))], "b_$1": [("model", _cloud(9))]})
     assert legend_of(drawn[0]) == ["prior", "model"]
     first, second = panels(drawn[0])[0], panels(drawn[0])[3]
-    assert second.lines[0].get_color() == first.lines[1].get_color() == look(1).colour
+    assert second.lines[0].get_color() == first.lines[1].get_color() == look(0).colour
     assert r"b_\$1" in words(drawn[0])
 
 
@@ -57,7 +57,7 @@ def test_a_thinned_cloud_keeps_its_extremes_in_the_outline(drawn: list[Figure]) 
     """One sample of thousands that is far away, and not drawn as a point, is a corner."""
     cloud = _cloud(3 * DRAWN_POINTS)
     cloud[4] = [90.0, 80.0, 70.0]
-    force_space_figure({"leg": [("prior", cloud)]})
+    force_space_figure({"leg": [("model", cloud)]})
     points, hull = panels(drawn[0])[0].lines
     assert len(points.get_xydata()) == DRAWN_POINTS
     assert points.get_xydata().max() < 10.0

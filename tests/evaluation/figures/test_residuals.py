@@ -12,7 +12,7 @@ from matplotlib.patches import StepPatch
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.evaluation.figures.errors_and_matrices import bin_edges, residual_figure, thinned_lags
-from forcetorque.results.figures import look
+from forcetorque.results.figures import looks
 from tests.report.drawing import legend_of, panels, words
 
 COUNT = 2000
@@ -87,8 +87,9 @@ def test_the_curves_are_those_of_the_autocorrelation(drawn: list[Figure]) -> Non
     _, prior, new = panel.lines
     np.testing.assert_allclose(prior.get_xdata()[::2], found.lag_s[1:])
     np.testing.assert_allclose(prior.get_ydata()[::2], found.rho[1:])
+    styles = looks(["prior", "new"])
     assert [(line.get_color(), line.get_marker()) for line in (prior, new)] == [
-        (look(k).colour, look(k).marker) for k in (0, 1)
+        (styles[name].colour, styles[name].marker) for name in ("prior", "new")
     ]
     (band,) = (each for each in panel.collections if isinstance(each, PolyCollection))
     assert band.get_paths()[0].get_extents().y1 == pytest.approx(found.white_band.max())

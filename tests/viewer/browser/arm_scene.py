@@ -14,7 +14,7 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.arrays import Block
+from forcetorque.viewer.arrays import Block, peak
 from forcetorque.viewer.geometry import flat, robot_geometry
 from forcetorque.viewer.posture import scene_joints
 from forcetorque.viewer.scene import (
@@ -33,6 +33,8 @@ from forcetorque.viewer.scene_builder import BuiltScene
 SAMPLES = 600
 RATE_HZ = 50.0
 COORDINATES = ("turn", "lift", "reach")
+DEVIATION = 0.02
+"""Standard deviation of the error of one calibration, as a share of each component."""
 WALL = slice(400, 450)
 """Samples in which the hand touches a wall."""
 
@@ -231,7 +233,10 @@ def _sensor(
             WrenchSeries(
                 name=series,
                 role="expected" if series == "expected" else "measured",
+                calibrated=series.startswith("calibration"),
+                peak=peak(values),
                 values=block.add(values, "float32"),
+                deviation=block.add(DEVIATION * np.abs(truth), "float32") if series.endswith("March") else None,
                 reference_force=reference if series == "expected" else None,
                 reference_moment=None,
                 ellipsoid_force=seen if series == "logged" else None,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
-PIXEL_S = 12.0 / 670
+PIXEL_S = 12.0 / 310
 """Width of a pixel of the time plots at this size of the window."""
 
 
@@ -57,16 +57,18 @@ def test_click_on_a_plot_jumps_to_that_time(page: Page, sample: Callable[[], int
         assert abs(cursor["x"] + 1 - (box["x"] + share * box["width"])) <= 2.0, plot
 
 
-def test_drag_on_a_plot_shows_a_part_of_the_time(page: Page, sample: Callable[[], int], arm: Arm) -> None:
+def test_drag_with_shift_on_a_plot_shows_a_part_of_the_time(page: Page, sample: Callable[[], int], arm: Arm) -> None:
     """A dragged span fills the plots until the whole recording is asked for; the sample stays."""
     over = page.locator(".u-over").first
     box = over.bounding_box()
     assert box is not None
     y = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + 0.5 * box["width"], y)
+    page.keyboard.down("Shift")
     page.mouse.down()
     page.mouse.move(box["x"] + 0.6 * box["width"], y, steps=3)
     page.mouse.up()
+    page.keyboard.up("Shift")
     assert sample() == 0
     wait_for_drawing(page)
     page.mouse.click(box["x"] + 0.5 * box["width"], y)  # now the middle of what was dragged
@@ -100,9 +102,11 @@ def test_the_cursor_stays_at_its_time_when_the_plots_are_zoomed(page: Page, arm:
     assert box is not None
     y = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + 0.5 * box["width"], y)
+    page.keyboard.down("Shift")
     page.mouse.down()
     page.mouse.move(box["x"] + 0.6 * box["width"], y, steps=3)
     page.mouse.up()
+    page.keyboard.up("Shift")
     wait_for_drawing(page)
     start, end = (whole[0] + share * (whole[1] - whole[0]) for share in (0.5, 0.6))
     assert start < arm.time_s[350] < end

@@ -15,15 +15,20 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
 from forcetorque.results.figures import (
+    GRID,
+    PAPER,
     PLANES,
+    REFERENCE_COLOUR,
     ROW_INCHES,
     SMALL_PANEL_POINTS,
     THIN_REFERENCE_LINE,
+    Look,
     drawable,
     drawable_each,
     in_figure_style,
     legend_below,
     look,
+    looks,
     new_figure,
     shown_name,
     thinned_cloud,
@@ -188,7 +193,7 @@ def _draw_values(panel: Axes, sensor: _Sensor, values: FloatArray, start: float)
             zorder=3,
         )
     _number_directions(panel, len(values))
-    panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
+    panel.grid(visible=True, axis="x", color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 
@@ -206,7 +211,7 @@ def _draw_directions(panel: Axes, sensor: _Sensor) -> None:
         part = rows[row, column]
         text = f"{part:.2f}" if written else "–" if part < -_SEEN else ""
         text = text.replace("-0.00", "0.00").replace("-", "−")
-        colour = "white" if abs(part) > _DARK else "black"
+        colour = PAPER if abs(part) > _DARK else REFERENCE_COLOUR
         panel.text(column, row, text, ha="center", va="center", color=colour)
     _number_directions(panel, len(rows))
     step = 1 if written else 2
@@ -242,24 +247,26 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
     """
     wrenches_by_name = drawable_each(clouds, name="clouds", shape=(None, 6))
     figure = new_figure(2 * ROW_INCHES[1])
+    by_name = looks(list(wrenches_by_name))
+    styles = list(by_name.values())
     # the narrow column keeps the label of the third axis clear of the next panel
     grid = figure.add_gridspec(2, 5, width_ratios=(1.5, 0.1, 1.0, 1.0, 1.0))
     for row, (title, unit, part) in enumerate(_ROWS):
         parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in wrenches_by_name.values()]
         labels = [f"{name}, {unit}" for name in WRENCH_COMPONENTS[part]]
-        _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, title=title)
+        _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, styles, title=title)
         for column, plane in enumerate(PLANES):
             panel = figure.add_subplot(grid[row, column + 2])
-            _draw_plane(panel, [points[:, plane] for points in parts])
+            _draw_plane(panel, [points[:, plane] for points in parts], styles)
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]], labelpad=0.0)
-    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(wrenches_by_name)])
+    legend_below(figure, [(shown_name(name), style.key) for name, style in by_name.items()])
     return figure
 
 
-def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title: str) -> None:
+def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], styles: Sequence[Look], *, title: str) -> None:
     for k in _widest_first(parts):
-        style, points = look(k), thinned_cloud(parts[k])
+        style, points = styles[k], thinned_cloud(parts[k])
         panel.plot(*points.T, style.marker, color=style.colour, markersize=1.6, markeredgewidth=0.0)
     panel.set_title(title)
     panel.locator_params(nbins=5)
@@ -268,16 +275,16 @@ def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title
         panel.tick_params(axis=axis, labelsize=SMALL_PANEL_POINTS)
 
 
-def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
+def _draw_plane(panel: Axes, parts: list[FloatArray], styles: Sequence[Look]) -> None:
     for k in _widest_first(parts):
-        style, points = look(k), thinned_cloud(parts[k])
+        style, points = styles[k], thinned_cloud(parts[k])
         panel.plot(*points.T, style.marker, color=style.colour, markersize=1.8, markeredgewidth=0.0, alpha=0.5)
     for k, points in enumerate(parts):
         # above all points
-        panel.plot(*outline(points).T, color=look(k).colour, linestyle=look(k).dashes, linewidth=1.2, zorder=3.0)
+        panel.plot(*outline(points).T, color=styles[k].colour, linestyle=styles[k].dashes, linewidth=1.2, zorder=3.0)
     panel.set_aspect("equal", adjustable="datalim")
     panel.tick_params(labelsize=SMALL_PANEL_POINTS)
-    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.grid(visible=True, color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 

@@ -13,7 +13,7 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.summary import LITTLE_LEARNT, InformationGain
 from forcetorque.results.figures import (
-    REFERENCE_COLOUR,
+    GRID,
     THIN_REFERENCE_LINE,
     in_figure_style,
     legend_below,
@@ -22,6 +22,7 @@ from forcetorque.results.figures import (
     shown_name,
     two_digits,
 )
+from forcetorque.results.visual_roles import PRIOR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,7 +44,7 @@ _MOST_DECADES = 1.5
 """Decades up to which an axis has room for numbers between the powers of ten."""
 _SHARE_END = 140.0
 """End of the axis of shares, with room for the numbers behind 100; %."""
-_BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "marker": "s", "markerfacecolor": "none", "markersize": 7.0}
+_BEFORE: dict[str, Any] = {"color": PRIOR.colour, "marker": "s", "markerfacecolor": "none", "markersize": 7.0}
 _AFTER: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker, "markersize": 8.0}
 _AFTER_LITTLE: dict[str, Any] = {"color": look(1).colour, "marker": "X", "markersize": 9.0}
 
@@ -172,5 +173,5 @@ def _set_error_axis(panel: Axes, errors: FloatArray, label: str) -> None:
 def _name_directions(panel: Axes, names: Sequence[str]) -> None:
     panel.set_ylim(len(names) - 0.5, -0.5)
     panel.set_yticks(range(len(names)), names)
-    panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
+    panel.grid(visible=True, axis="x", color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)

@@ -12,7 +12,16 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.joint.robust_fit import PartResidual
-from forcetorque.results.figures import COLOURS, REFERENCE_COLOUR, in_figure_style, legend_below, new_figure, shown_name
+from forcetorque.results.figures import (
+    COLOURS,
+    GRID,
+    MUTED,
+    in_figure_style,
+    legend_below,
+    new_figure,
+    shown_name,
+)
+from forcetorque.results.visual_roles import PRIOR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,10 +29,10 @@ if TYPE_CHECKING:
 
 
 _ROW_INCHES = 1.7
-_BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5)), "linewidth": 1.1}
+_BEFORE: dict[str, Any] = {"color": PRIOR.colour, "linestyle": (0, PRIOR.dash), "linewidth": 1.1}
 _AFTER: dict[str, Any] = {"color": COLOURS[0], "linestyle": "-", "linewidth": 1.4}
 _LEFT_OUT: dict[str, Any] = {"color": COLOURS[1], "linestyle": "none", "marker": "X", "markersize": 5.0}
-_BORDER: dict[str, Any] = {"color": "0.6", "linestyle": ":", "linewidth": 1.0}
+_BORDER: dict[str, Any] = {"color": MUTED, "linestyle": ":", "linewidth": 1.0}
 _QUANTITIES = (("force", "N", FORCE), ("moment", "N m", MOMENT))
 
 
@@ -94,7 +103,7 @@ def _draw(panel: Axes, residuals: Sequence[PartResidual], starts: dict[str, floa
         panel.plot(time[~one.kept], after[~one.kept], **_LEFT_OUT)
     if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in panel.lines):  # Matplotlib warns of an empty one
         panel.set_yscale("log")
-    panel.grid(visible=True, axis="y", color="0.9", linewidth=0.6)
+    panel.grid(visible=True, axis="y", color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 

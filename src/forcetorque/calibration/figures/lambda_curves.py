@@ -13,6 +13,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ShapeError, known_names
 from forcetorque.results.figures import (
+    GRID,
+    MUTED,
+    PAPER,
     REFERENCE_COLOUR,
     ROW_INCHES,
     Look,
@@ -24,6 +27,7 @@ from forcetorque.results.figures import (
     new_figure,
     shown_name,
 )
+from forcetorque.results.visual_roles import HIGHLIGHT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +42,7 @@ LAMBDA_MEANING = (
 """The number means nothing without its convention."""
 
 MARKED: Final[dict[str, Any]] = {
-    "color": "#F0E442",
+    "color": HIGHLIGHT,
     "marker": "*",
     "markersize": 17.0,
     "markeredgecolor": REFERENCE_COLOUR,
@@ -120,7 +124,7 @@ def set_lambda_axis(panel: Axes, lambdas: FloatArray, *, infinite: float | None 
     if infinite is not None:
         _add_infinite(panel, positive, infinite)
     panel.set_xticks([], minor=True)
-    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.grid(visible=True, color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 
@@ -145,7 +149,7 @@ def _add_infinite(panel: Axes, positive: FloatArray, infinite: float) -> None:
         right = _right_edge(positive, infinite)
         # without a 0 as much room on the left as on the right
         panel.set_xlim(panel.get_xlim()[0] if panel.get_xscale() == "symlog" else positive[0] * infinite / right, right)
-        panel.axvline(infinite / 10.0 ** (0.5 * _ZERO_DECADES), color="0.5", linestyle=":", linewidth=1.0)
+        panel.axvline(infinite / 10.0 ** (0.5 * _ZERO_DECADES), color=MUTED, linestyle=":", linewidth=1.0)
     else:
         panel.set_xlim(-0.2, infinite + 0.2)
 
@@ -199,7 +203,7 @@ def draw_curves(panel: Axes, lambdas: FloatArray, curves: Sequence[FloatArray], 
             dash_capstyle="butt",
             marker=style.marker,
             markersize=_SIZES[0] + rest * (_SIZES[1] - _SIZES[0]),
-            markeredgecolor="white",
+            markeredgecolor=PAPER,
             markeredgewidth=0.5,
             # with fewer points than curves, the last ones share a point
             markevery=(min(group.index(k), len(lambdas) - 1), len(group)),

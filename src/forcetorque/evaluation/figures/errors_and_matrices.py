@@ -14,17 +14,21 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import Autocorrelation, autocorrelation
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.results.figures import (
+    GRID,
+    GUIDE,
+    PAPER,
     REFERENCE_COLOUR,
     REFERENCE_LINE,
     ROW_INCHES,
     SMALL_POINTS,
+    Look,
     draw_over_time,
     drawable,
     drawable_each,
     in_figure_style,
     instants,
     legend_below,
-    look,
+    looks,
     new_figure,
     rms_words,
     shown_name,
@@ -72,16 +76,17 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
     for panel, component, line in zip(panels, WRENCH_COMPONENTS, lines.T, strict=True):
         panel.plot(at, line, zorder=3.0, **REFERENCE_LINE)
         panel.set_ylabel(f"{component}, {'N' if component.startswith('f') else 'N m'}")
-        panel.grid(visible=True, color="0.9", linewidth=0.6)
+        panel.grid(visible=True, color=GRID, linewidth=0.6)
         panel.set_axisbelow(True)
         panel.margins(x=0.01)
     keys = [("reference", REFERENCE_LINE)]
+    styles = looks(list(by_name))
     for k, (name, values) in enumerate(by_name.items()):
         at, lines = thinned_line(time, values)
         for panel, line in zip(panels, lines.T, strict=True):
-            draw_over_time(panel, at, line, look(k), turn=k, count=len(by_name))
+            draw_over_time(panel, at, line, styles[name], turn=k, count=len(by_name))
         text = f"{shown_name(name)}: {_difference(values - known)}"
-        keys.append((text, look(k).key | {"linestyle": "-"}))
+        keys.append((text, styles[name].key | {"linestyle": "-"}))
     for panel in panels[2::3]:
         panel.set_xlabel("time, s")
     figure.align_ylabels()
@@ -103,7 +108,7 @@ _LAG_STRETCHES = 300
 """Stretches of the axis of lags, of each of which the smallest and the largest value are drawn."""
 _MARKS = 6
 """Points along a curve over lag."""
-_BAND: dict[str, Any] = {"color": "0.82", "linewidth": 7.0}
+_BAND: dict[str, Any] = {"color": GUIDE, "linewidth": 7.0}
 _ZERO: dict[str, Any] = {"color": REFERENCE_COLOUR, "linewidth": 0.8}
 _MEANING = (
     "Residuals beyond the edges are counted in the bins at the edges. "
@@ -139,14 +144,16 @@ def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> 
     correlations = {name: _correlations(name, values, time) for name, values in by_name.items()}
     figure = new_figure(3 * _ROW_HEIGHT)
     grid = _panels(figure)
+    by_look = looks(list(by_name))
+    styles = list(by_look.values())
     for k, component in enumerate(WRENCH_COMPONENTS):
         counted, correlated = grid[k % 3, 2 * (k // 3)], grid[k % 3, 2 * (k // 3) + 1]
-        _draw_histogram(counted, [values[:, k] for values in by_name.values()], component)
-        _draw_correlation(correlated, [components[k] for components in correlations.values()], component)
+        _draw_histogram(counted, [values[:, k] for values in by_name.values()], component, styles)
+        _draw_correlation(correlated, [components[k] for components in correlations.values()], component, styles)
     _share_correlation_axes(grid[:, 1::2].ravel().tolist())
     keys = [
-        (f"{shown_name(name)}: {_size(values)}, {_effective(correlations[name])}", look(j).key)
-        for j, (name, values) in enumerate(by_name.items())
+        (f"{shown_name(name)}: {_size(values)}, {_effective(correlations[name])}", by_look[name].key)
+        for name, values in by_name.items()
     ]
     legend_below(figure, [*keys, ("ρ of white noise: 95 % lie within", _BAND)], title=_MEANING)
     return figure
@@ -162,7 +169,7 @@ def _correlations(name: str, values: FloatArray, time: FloatArray) -> list[Autoc
 def _panels(figure: Figure) -> np.ndarray[Any, np.dtype[np.object_]]:
     grid: np.ndarray[Any, np.dtype[np.object_]] = figure.subplots(3, 4, squeeze=False)
     for panel in grid.ravel():
-        panel.grid(visible=True, color="0.9", linewidth=0.6)
+        panel.grid(visible=True, color=GRID, linewidth=0.6)
         panel.set_axisbelow(True)
     for panel in grid[:, 0]:
         panel.set_ylabel("samples, %")
@@ -171,7 +178,7 @@ def _panels(figure: Figure) -> np.ndarray[Any, np.dtype[np.object_]]:
     return grid
 
 
-def _draw_histogram(panel: Axes, columns: list[FloatArray], component: str) -> None:
+def _draw_histogram(panel: Axes, columns: list[FloatArray], component: str, styles: Sequence[Look]) -> None:
     known = [column[np.isfinite(column)] for column in columns]
     edges = bin_edges(known)
     panel.axvline(0.0, **_ZERO)
@@ -179,7 +186,7 @@ def _draw_histogram(panel: Axes, columns: list[FloatArray], component: str) -> N
     for j, values in enumerate(known):
         beyond += int(((values < edges[0]) | (values > edges[-1])).sum())
         counts, _ = np.histogram(np.clip(values, edges[0], edges[-1]), edges)
-        share, style = 100.0 * counts / len(values), look(j)
+        share, style = 100.0 * counts / len(values), styles[j]
         panel.stairs(share, edges, color=style.colour, linestyle=style.dashes, linewidth=1.4, baseline=None)
         # a point at its highest bin: the second cue where dashes are short
         top = int(share.argmax())
@@ -215,7 +222,7 @@ def bin_edges(columns: list[FloatArray]) -> FloatArray:
     return np.linspace(low, high, bins + 1)
 
 
-def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], component: str) -> None:
+def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], component: str, styles: Sequence[Look]) -> None:
     panel.set_xscale("log")
     longest = max(correlations, key=lambda correlation: len(correlation.lag_s))
     if len(longest.lag_s) > 1:
@@ -224,7 +231,7 @@ def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], componen
     panel.axhline(0.0, **_ZERO)
     for j, correlation in enumerate(correlations):
         if np.isfinite(correlation.integrated_time):
-            style = look(j)
+            style = styles[j]
             at, drawn = thinned_lags(correlation.lag_s, correlation.rho)
             turn = (j + 0.5) / len(correlations) / _MARKS
             panel.plot(
@@ -235,7 +242,7 @@ def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], componen
                 linewidth=1.2,
                 marker=style.marker,
                 markersize=5.0,
-                markeredgecolor="white",
+                markeredgecolor=PAPER,
                 markeredgewidth=0.5,
                 markevery=[int(len(at) * (m / _MARKS + turn)) for m in range(_MARKS)],
             )
@@ -297,7 +304,7 @@ _LETTER_ASPECT = 0.62
 """Width of a digit over the size of its letters."""
 _READABLE_POINTS = 6.0
 """Numbers that would have to be smaller than this are left to the colours."""
-_NOT_A_NUMBER = "0.85"
+_NOT_A_NUMBER = GUIDE
 _MIDDLE_LUMINANCE = 0.179
 """Where black and white letters have the same contrast: (L + 0.05)^2 = 1.05 x 0.05."""
 
@@ -366,7 +373,7 @@ def _name_cells(panel: Axes, names: list[str], room: float, *, level: bool) -> N
             label.set(rotation=_SLANT, ha="left", va="bottom", rotation_mode="anchor")
     edges = [place + 0.5 for place in places[:-1]]
     for lines in (panel.hlines, panel.vlines):
-        lines(edges, -0.5, len(names) - 0.5, color="white", linewidth=min(1.0, 2.0 * room))
+        lines(edges, -0.5, len(names) - 0.5, color=PAPER, linewidth=min(1.0, 2.0 * room))
     for edge in panel.spines.values():
         edge.set_visible(False)
 
@@ -380,7 +387,7 @@ def _letters_that_fit(texts: list[list[str]]) -> float:
 
 def _write_cells(panel: Axes, texts: list[list[str]], dark: BoolArray, points: float) -> None:
     for row, column in np.ndindex(dark.shape):
-        colour = "white" if dark[row, column] else "black"
+        colour = PAPER if dark[row, column] else REFERENCE_COLOUR
         panel.text(column, row, texts[row][column], ha="center", va="center", fontsize=points, color=colour)
 
 

@@ -12,8 +12,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.load_cases.verdict import LoadCaseError, LoadCaseVerdict
 from forcetorque.results.figures import (
-    REFERENCE_COLOUR,
-    REFERENCE_LINE,
+    GRID,
+    LIMIT_LINE,
+    PAPER,
     in_figure_style,
     legend_below,
     look,
@@ -21,6 +22,7 @@ from forcetorque.results.figures import (
     shown_name,
     two_digits,
 )
+from forcetorque.results.visual_roles import PRIOR, SHADE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +39,7 @@ _MARGIN, _WORDS, _LIMIT_WORDS = 0.04, 0.33, 0.4
 """Parts of the width of a panel: beside what is drawn, half of the words above an interval, and those at a limit."""
 _LEAST_DECADES = 0.9
 """Decades that a panel shows at least, so that its axis has numbers."""
-_BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "marker": "s", "markerfacecolor": "white", "linestyle": "-"}
+_BEFORE: dict[str, Any] = {"color": PRIOR.colour, "marker": "s", "markerfacecolor": PAPER, "linestyle": "-"}
 _AFTER: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker, "linestyle": "-"}
 _AFTER_BEYOND: dict[str, Any] = {"color": look(1).colour, "marker": "X", "linestyle": (0, (2, 1))}
 _MEASURED: dict[str, Any] = {"color": look(2).colour, "marker": "D", "linestyle": "none"}
@@ -90,7 +92,7 @@ def _keys(rows: Sequence[LoadCaseError]) -> list[tuple[str, Mapping[str, Any]]]:
         *([("after: calibration", _AFTER)] if _AFTER in styles else []),
         *([("after, perhaps too much", _AFTER_BEYOND)] if _AFTER_BEYOND in styles else []),
         *([("measured on other data", _MEASURED)] if any(row.measured is not None for row in rows) else []),
-        *([("allowed; grey: too much", REFERENCE_LINE)] if any(row.allowed is not None for row in rows) else []),
+        *([("allowed; grey: too much", LIMIT_LINE)] if any(row.allowed is not None for row in rows) else []),
     ]
 
 
@@ -113,8 +115,8 @@ def _draw_row(panel: Axes, place: int, row: LoadCaseError) -> None:
     end = panel.get_xlim()[1]
     if row.allowed < end:
         left = max(row.allowed, panel.get_xlim()[0])
-        panel.fill_between([left, end], top, bottom, color="0.92", linewidth=0.0, zorder=0)
-    panel.plot([row.allowed] * 2, [top, bottom], zorder=1, **REFERENCE_LINE)
+        panel.fill_between([left, end], top, bottom, color=SHADE, linewidth=0.0, zorder=0)
+    panel.plot([row.allowed] * 2, [top, bottom], zorder=1, **LIMIT_LINE)
     panel.annotate(
         f"{two_digits(row.allowed)} {row.unit} allowed",
         (row.allowed, place + _LIMIT_AT),
@@ -141,7 +143,7 @@ def _draw_interval(panel: Axes, height: float, quantiles: tuple[float, float, fl
         va="bottom",
         fontsize=_POINTS,
         color=style["color"],
-        path_effects=[withStroke(linewidth=5.0, foreground="white")],  # the limit may pass behind them
+        path_effects=[withStroke(linewidth=5.0, foreground=PAPER)],  # the limit may pass behind them
     )
 
 
@@ -178,7 +180,7 @@ def _set_axis(panel: Axes, rows: Sequence[LoadCaseError]) -> None:
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     panel.xaxis.set_minor_formatter(NullFormatter())
     panel.tick_params(labelsize=_POINTS)
-    panel.grid(visible=True, axis="x", color="0.85", linewidth=0.6)
+    panel.grid(visible=True, axis="x", color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 

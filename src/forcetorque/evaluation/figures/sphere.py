@@ -17,6 +17,9 @@ from forcetorque.evaluation.sphere.fit_results import Ellipsoid, EllipsoidFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.trials.trials import TrialGroup, mean_of_trials
 from forcetorque.results.figures import (
+    GRID,
+    MUTED,
+    PAPER,
     PLANES,
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -25,11 +28,13 @@ from forcetorque.results.figures import (
     in_figure_style,
     legend_below,
     look,
+    looks,
     new_figure,
     shown_name,
     thinned_cloud,
 )
 from forcetorque.results.table import short_names
+from forcetorque.results.visual_roles import SHADE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -90,7 +95,7 @@ def _keys(spheres: Sequence[SensorSphere]) -> list[tuple[str, dict[str, Any]]]:
         keys.append(("ellipsoid with the model", {"color": _MAPPED.colour, "linestyle": _MAPPED.dashes}))
     keys.append(("ellipsoid without the model", {"color": _FREE.colour, "linestyle": _FREE.dashes}))
     if any(not fit.tilt_identifiable for sphere in spheres for fit in _fits(sphere)):
-        keys.append(("not identifiable", {"color": "0.5", "linestyle": ":"}))
+        keys.append(("not identifiable", {"color": MUTED, "linestyle": ":"}))
     if any(sphere.analysis.mass is not None for sphere in spheres):
         keys.append(("weight by the model", {"color": REFERENCE_COLOUR, "linestyle": "-"}))
     return keys
@@ -135,7 +140,7 @@ def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tu
                 *outline.T, color=style.colour, linestyle=style.dashes if fit.tilt_identifiable else ":", linewidth=1.4
             )
     panel.set_aspect("equal", adjustable="datalim")
-    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.grid(visible=True, color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
     panel.set_xlabel(f"{WRENCH_COMPONENTS[plane[0]]}, N")
     panel.set_ylabel(f"{WRENCH_COMPONENTS[plane[1]]}, N")
@@ -196,17 +201,17 @@ def force_space_figure(
         raise ShapeError(f"quantity: expected one of {list(get_args(Quantity))}, got {quantity!r}")
     rows = _checked(clouds)
     names = list(dict.fromkeys(name for named in rows.values() for name, _ in named))
-    looks = {name: look(k) for k, name in enumerate(names)}
+    styles = looks(names)
     figure = new_figure(ROW_INCHES[1] * len(rows))
     grid = figure.subplots(len(rows), 3, squeeze=False)
     labels = _LABELS[quantity]
     for panels, (title, named) in zip(grid, rows.items(), strict=True):
         for panel, plane in zip(panels, PLANES, strict=True):
-            _draw_force_plane(panel, [(looks[name], points[:, plane]) for name, points in named])
+            _draw_force_plane(panel, [(styles[name], points[:, plane]) for name, points in named])
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]])
         panels[0].set_title(shown_name(title), loc="left")
-    legend_below(figure, [(shown_name(name), style.key) for name, style in looks.items()])
+    legend_below(figure, [(shown_name(name), style.key) for name, style in styles.items()])
     return figure
 
 
@@ -233,7 +238,7 @@ def _draw_force_plane(panel: Axes, clouds: list[tuple[Look, FloatArray]]) -> Non
     for style, points in clouds:
         panel.plot(*outline(points).T, color=style.colour, linestyle=style.dashes, linewidth=1.2, zorder=3.0)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.grid(visible=True, color="0.9", linewidth=0.6)
+    panel.grid(visible=True, color=GRID, linewidth=0.6)
     panel.set_axisbelow(True)
 
 
@@ -295,9 +300,9 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
         panel.set_xlim(0.0, _reach([line for group in groups for line in _lines(group, with_model=mode)]))
         for k, (group, top) in enumerate(zip(ordered, tops[:-1], strict=True)):
             if k % 2:
-                panel.axhspan(top, tops[k + 1], color="0.96", linewidth=0.0, zorder=0)
+                panel.axhspan(top, tops[k + 1], color=SHADE, linewidth=0.0, zorder=0)
             _draw(panel, _lines(group, with_model=mode), float(top))
-        panel.grid(visible=True, axis="x", color="0.9", linewidth=0.6)
+        panel.grid(visible=True, axis="x", color=GRID, linewidth=0.6)
         panel.set_axisbelow(True)
         panel.tick_params(axis="y", length=0.0)
         panel.tick_params(axis="x", labeltop=inches > _SCREEN_INCHES)
@@ -359,7 +364,7 @@ def _draw(panel: Axes, lines: Sequence[_Line], top: float) -> None:
         if line.high > right:
             panel.plot([right], [y], ">", color=colour, markersize=4.0, markeredgewidth=0.0, clip_on=False)
         if np.isfinite(line.index) and line.index <= right:
-            face = colour if line.known else "white"
+            face = colour if line.known else PAPER
             panel.plot(
                 [line.index],
                 [y],
@@ -395,7 +400,7 @@ def _index_keys(groups: Sequence[TrialGroup]) -> list[tuple[str, dict[str, Any]]
         keys.append(("pooled fit, 95 % interval", _key(_POOLED.colour, _POOLED.marker)))
     lines = [line for group in groups for mode in (True, False) for line in _lines(group, with_model=mode)]
     if any(not line.known for line in lines):
-        unknown = {"color": _UNKNOWN, "linestyle": ":", "marker": "o", "markerfacecolor": "white"}
+        unknown = {"color": _UNKNOWN, "linestyle": ":", "marker": "o", "markerfacecolor": PAPER}
         keys.append(("not identifiable", unknown))
     return keys
 

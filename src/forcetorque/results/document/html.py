@@ -20,6 +20,7 @@ from forcetorque.results.document.content import (
 )
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
+from forcetorque.results.visual_roles import css_variables
 
 _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
 
@@ -44,7 +45,8 @@ def html_bytes(document: Document) -> bytes:
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces, "joined": with_joined_units}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
-    style = (folder / "document.css").read_text(encoding="utf-8")
+    rules = (folder / "document.css").read_text(encoding="utf-8")
+    style = f":root {{\n{css_variables(dark=False)}\n}}\n{rules}"
     return template.render(document=without_undrawn(document), style=style, no_rows=NO_ROWS).encode(
         errors="backslashreplace"
     )

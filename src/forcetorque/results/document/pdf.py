@@ -25,6 +25,7 @@ from forcetorque.results.document.content import (
 )
 from forcetorque.results.document.pdf_layout import draw_table, first_rows_mm, lines_of, spelled_document, table_mm
 from forcetorque.results.table import Table
+from forcetorque.results.visual_roles import SURFACES, TONES, rgb
 
 if TYPE_CHECKING:
     from fpdf import FPDF
@@ -34,7 +35,7 @@ FONT = "DejaVu"
 """Family of the letters."""
 BODY_POINTS, CAPTION_POINTS, LINE_MM = 9.5, 8.5, 4.8
 """Size of the letters of paragraphs and of captions, and height of a line."""
-INK, FAINT = (27, 31, 36), (91, 101, 112)
+INK, FAINT = (rgb(SURFACES[name][0]) for name in ("ink", "muted"))
 """Colours of what is said, and of what stands beside it."""
 _GAP_MM = 1.0
 """Below a verdict and below a point."""
@@ -43,10 +44,10 @@ _MARK_MM = 5.5
 _WORD_POINTS = 11.0
 """Size of the letters of the word of a verdict."""
 _COLOURS = {
-    Tone.GOOD: (0, 101, 74),
-    Tone.CAUTION: (138, 90, 0),
-    Tone.BAD: (163, 60, 0),
-    Tone.UNKNOWN: (75, 85, 96),
+    Tone.GOOD: rgb(TONES["good"].colour),
+    Tone.CAUTION: rgb(TONES["caution"].colour),
+    Tone.BAD: rgb(TONES["bad"].colour),
+    Tone.UNKNOWN: rgb(TONES["unknown"].colour),
     Tone.NOTE: FAINT,
 }
 

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a page holds is what was measured, to a part of its noise or of its range."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.packing import LEAST_STEPS, NOISE_SHARE, POSE_STEP, RESOLUTION, ROWS, pack, packed, unpack
+from forcetorque.viewer.scene_builder import BuiltScene
+
+SAMPLES = 2 * ROWS + 123
+MOTION = 8
+"""Steps of the fast robot of the tests, whose second differences exceed 16 bits, are as many times as large."""
+
+
+def _signals(noise: float) -> FloatArray:
+    """A slow motion and a fast one with noise, with absent values at the start, inside and at the end of one."""
+    rng, time = np.random.default_rng(1), np.arange(SAMPLES) / 100.0
+    values = np.column_stack([50.0 * np.sin(0.3 * time), 3.0 * np.sin(5.0 * time), np.zeros(SAMPLES)])
+    values[:, :2] += noise * rng.normal(size=(SAMPLES, 2))
+    values[:7, 1] = values[ROWS - 5 : ROWS + 9, 1] = values[-3:, 1] = np.nan
+    return values
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1])
+def test_values_come_back_to_a_part_of_their_noise_or_range(noise: float) -> None:
+    """Absent values stay absent, and others are off by half a step at most, also where a value jumps."""
+    values = _signals(noise)
+    back = unpack(pack(values), (SAMPLES, 3))
+    assert np.array_equal(np.isnan(back), np.isnan(values))
+    step = np.maximum(RESOLUTION * np.nanmax(np.ptp(values[:, 0])), 1.2 * NOISE_SHARE * noise)
+    np.testing.assert_allclose(back[:, 0], values[:, 0], rtol=0, atol=0.5 * step)
+    assert (back[:, 2] == 0.0).all()
+
+
+def test_a_jump_costs_precision_in_its_block_alone() -> None:
+    """Differences have 16 bits: a block with a larger one has a larger step, of at most 1/32766 of the jump."""
+    values = _signals(0.0)[:, :1]
+    values[100] += 1e5
+    back = unpack(pack(values, 1e-5), (SAMPLES, 1))
+    np.testing.assert_allclose(back[:ROWS], values[:ROWS], rtol=0, atol=2e5 / 32766)
+    np.testing.assert_allclose(back[ROWS:], values[ROWS:], rtol=0, atol=0.51e-5)
+
+
+@given(arrays(np.float32, (50, 2), elements=st.floats(-1e6, 1e6, width=32) | st.just(np.nan)))
+def test_any_values_come_back(values: FloatArray) -> None:
+    """To half a step, which is a 32nd of the range at most."""
+    back = unpack(pack(values), (50, 2))
+    assert np.array_equal(np.isnan(back), np.isnan(values))
+    spread = 2.0 * float(np.nanmax(np.abs(values), initial=1e-30))
+    np.testing.assert_allclose(back, values, rtol=0, atol=0.501 * LEAST_STEPS * spread)
+
+
+def test_noise_takes_fewer_bytes_than_its_numbers() -> None:
+    """A quarter of 32 bits, where a step is a quarter of the noise."""
+    values = np.random.default_rng(2).normal(size=(SAMPLES, 6))
+    assert len(pack(values)) < 0.25 * 4 * values.size
+
+
+def test_a_packed_scene_has_the_same_arrays(built: BuiltScene) -> None:
+    """Poses and wrenches to their steps; the clock, and what has no row for each sample, as they are."""
+    small = packed(built)
+    assert len(small.block) < 0.5 * len(built.block)
+    before, after = built.scene, small.scene
+    assert np.array_equal(read_array(small.block, after.time_s), read_array(built.block, before.time_s))
+    for one, other, step in (
+        (before.positions, after.positions, POSE_STEP * MOTION),
+        (before.root, after.root, POSE_STEP),
+        (before.sensors[0].wrenches[0].values, after.sensors[0].wrenches[0].values, 0.02),
+    ):
+        assert other.packed_bytes is not None
+        back = unpack(small.block[other.offset : other.offset + other.packed_bytes], (one.shape[0], one.shape[1]))
+        np.testing.assert_allclose(back, read_array(built.block, one), rtol=0, atol=0.51 * step)
+    meshes = zip(before.robot.meshes, after.robot.meshes, strict=True)
+    assert all(np.array_equal(read_array(built.block, a.faces), read_array(small.block, b.faces)) for a, b in meshes)
+    assert small.scene.samples == built.scene.samples
