@@ -53,6 +53,7 @@ WORDS = {
     "robot balance": f"{PARQUET}",
     "calibrate": f"{PARQUET} -o new.json",
     "robot coherence": f"{PARQUET}",
+    "robot collisions": f"{PARQUET}",
     "study compare": f"{PARQUET}",
     "bench fit-plate": f"{PARQUET} --serial FP1 --measure-direction parent_to_child",
     "bench contest": f"{PARQUET}",
