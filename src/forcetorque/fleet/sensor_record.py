@@ -32,6 +32,7 @@ from forcetorque.fleet.long_recording import SegmentedSensor, forget_recording, 
 from forcetorque.inspection.findings import inspect_experiment, unreliable_among
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 SCHEMA: Final = "forcetorque/dataset/1"
 """Name and version of the form of a file."""
@@ -161,7 +162,7 @@ def sensor_records(
         A record per sensor; nothing of the log is read after the first.
     """
     segments = recorded_segments(experiment)
-    runs = [SensorRun(experiment, sensor) for sensor in experiment.sensors]
+    runs = _runs(experiment)
     if len(segments) == 1:
         reduced = [_of_whole(run, options) for run in runs]
         found = _joined([own.findings for own in reduced])
@@ -174,8 +175,8 @@ def sensor_records(
     left = TimeLeft(progress, f"adding {experiment.name}", len(segments) * len(runs))
     for number, segment in enumerate(segments):
         part, found_in = replace(experiment, recording=segment.recording), []
-        for place, (run, sensor, said, of_fit) in enumerate(zip(runs, sensors, warnings, of_fits, strict=True)):
-            own = SensorRun(part, run.sensor)
+        each = enumerate(zip(runs, _runs(part), sensors, warnings, of_fits, strict=True))
+        for place, (run, own, sensor, said, of_fit) in each:
             sensor.add(own)
             found_in.append(_findings(own))
             of_fit.append(_findings_of_fit(own) if run.has(Use.CALIBRATION) else ())
@@ -194,6 +195,12 @@ def sensor_records(
             said |= dict.fromkeys(doubts_of_intervals(run, among))
         whole = _Reduced(moments=sensor.moments(), evaluation=evaluation, warnings=tuple(said), findings=())
         yield _record(run, found_in_all, whole, code_version)
+
+
+def _runs(experiment: Experiment) -> list[SensorRun]:
+    """The sensors, whose expected wrenches are computed at once."""
+    shared = SharedWrenches(experiment.recording, {sensor.name: sensor.stream for sensor in experiment.sensors})
+    return [SensorRun(experiment, sensor, shared=shared) for sensor in experiment.sensors]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

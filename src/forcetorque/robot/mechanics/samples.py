@@ -20,6 +20,7 @@ from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate, evaluator_of_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import LoggedSupport, joints_to_support
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, JointUnits, LoggedJoints, RootMotion, blocks_of
 from forcetorque.robot.tree import build_tree
@@ -243,6 +244,7 @@ def sensor_samples(
     quality: SampleQuality | None = None,
     with_flattening: bool = True,
     known: Sequence[SensorSamples] = (),
+    shared: SharedWrenches | None = None,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -263,6 +265,7 @@ def sensor_samples(
         quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
         with_flattening: Whether the flattening is evaluated, for a fit.
         known: Samples on the same support, by the same processing without `smoothing`, whose reference holds here too.
+        shared: Expected wrenches of other sensors of the recording, computed with those of this one; None for it alone.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -283,11 +286,11 @@ def sensor_samples(
         new = np.isnan(columns["reference"]).any(axis=1)
         joints: tuple[str, ...] = ()
         if new.any():
-            columns["reference"][new], joints = _expected(*robot[:-1], at_ns[new], processing, evaluator)
+            columns["reference"][new], joints = _expected(*robot[:-1], at_ns[new], processing, evaluator, shared)
         if with_flattening and not processing.logged_derivatives:
             longer = replace(processing, derivative_window=processing.derivative_window.doubled())
             # near the end of a log there may be no room for the longer window
-            flattening = np.nan_to_num(columns["reference"] - _expected(*robot, longer, evaluator)[0])
+            flattening = np.nan_to_num(columns["reference"] - _expected(*robot, longer, evaluator, shared)[0])
             columns["flattening"] = flattening
     else:
         columns["reference"], joints = _applied(recording, source, applied, at_ns), ()
@@ -391,19 +394,33 @@ def _expected(
     at_ns: IntArray,
     processing: Processing,
     evaluator: Evaluator | None,
+    shared: SharedWrenches | None = None,
 ) -> tuple[FloatArray, tuple[str, ...]]:
     """Expected wrench of a sensor at given instants, and the joints it needed."""
-    name = model.sensor(sensor).name
-    question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
-    robot = LoggedRobot(recording, model, support, required_joints_of(question), source, processing=processing)
-    if evaluator is None:
-        evaluator = evaluator_of_samples(len(at_ns))
-    expected = np.empty((len(at_ns), 6))
-    for block in blocks_of(len(at_ns)):
-        joints, root = robot.at(at_ns[block])
-        expected[block] = estimate(question, joints, root, evaluator=evaluator).expected_of(name)
-    robot.require_radians()
-    return expected, robot.joints
+    tree = build_tree(model, support.frame)
+
+    def question_of(names: Sequence[str]) -> Question:
+        return Question(tree=tree, expected=tuple(model.sensor(name).name for name in names), equations=())
+
+    def compute(names: Sequence[str]) -> dict[str, FloatArray]:
+        question = question_of(names)
+        robot = LoggedRobot(recording, model, support, required_joints_of(question), source, processing=processing)
+        by = evaluator_of_samples(len(at_ns)) if evaluator is None else evaluator
+        expected = {name: np.empty((len(at_ns), 6)) for name in names}
+        for block in blocks_of(len(at_ns)):
+            estimates = estimate(question, *robot.at(at_ns[block]), evaluator=by)
+            for name, wrenches in expected.items():
+                wrenches[block] = estimates.expected_of(model.sensor(name).name)
+        robot.require_radians()
+        return expected
+
+    if shared is None:
+        wrenches = compute([sensor])[sensor]
+    else:
+        key = (id(support), processing.derivative_window, processing.logged_derivatives, processing.gravity)
+        wrenches = shared.of(sensor, key, at_ns, compute)
+    needed = required_joints_of(question_of([sensor]))
+    return wrenches, tuple(dict.fromkeys((*needed, *joints_to_support(model, recording, support))))
 
 
 class LoggedRobot:
