@@ -205,6 +205,7 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
         run.stream,
         np.round(data.time_s[picked] * 1e9).astype(np.int64),
         processing=experiment.processing,
+        filters=None if run.shared is None else run.shared.filters,
     )
     columns = uncertain.derivatives(joints, root, _rates(data)[picked])
     means = _means(columns, window[picked], len(nothing.columns))
@@ -248,5 +249,5 @@ def _means(columns: FloatArray, window: IntArray, windows: int) -> FloatArray:
     total = np.zeros((windows, *columns.shape[1:]))
     filled, starts = np.unique(window[whole], return_index=True)
     if len(filled):
-        total[filled] = np.add.reduceat(columns[whole], starts, axis=0)
+        total[filled] = np.add.reduceat(columns if whole.all() else columns[whole], starts, axis=0)
     return total / np.maximum(np.bincount(window[whole], minlength=windows), 1)[:, None, None]

@@ -49,7 +49,8 @@ class SensorRun:
             shared: Expected wrenches of sensors of the experiment that are analysed after it, or before; None where it
                 is analysed alone.
         """
-        self._shared = shared
+        self.shared = shared
+        """What it has in common with other sensors of the experiment; None where it is analysed alone."""
         self.experiment = experiment
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
@@ -194,7 +195,7 @@ class SensorRun:
                 smoothed=smoothed,
                 with_flattening=with_flattening,
                 known=self._without_filter(),
-                shared=self._shared,
+                shared=self.shared,
             )
         return kept
 
@@ -208,7 +209,7 @@ class SensorRun:
         Returns:
             The sensor; what it computes further is not known to this one.
         """
-        other = SensorRun(self.experiment, self.sensor, shared=self._shared)
+        other = SensorRun(self.experiment, self.sensor, shared=self.shared)
         other._known, other._samples = dict(self._known), dict(self._samples)
         return other
 
@@ -286,6 +287,7 @@ class SensorRun:
                 self.stream,
                 self.instants(interval).at_ns,
                 processing=self.experiment.processing,
+                filters=None if self.shared is None else self.shared.filters,
             )
         )
         return motions[-1]

@@ -15,6 +15,7 @@ from forcetorque.recording.alignment import interpolate, require_overlap, usable
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.shared_filters import SharedFilters
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate, evaluator_of_samples
@@ -404,7 +405,8 @@ def _expected(
 
     def compute(names: Sequence[str]) -> dict[str, FloatArray]:
         question = question_of(names)
-        robot = LoggedRobot(recording, model, support, required_joints_of(question), source, processing=processing)
+        joints, filters = required_joints_of(question), None if shared is None else shared.filters
+        robot = LoggedRobot(recording, model, support, joints, source, processing=processing, filters=filters)
         by = evaluator_of_samples(len(at_ns)) if evaluator is None else evaluator
         expected = {name: np.empty((len(at_ns), 6)) for name in names}
         for block in blocks_of(len(at_ns)):
@@ -435,6 +437,7 @@ class LoggedRobot:
         source: Stream,
         *,
         processing: Processing,
+        filters: SharedFilters | None = None,
     ) -> None:
         """Find the streams of the joints and of the IMU.
 
@@ -445,6 +448,7 @@ class LoggedRobot:
             joints: Joints whose motion is wanted.
             source: Stream that the instants are of.
             processing: Filters and gravity.
+            filters: As of `LoggedJoints`.
         """
         self.joints = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
         """Joints whose motion is given: those that are wanted, and those between an IMU and the support."""
@@ -457,7 +461,11 @@ class LoggedRobot:
                 require_overlap(source, recording.stream(stream))
         window = processing.derivative_window
         self._joints = LoggedJoints(
-            recording, self.joints, window=window, logged_derivatives=processing.logged_derivatives
+            recording,
+            self.joints,
+            window=window,
+            logged_derivatives=processing.logged_derivatives,
+            filters=filters,
         )
         self._support = LoggedSupport(model, recording, support, window=window, gravity=processing.gravity)
         self._units = JointUnits(model, self.joints)
@@ -489,6 +497,7 @@ def robot_motion_at(
     at_ns: IntArray,
     *,
     processing: Processing,
+    filters: SharedFilters | None = None,
 ) -> tuple[JointMotion, RootMotion]:
     """Give the motion of joints and support at instants of a stream.
 
@@ -500,11 +509,12 @@ def robot_motion_at(
         source: Stream that the instants are of.
         at_ns: Instants; shape (n,); ns.
         processing: Filters and gravity.
+        filters: As of `LoggedJoints`.
 
     Returns:
         Motion of the joints, and of those between an IMU and the support; motion of the support frame.
     """
-    robot = LoggedRobot(recording, model, support, joints, source, processing=processing)
+    robot = LoggedRobot(recording, model, support, joints, source, processing=processing, filters=filters)
     motion = robot.at(at_ns)
     robot.require_radians()
     return motion

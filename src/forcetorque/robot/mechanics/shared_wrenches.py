@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Expected wrenches of several sensors of one recording, computed at once where the sensors have the same instants.
+"""Expected wrenches of several sensors of one recording: what these have in common is computed once.
 
-The motion of the joints is most of the work of an expected wrench, and sensors of one robot share joints.
+The motion of the joints is most of the work of an expected wrench, and sensors of one robot share joints. Joints are
+filtered once for all sensors; where sensors have the same instants, all else is computed at once too.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.recording.recording import Recording
+from forcetorque.recording.shared_filters import SharedFilters
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,6 +37,8 @@ class SharedWrenches:
             recording: The recording.
             streams: Stream of every sensor, by the name of the sensor in the robot model.
         """
+        self.filters = SharedFilters()
+        """Derivatives of the joints."""
         self._recording, self._streams = recording, dict(streams)
         self._evaluations: list[_Evaluation] = []
 
