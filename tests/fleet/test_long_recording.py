@@ -265,3 +265,27 @@ def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeyp
     border = border_s - load_experiment(file).recording.start_ns * 1e-9
     ends = [[float(end) for end in re.findall(r"\d+\.\d+", text)[:2]] for text in said]
     assert np.abs(np.array(ends) - border - [[-1.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]).max() < 0.03
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_frozen_samples_are_counted_across_segments(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also those of a segment of which no sample is left, and those that were left out for another reason."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    sensor = experiment.sensors[0]
+    borders = [segment.start_ns for segment in recorded_segments(experiment, length_s=_SEGMENT_S)]
+    assert len(borders) > 2
+    stream = experiment.recording.stream(sensor.stream)
+    values = np.array(stream.signal(sensor.quantity).values)
+    frozen = (stream.stamp_ns > borders[1] - 10**9) & (stream.stamp_ns < borders[2] + 10**9)
+    values[frozen] = values[np.flatnonzero(frozen)[0]]
+    signals = {**stream.signals, sensor.quantity: replace(stream.signal(sensor.quantity), values=values)}
+    streams = {**experiment.recording.streams, stream.name: replace(stream, signals=signals)}
+    experiment = replace(experiment, recording=replace(experiment.recording, streams=streams))
+    (whole,) = sensor_records(experiment, AddOptions(), "1")
+    patch = partial(recorded_segments, length_s=_SEGMENT_S)
+    monkeypatch.setattr("forcetorque.fleet.sensor_record.recorded_segments", patch)
+    (segmented,) = sensor_records(replace(experiment), AddOptions(), "1")
+    (one,), (parts,) = _intervals(whole), _intervals(segmented)
+    assert one.unusable.frozen == np.count_nonzero(frozen)
+    assert parts.unusable == one.unusable
+    assert (parts.dropped, parts.samples) == (one.dropped, one.samples)

@@ -25,12 +25,14 @@ from forcetorque.experiment.calibration.stored_moments import IntervalMoments, R
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sample_quality import dropped_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
 from forcetorque.fleet.evaluation_blocks import EvaluatedSamples, evaluated_variables
 from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.inspection.plausibility.reversed_sense_and_gain import require_moving_load
 from forcetorque.recording.fingerprint import joined_fingerprint
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment, segments_of
 
@@ -151,6 +153,7 @@ class SegmentedSensor:
         self._doubts: list[dict[str, str]] = []
         self._left_out: list[str] = []
         self._errors: dict[str, RecordingError] = {}  # the first of every interval
+        self._lost: dict[str, list[tuple[int, UnusableCounts]]] = {}  # samples of parts without one that can be used
         self._fitted: set[str] = set()
         self._evaluated: dict[str, _Evaluated] = {}
         self._names = evaluated_variables(run)
@@ -178,6 +181,9 @@ class SegmentedSensor:
                 yield run.interval_samples(interval, variables=variables)
             except RecordingError as error:
                 self._errors.setdefault(interval.label, error)
+                with suppress(RecordingError):  # no sample at all
+                    lost = dropped_in(run.experiment, run.sensor, interval)
+                    self._lost.setdefault(interval.label, []).append(lost)
 
     def _add_moments(self, run: SensorRun, parts: Sequence[IntervalSamples]) -> None:
         campaign = Campaign.of(run)
@@ -236,13 +242,10 @@ class SegmentedSensor:
         require_moving_load(pooled(self._pooled))
         recording, models = CampaignRecording.of(run), self._models.mapped()
         intervals = {interval.label: interval for interval in run.experiment.recording.intervals}
-        blocks = [
-            block
-            for label, interval in intervals.items()
-            for block in _of_interval(
-                [_with_model(block, models[at:]) for block, at in self._moments.get(label, ())], interval
-            )
-        ]
+        blocks: list[IntervalMoments] = []
+        for label, interval in intervals.items():
+            own = [_with_model(block, models[at:]) for block, at in self._moments.get(label, ())]
+            blocks += _of_interval(_with_lost(own, self._lost.get(label, ())), interval)
         said = [*_joined_doubts(self._doubts), *self._left_out]
         return moments_of(recording, _with_all_terms(blocks), variables=self._variables, doubts=said)
 
@@ -298,6 +301,18 @@ def _with_model(block: IntervalMoments, values: FloatArray) -> IntervalMoments:
         return block
     shape = (len(block.time_s), 6 * len(block.terms))
     return block.model_copy(update={"model": values[: shape[0] * shape[1]].reshape(shape)})
+
+
+def _with_lost(blocks: Sequence[IntervalMoments], lost: Sequence[tuple[int, UnusableCounts]]) -> list[IntervalMoments]:
+    """Blocks of which the first counts the samples of parts that have no block."""
+    if not blocks or not lost:
+        return list(blocks)
+    first = blocks[0]
+    counts = {
+        "dropped": first.dropped + sum(dropped for dropped, _ in lost),
+        "unusable": UnusableCounts.total([first.unusable, *(unusable for _, unusable in lost)]),
+    }
+    return [first.model_copy(update=counts), *blocks[1:]]
 
 
 def _of_interval(blocks: Sequence[IntervalMoments], interval: Interval) -> Iterator[IntervalMoments]:
