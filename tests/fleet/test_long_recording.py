@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import re
+import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +27,10 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.fleet.evaluation_blocks import evaluated_variables
 from forcetorque.fleet.long_recording import SegmentedSensor, joined_findings, recorded_segments
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
-from forcetorque.recording.recording import Finding, Interval
+from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment
 from tests.scenes.studies import CALIBRATION, VALIDATION
 
@@ -289,3 +292,29 @@ def test_frozen_samples_are_counted_across_segments(recorded: Path, monkeypatch:
     assert one.unusable.frozen == np.count_nonzero(frozen)
     assert parts.unusable == one.unusable
     assert (parts.dropped, parts.samples) == (one.dropped, one.samples)
+
+
+def test_validation_intervals_share_their_files(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two per sensor, of instants and of samples; every interval has its own samples."""
+    monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
+    files: list[object] = []
+    opened = tempfile.TemporaryFile
+    monkeypatch.setattr(tempfile, "TemporaryFile", lambda: files.append(file := opened()) or file)
+    experiment = load_experiment(recorded / VALIDATION[0])
+    (first,) = (one for one in experiment.recording.intervals if one.use is Use.VALIDATION)
+    ends = np.linspace(first.start_ns, first.end_ns, 6).astype(np.int64).tolist()
+    parts = tuple(
+        replace(first, label=f"part {k}", start_ns=start, end_ns=end) for k, (start, end) in enumerate(pairwise(ends))
+    )
+    roles = {part.label: experiment.roles[first.label] for part in parts}
+    experiment = replace(experiment, recording=replace(experiment.recording, intervals=parts), roles=roles)
+    run = SensorRun(experiment, experiment.sensors[0])
+    sensor = SegmentedSensor(run, block_s=60.0)
+    sensor.add(run)
+    evaluated = sensor.evaluated()
+    assert evaluated is not None
+    assert len(files) == 2
+    for part, own in zip(parts, evaluated, strict=True):
+        (stamps,), samples = own.stamp_ns, run.interval_samples(part, variables=evaluated_variables(run))
+        np.testing.assert_array_equal(stamps, samples.samples.stamp_ns)
+        np.testing.assert_array_equal(own.columns[0][:, own.channels : own.channels + 6], samples.samples.reference)

@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
@@ -155,7 +154,7 @@ class SegmentedSensor:
         self._errors: dict[str, RecordingError] = {}  # the first of every interval
         self._lost: dict[str, list[tuple[int, UnusableCounts]]] = {}  # samples of parts without one that can be used
         self._fitted: set[str] = set()
-        self._evaluated: dict[str, _Evaluated] = {}
+        self._evaluated = _Evaluated()
         self._names = evaluated_variables(run)
 
     def add(self, run: SensorRun) -> None:
@@ -169,10 +168,7 @@ class SegmentedSensor:
         if fitted:
             self._add_moments(run, fitted)
         for part in self._parts(run, Use.VALIDATION, self._names):
-            label = part.interval.label
-            if label not in self._evaluated:
-                self._evaluated[label] = _Evaluated(part)
-            self._evaluated[label].add(run, part)
+            self._evaluated.add(run, part)
 
     def _parts(self, run: SensorRun, use: Use, variables: Sequence[str]) -> Iterator[IntervalSamples]:
         """Samples of the parts of intervals, without those in which the log has none."""
@@ -260,8 +256,8 @@ class SegmentedSensor:
         """
         if not self._run.has(Use.VALIDATION):
             return None
-        self._require_samples(Use.VALIDATION, self._evaluated)
-        return [self._evaluated[one.label].samples(one) for one in self._run.intervals(Use.VALIDATION)]
+        self._require_samples(Use.VALIDATION, self._evaluated.labels)
+        return self._evaluated.samples(self._run.intervals(Use.VALIDATION))
 
     def _require_samples(self, use: Use, seen: Collection[str]) -> None:
         """Refuse intervals without a sample in any segment, as in a recording that is reduced as a whole."""
@@ -347,30 +343,42 @@ def _with_all_terms(blocks: Sequence[IntervalMoments]) -> list[IntervalMoments]:
 
 
 class _Evaluated:
-    """Samples of one validation interval, in a temporary file."""
+    """Samples of the validation intervals of a sensor, in two temporary files however many intervals there are."""
 
-    def __init__(self, part: IntervalSamples) -> None:
-        self._channels = part.raw.shape[1]
+    def __init__(self) -> None:
         self._stamps = RowsOnDisk(dtype=np.int64)
-        self._columns = RowsOnDisk((self._channels + 6 + part.samples.variables.shape[1],))
-        self._ends = [0]
-        self._contents: list[Content] = []
+        self._columns: RowsOnDisk | None = None
+        self._channels = 0
+        self._parts: dict[str, list[slice]] = {}
+        self._contents: dict[str, list[Content]] = {}
+
+    @property
+    def labels(self) -> Collection[str]:
+        return self._parts.keys()
 
     def add(self, run: SensorRun, part: IntervalSamples) -> None:
-        samples = part.samples
+        samples, label = part.samples, part.interval.label
+        if self._columns is None:
+            self._channels = part.raw.shape[1]
+            self._columns = RowsOnDisk((self._channels + 6 + samples.variables.shape[1],))
+        first = len(self._stamps)
         self._stamps.append(samples.stamp_ns)
         self._columns.append(np.hstack([part.raw, samples.reference, samples.variables]))
-        self._ends.append(len(self._stamps))
+        self._parts.setdefault(label, []).append(slice(first, len(self._stamps)))
         content = logged_content(run.experiment, run.sensor, part.interval)
-        self._contents += [] if content is None else [content]
+        self._contents.setdefault(label, []).extend([] if content is None else [content])
 
-    def samples(self, interval: Interval) -> EvaluatedSamples:
+    def samples(self, intervals: Sequence[Interval]) -> list[EvaluatedSamples]:
+        if self._columns is None:
+            return []
         stamps, columns = self._stamps.mapped(), self._columns.mapped()
-        parts = [slice(first, after) for first, after in pairwise(self._ends)]
-        return EvaluatedSamples(
-            interval=interval,
-            content=_joined_content(self._contents),
-            channels=self._channels,
-            stamp_ns=[stamps[part] for part in parts],
-            columns=[columns[part] for part in parts],
-        )
+        return [
+            EvaluatedSamples(
+                interval=interval,
+                content=_joined_content(self._contents[interval.label]),
+                channels=self._channels,
+                stamp_ns=[stamps[part] for part in self._parts[interval.label]],
+                columns=[columns[part] for part in self._parts[interval.label]],
+            )
+            for interval in intervals
+        ]
