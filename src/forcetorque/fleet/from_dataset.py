@@ -184,19 +184,22 @@ class DatasetLogs:
         """
         chosen = [file for sensor in sensors for file in dataset.of_sensor(sensor)] or list(dataset.files)
         rows = sorted(dataset.rows(chosen, ["start_ns", "file"]), key=lambda row: (row["start_ns"], row["file"]))
-        files = tuple(dict.fromkeys(Path(row["file"]) for row in rows))
+        files = tuple(dict.fromkeys(row["file"] for row in rows))
+        why = f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected"
         for file in files:
-            if not file.exists():
-                raise MissingFileError(
-                    f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected the recording "
-                    f"where it was added from, {file}, which is not there; name experiment files instead"
-                )
-            if file.suffix.lower() != ".toml":
+            if not file.lower().endswith(".toml"):
                 raise ExperimentError(
-                    f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected recordings "
-                    f"with an experiment file each, got the log {file}; name an experiment file of it"
+                    f"{why} recordings with an experiment file each, got the log {file}; name an experiment file of it"
                 )
-        return cls(files=files, sensors=tuple(dict.fromkeys(dataset.identity(sensor).name for sensor in sensors)))
+            if not Path(file).exists():
+                raise MissingFileError(
+                    f"{why} the recording where it was added from, {file}, which is not there; name experiment files "
+                    "instead"
+                )
+        return cls(
+            files=tuple(map(Path, files)),
+            sensors=tuple(dict.fromkeys(dataset.identity(sensor).name for sensor in sensors)),
+        )
 
 
 def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> DatasetLogs | None:

@@ -27,6 +27,7 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.fleet.address import is_address
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.long_recording import SegmentedSensor, forget_recording, joined_findings, recorded_segments
 from forcetorque.inspection.findings import inspect_experiment, unreliable_among
@@ -273,13 +274,14 @@ def _prior_error(
     return PriorError.of(WrenchModel(matrix=run.sensor.prior, offset=np.zeros(6)), parts)
 
 
-def path_digest(file: Path) -> str:
-    """Hash the path of an experiment file.
+def path_digest(file: Path | str) -> str:
+    """Hash the path of an experiment file or log.
 
     Args:
-        file: The file.
+        file: The file; an address is taken as it is.
 
     Returns:
         Twelve hexadecimal digits.
     """
-    return hashlib.sha256(str(real_path(file)).encode()).hexdigest()[:12]
+    text = file if isinstance(file, str) and is_address(file) else str(real_path(Path(file)))
+    return hashlib.sha256(text.encode()).hexdigest()[:12]

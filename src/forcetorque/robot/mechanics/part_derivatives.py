@@ -27,9 +27,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.inertia import Inertia
 from forcetorque.robot.dynamics import stacked_root
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies
-from forcetorque.robot.model import Inertia
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import Body, BodyTree, Connection, SubModel, path_to_root
 
