@@ -299,7 +299,12 @@ def test_validation_intervals_share_their_files(recorded: Path, monkeypatch: pyt
     monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
     files: list[object] = []
     opened = tempfile.TemporaryFile
-    monkeypatch.setattr(tempfile, "TemporaryFile", lambda: files.append(file := opened()) or file)
+
+    def counted() -> object:
+        files.append(opened())
+        return files[-1]
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", counted)
     experiment = load_experiment(recorded / VALIDATION[0])
     (first,) = (one for one in experiment.recording.intervals if one.use is Use.VALIDATION)
     ends = np.linspace(first.start_ns, first.end_ns, 6).astype(np.int64).tolist()
