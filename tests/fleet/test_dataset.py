@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +13,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from forcetorque.app.dataset_input import _in_place_of
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError, OutputError
 from forcetorque.calibration.calibrate import calibrate_sensor
@@ -23,7 +25,8 @@ from forcetorque.fleet.add import add_recording, add_recordings
 from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.dataset import Dataset, is_dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
-from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord
+from forcetorque.fleet.from_dataset import COMMANDS, FROM_LOGS, DatasetLogs
+from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
 from tests.app.outcome import Run
@@ -336,8 +339,9 @@ def test_commands(added: Path, recorded: Path, tmp_path: Path, run: Run, monkeyp
     shown = run("evaluate", str(added), "-c", "c.json")
     assert len(shown.out.splitlines()) <= 12
     assert "need the log" in run("evaluate", str(added), "-c", "c.json", "--details").out
-    assert "inspect needs samples" in run("inspect", str(added)).error()
-    assert f"{recorded}" in run("study", "sphere", str(added)).error()
+    refused = run("report", str(added), "-o", "page.html").error()
+    assert f"report needs samples, which a dataset does not keep; name experiment files in place of {added}:" in refused
+    assert f"{recorded}" in refused
     assert "needs samples" in run("calibrate", str(added), "-o", "d.json", "--type", "SnTdTO").error()
     assert "a dataset alone" in run("evaluate", str(added), log, "-c", "c.json").error()
     assert 'expected an interval with use = "calibration"' in run("calibrate", "mine", "-o", "d.json").err
@@ -352,3 +356,52 @@ def test_quadratic_terms_need_samples(added: Path) -> None:
     quadratic = QuadraticCorrection.model_construct()
     with pytest.raises(FitError, match="quadratic terms need samples"):
         evaluate_dataset(dataset, {"c": plain.model_copy(update={"quadratic": quadratic})})
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("command", ["inspect", "payload"])
+def test_commands_that_need_samples_read_the_recordings(added: Path, recorded: Path, run: Run, command: str) -> None:
+    """By the experiment files that the dataset names, which is said; results are those of these files."""
+    files = sorted((recorded / name for name in FILES), key=lambda file: load_experiment(file).recording.start_ns)
+    read = files[-1:] if command == "inspect" else files
+    from_dataset = run(command, str(added), "--format", "json")
+    assert f"{command} needs samples: reading the recordings of {added}: {files[-1]}" in from_dataset.err
+    from_files = run(command, *map(str, read), "--format", "json")
+    assert (from_dataset.code, from_dataset.out) == (from_files.code, from_files.out)
+
+
+def test_recordings_are_read_where_they_were_added_from(added: Path, recorded: Path) -> None:
+    """Those of the chosen sensors in the order of time, by the names that these have there."""
+    dataset = Dataset.opened(added)
+    logs = DatasetLogs.of(dataset, "plan", [SERIAL])
+    assert {file.name for file in logs.files} == set(FILES)
+    rows = [row for file in logs.files for row in dataset.rows(dataset.of_path(path_digest(file)), ["start_ns"])]
+    starts = [row["start_ns"] for row in rows]
+    assert starts == sorted(starts)
+    assert logs.sensors == (dataset.identity(SERIAL).name,)
+    given = {"experiments": [added], "sensor": SERIAL}
+    replaced = _in_place_of(added, logs, given, ["experiments"])
+    assert replaced == {"experiments": list(logs.files), "sensor": logs.sensors[0]}
+    assert _in_place_of(added, logs, {"log": added}, ["log"]) == {"log": logs.files[-1]}
+
+
+def test_recordings_that_are_not_there_are_named(days: Path, tmp_path: Path) -> None:
+    """With what needs their samples."""
+    (tmp_path / "moved").mkdir()
+    file = next(iter(sorted(days.glob("*.toml"))))
+    add_recording(RecordingSource(experiment=file), tmp_path / "fleet", AddOptions())
+    dataset = Dataset.opened(tmp_path / "fleet")
+    file.rename(tmp_path / "moved" / file.name)
+    with pytest.raises(MissingFileError, match=f"view needs samples, .* added from, .*{file.name}, which is not there"):
+        DatasetLogs.of(dataset, "view", ())
+
+
+def test_the_page_says_what_every_command_does_with_a_dataset() -> None:
+    """Each is from the dataset, reads the recordings that it names, or refuses it."""
+    page = (Path(__file__).parents[2] / "docs" / "fleet.md").read_text(encoding="utf-8")
+    _, of_dataset, of_samples = re.split(r"\n\| (?:from the dataset|reads the recordings) \|", page)
+    for command in COMMANDS:
+        assert f"`{command}`" in of_dataset
+    rows, _, _ = of_samples.partition("\n\n")
+    listed = [name.split()[-1] for name in re.findall("`([^`]+)`", rows)]
+    assert sorted(listed) == sorted(FROM_LOGS)

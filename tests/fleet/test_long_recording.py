@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import re
+import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +27,10 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.fleet.evaluation_blocks import evaluated_variables
 from forcetorque.fleet.long_recording import SegmentedSensor, joined_findings, recorded_segments
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
-from forcetorque.recording.recording import Finding, Interval
+from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment
 from tests.scenes.studies import CALIBRATION, VALIDATION
 
@@ -265,3 +268,58 @@ def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeyp
     border = border_s - load_experiment(file).recording.start_ns * 1e-9
     ends = [[float(end) for end in re.findall(r"\d+\.\d+", text)[:2]] for text in said]
     assert np.abs(np.array(ends) - border - [[-1.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]).max() < 0.03
+
+
+@pytest.mark.usefixtures("short_segments")
+def test_frozen_samples_are_counted_across_segments(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also those of a segment of which no sample is left, and those that were left out for another reason."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    sensor = experiment.sensors[0]
+    borders = [segment.start_ns for segment in recorded_segments(experiment, length_s=_SEGMENT_S)]
+    assert len(borders) > 2
+    stream = experiment.recording.stream(sensor.stream)
+    values = np.array(stream.signal(sensor.quantity).values)
+    frozen = (stream.stamp_ns > borders[1] - 10**9) & (stream.stamp_ns < borders[2] + 10**9)
+    values[frozen] = values[np.flatnonzero(frozen)[0]]
+    signals = {**stream.signals, sensor.quantity: replace(stream.signal(sensor.quantity), values=values)}
+    streams = {**experiment.recording.streams, stream.name: replace(stream, signals=signals)}
+    experiment = replace(experiment, recording=replace(experiment.recording, streams=streams))
+    (whole,) = sensor_records(experiment, AddOptions(), "1")
+    patch = partial(recorded_segments, length_s=_SEGMENT_S)
+    monkeypatch.setattr("forcetorque.fleet.sensor_record.recorded_segments", patch)
+    (segmented,) = sensor_records(replace(experiment), AddOptions(), "1")
+    (one,), (parts,) = _intervals(whole), _intervals(segmented)
+    assert one.unusable.frozen == np.count_nonzero(frozen)
+    assert parts.unusable == one.unusable
+    assert (parts.dropped, parts.samples) == (one.dropped, one.samples)
+
+
+def test_validation_intervals_share_their_files(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two per sensor, of instants and of samples; every interval has its own samples."""
+    monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
+    files: list[object] = []
+    opened = tempfile.TemporaryFile
+
+    def counted() -> object:
+        files.append(opened())
+        return files[-1]
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", counted)
+    experiment = load_experiment(recorded / VALIDATION[0])
+    (first,) = (one for one in experiment.recording.intervals if one.use is Use.VALIDATION)
+    ends = np.linspace(first.start_ns, first.end_ns, 6).astype(np.int64).tolist()
+    parts = tuple(
+        replace(first, label=f"part {k}", start_ns=start, end_ns=end) for k, (start, end) in enumerate(pairwise(ends))
+    )
+    roles = {part.label: experiment.roles[first.label] for part in parts}
+    experiment = replace(experiment, recording=replace(experiment.recording, intervals=parts), roles=roles)
+    run = SensorRun(experiment, experiment.sensors[0])
+    sensor = SegmentedSensor(run, block_s=60.0)
+    sensor.add(run)
+    evaluated = sensor.evaluated()
+    assert evaluated is not None
+    assert len(files) == 2
+    for part, own in zip(parts, evaluated, strict=True):
+        (stamps,), samples = own.stamp_ns, run.interval_samples(part, variables=evaluated_variables(run))
+        np.testing.assert_array_equal(stamps, samples.samples.stamp_ns)
+        np.testing.assert_array_equal(own.columns[0][:, own.channels : own.channels + 6], samples.samples.reference)

@@ -10,11 +10,13 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from forcetorque.base.errors import ExperimentError, FormatError
+from forcetorque.base.errors import ExperimentError, FormatError, MissingExtraError, MissingFileError, OutputError
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.run import run_plan
+from forcetorque.fleet.source import RecordingSource
 from tests.app.outcome import Run
 from tests.fleet.pools import InProcess
 
@@ -86,6 +88,61 @@ def test_bad_plans_are_refused(days: Path) -> None:
         run_plan(_plan(days, twice), InProcess())
     with pytest.raises(FormatError, match="template and logs, one of both"):
         run_plan(_plan(days, PLAN.format(pattern="*") + 'logs = "*"\n'), InProcess())
+
+
+ADDRESSES = """schema = "forcetorque/fleet_plan/1"
+dataset = "{dataset}"
+[[recordings]]
+template = "day_2.toml"
+logs = "{logs}"
+"""
+
+
+def test_logs_are_read_from_addresses(days: Path) -> None:
+    """As from folders, but for their names; a second run copies them and adds nothing."""
+    fsspec = pytest.importorskip("fsspec")
+    memory = fsspec.filesystem("memory")
+    for day in ("day_1", "day_2"):
+        memory.put(str(days / day), f"/fleet/{day}", recursive=True)
+    plan = _plan(days, ADDRESSES.format(dataset="fleet", logs="memory://fleet/day_*"))
+    assert run_plan(plan, InProcess()).added == 2
+    assert run_plan(plan, InProcess()).present == 2
+    local = _plan(days, ADDRESSES.format(dataset="local", logs="day_[12]"))
+    assert run_plan(local, InProcess()).added == 2
+    from_addresses, from_folders = (
+        sorted(dataset.records(dataset.files), key=lambda record: record.experiment)
+        for dataset in (Dataset.opened(days / "fleet"), Dataset.opened(days / "local"))
+    )
+    for one, other in zip(from_addresses, from_folders, strict=True):
+        assert one.file == f"memory:///fleet/{Path(other.file).name}"
+        assert (one.experiment, one.start_ns) == (other.experiment, other.start_ns)
+        assert sorted(one.inputs_sha256.values()) == sorted(other.inputs_sha256.values())
+        assert {name for name in one.inputs_sha256 if "memory" in name}
+        assert one.evaluation is not None
+        assert other.evaluation is not None
+        assert np.array_equal(one.evaluation.sessions[0].raw, other.evaluation.sessions[0].raw)
+    memory.rm("/fleet/day_1", recursive=True)
+    (days / "day_2.toml").touch()
+    source = RecordingSource(experiment=days / "day_2.toml", address="memory://fleet/day_1")
+    with pytest.raises(MissingFileError, match="memory://fleet/day_1: expected a log that fsspec reads"):
+        source.load()
+
+
+def test_addresses_that_cannot_be_used_are_refused(days: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Results on one, experiment files at one, a pattern that matches nothing, a scheme that is not known."""
+    with pytest.raises(OutputError, match=r"plan.toml: dataset: expected a local or mounted folder.*'s3://b/fleet'"):
+        run_plan(_plan(days, ADDRESSES.format(dataset="s3://b/fleet", logs="day_1")), InProcess())
+    with pytest.raises(OutputError, match=r"recordings\[0\]: experiments: expected a local"):
+        run_plan(_plan(days, PLAN.format(pattern="memory://none/*.toml")), InProcess())
+    pytest.importorskip("fsspec")
+    with pytest.raises(ExperimentError, match=r"expected logs that match 'memory://none/\*', there is none"):
+        run_plan(_plan(days, ADDRESSES.format(dataset="fleet", logs="memory://none/*")), InProcess())
+    nowhere = _plan(days, ADDRESSES.format(dataset="fleet", logs="nowhere://x"))
+    with pytest.raises(ExperimentError, match="expected an address that fsspec reads, got 'nowhere://x'"):
+        run_plan(nowhere, InProcess())
+    monkeypatch.setitem(sys.modules, "fsspec", None)
+    with pytest.raises(MissingExtraError, match=r"addresses of logs need fsspec: pip install 'forcetorque\[fleet\]'"):
+        run_plan(nowhere, InProcess())
 
 
 def test_workers_are_at_least_one(days: Path, run: Run) -> None:

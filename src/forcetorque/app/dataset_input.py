@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin, get_type_hints
@@ -13,6 +13,7 @@ from typer.models import ArgumentInfo
 from forcetorque.base.errors import ExperimentError
 
 if TYPE_CHECKING:
+    from forcetorque.fleet.from_dataset import DatasetLogs
     from forcetorque.results.result import Result
 
 
@@ -43,11 +44,29 @@ def with_datasets(name: str, command: Callable[..., Result | None]) -> Callable[
                     "`forcetorque fleet add`"
                 )
             if datasets:
-                run_from_dataset(name, datasets[0], given)
-                return None
+                logs = run_from_dataset(name, datasets[0], given)
+                if logs is None:
+                    return None
+                return command(**given | _in_place_of(datasets[0], logs, given, arguments))
         return command(**given)
 
     return run
+
+
+def _in_place_of(
+    dataset: Path, logs: DatasetLogs, given: Mapping[str, Any], arguments: Sequence[str]
+) -> dict[str, Any]:
+    """What is typed, with the experiment files of a dataset in its place: all, or the last where there can be one."""
+    values: dict[str, Any] = {"sensor": logs.sensors} if "sensor" in given and logs.sensors else {}
+    for argument in arguments:
+        value = given[argument]
+        if isinstance(value, list | tuple) and dataset in value:
+            values[argument] = type(value)(logs.files)
+        elif value == dataset:
+            values[argument] = logs.files[-1]
+    if "sensor" in values and not isinstance(given["sensor"], list | tuple):
+        (values["sensor"],) = logs.sensors
+    return values
 
 
 def _arguments(command: Callable[..., Any]) -> list[str]:

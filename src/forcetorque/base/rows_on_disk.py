@@ -148,7 +148,7 @@ def _named_folder() -> Iterator[None]:
 
 _ROOM: Final = "room", "name a folder of a larger disk in the environment variable TMPDIR"
 _A_FILE: Final = "a temporary file", "name another folder in the environment variable TMPDIR"
-_ONE_MORE: Final = "one more temporary file", "allow more open files (ulimit -n), or state fewer validation intervals"
+_ONE_MORE: Final = "one more temporary file", "allow more open files (ulimit -n)"
 _EXPECTED: Final = {
     errno.ENOSPC: _ROOM,
     errno.EDQUOT: _ROOM,

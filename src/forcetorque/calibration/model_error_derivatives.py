@@ -11,10 +11,11 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
 from forcetorque.calibration.joint.model_error_columns import (
-    acceleration_columns,
-    body_columns,
     delay_terms,
     error_terms,
+    link_axes,
+    terms_of_acceleration,
+    terms_of_body,
 )
 from forcetorque.experiment.calibration.model_error import (
     EXACT,
@@ -26,22 +27,16 @@ from forcetorque.experiment.calibration.model_error import (
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
+from forcetorque.robot.mechanics.part_derivatives import part_derivatives
 from forcetorque.robot.mechanics.root_motion import imu_frame
 from forcetorque.robot.mechanics.samples import robot_motion_at
-from forcetorque.robot.mechanics.sub_model_equations import (
-    PartEquation,
-    heavy_bodies,
-    joints_of_part,
-    part_equations,
-)
+from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
-_STEP: Final = 1e-6
-"""Step of numerical derivatives by joint positions; rad or m."""
-_BLOCK: Final = 512
+_BLOCK: Final = 1024
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
 """Share of the largest effect of a term below which one is rounding, such as that of a yaw about gravity."""
@@ -137,30 +132,36 @@ class UncertainPart:
         Returns:
             Derivatives; shape (n, 6, terms); N, N m per unit of the term.
         """
-        blocks = (slice(start, start + _BLOCK) for start in range(0, len(joints), _BLOCK))
-        columns = [self._derivatives(joints.samples(block), root.samples(block)) for block in blocks]
-        late = [-rates[:, :, None]] if self.tolerance.delay_s > 0.0 else []
-        return np.concatenate([np.concatenate(columns), *late], axis=2)
+        blocks = [slice(start, start + _BLOCK) for start in range(0, len(joints), _BLOCK)]
+        late = self.tolerance.delay_s > 0.0
+        derivatives = np.empty((len(self.terms) + late, 6, len(joints)))
+        for block in blocks if self.terms else ():
+            self._differentiate(joints.samples(block), root.samples(block), derivatives[:, :, block])
+        if late:
+            derivatives[-1] = -rates.T
+        return derivatives.transpose(2, 1, 0)
 
-    def _derivatives(self, joints: JointMotion, root: RootMotion) -> FloatArray:
-        """Derivatives by `terms`; shape (n, 6, terms)."""
-        names = {term.name for term in self.terms}
-        equation = next(part_equations(self.tree, [self.part], joints, root))
-        expected, transmission = _expected(equation)
-        columns = body_columns(self.bare, equation) | acceleration_columns(self.tree, equation)
-        columns = {name: column for name, column in columns.items() if name in names}
-        from_root = -np.linalg.inv(transmission)
-        derivatives = {name: np.einsum("nij,nj->ni", from_root, column) for name, column in columns.items()}
-        turned = [joint for joint in self.joints if f"{ZERO}{joint}" in names]
-        # all joints at once: a pass over the bodies takes longer than its samples
-        each = np.tile(np.arange(len(joints)), len(turned))
-        steps = np.repeat(_STEP * np.array([[one == name for name in joints.names] for one in turned]), len(joints), 0)
-        shifted = joints.samples(each)
-        shifted = replace(shifted, position=shifted.position + steps.reshape(shifted.position.shape))
-        again, _ = _expected(next(part_equations(self.tree, [self.part], shifted, root.samples(each))))
-        of_joints = (again.reshape(len(turned), *expected.shape) - expected) / _STEP
-        derivatives |= {f"{ZERO}{joint}": column for joint, column in zip(turned, of_joints, strict=True)}
-        return np.stack([np.zeros_like(expected), *(derivatives[term.name] for term in self.terms)], axis=2)[:, :, 1:]
+    def _differentiate(self, joints: JointMotion, root: RootMotion, out: FloatArray) -> None:
+        """Fill in derivatives by `terms`; shape (terms, 6, n)."""
+        places = {term.name: place for place, term in enumerate(self.terms)}
+        of_joints = {f"{ZERO}{joint}": joint for joint in self.joints}
+        bodies = {k: terms_of_body(self.bare, k) for k in heavy_bodies(self.tree, self.part)}
+        bodies = {k: names for k, names in bodies.items() if not places.keys().isdisjoint(names)}
+        found = part_derivatives(
+            self.tree,
+            self.part,
+            joints,
+            root,
+            bare=self.bare,
+            axes={k: link_axes(self.bare, k) for k in bodies},
+            turned=[of_joints[name] for name in places if name in of_joints],
+        )
+        columns = {f"{ZERO}{joint}": column for joint, column in found.joints.items()}
+        for k, names in bodies.items():
+            columns |= dict(zip(names, found.bodies[k], strict=True))
+        columns |= dict(zip(terms_of_acceleration(self.tree), found.acceleration, strict=True))
+        for name, place in places.items():
+            out[place] = columns[name]
 
 
 def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelColumns:
@@ -231,6 +232,7 @@ def derivatives_at(
         run.stream,
         at_ns,
         processing=experiment.processing,
+        filters=None if run.shared is None else run.shared.filters,
     )
     return terms, uncertain.derivatives(joints, root, rates)
 
@@ -265,12 +267,7 @@ def _means(columns: FloatArray, window: IntArray, windows: int) -> FloatArray:
     """Means over windows of what is finite; zero where nothing is; shape (windows, 6, terms)."""
     whole = np.isfinite(columns).all(axis=(1, 2))
     total = np.zeros((windows, *columns.shape[1:]))
-    np.add.at(total, window[whole], columns[whole])
+    filled, starts = np.unique(window[whole], return_index=True)
+    if len(filled):
+        total[filled] = np.add.reduceat(columns if whole.all() else columns[whole], starts, axis=0)
     return total / np.maximum(np.bincount(window[whole], minlength=windows), 1)[:, None, None]
-
-
-def _expected(equation: PartEquation) -> tuple[FloatArray, FloatArray]:
-    """What the sensor at the base of a part must read, and its transmission; shapes (n, 6) and (n, 6, 6)."""
-    transmission = equation.transmission[:, 0]
-    reading = np.linalg.solve(transmission, equation.demand[..., None])[..., 0]
-    return np.asarray(reading, dtype=np.float64), transmission

@@ -96,6 +96,24 @@ def unusable_in(experiment: Experiment, sensor: ExperimentSensor, interval: Inte
     return sample_quality(experiment, sensor).counted(among)
 
 
+def dropped_in(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[int, UnusableCounts]:
+    """Count the samples of an interval of which none can be used.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        interval: An interval of its recording.
+
+    Returns:
+        Number of samples, and of those that say nothing of the load.
+
+    Raises:
+        RecordingError: If no sample lies in it.
+    """
+    _, among = pick_samples(experiment.recording, experiment.recording.stream(sensor.stream), interval)
+    return int(np.count_nonzero(among)), sample_quality(experiment, sensor).counted(among)
+
+
 def counts_of(sensor: ExperimentSensor, stream: Stream) -> FloatArray | None:
     """Give the raw counts of a sensor, as logged or recovered through its prior.
 

@@ -28,6 +28,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, path_to_root
 
@@ -37,13 +38,19 @@ _Answer = TypeVar("_Answer")
 class SensorRun:
     """One sensor of one experiment. Questions take it, and share what they have in common."""
 
-    def __init__(self, experiment: Experiment, sensor: ExperimentSensor | str) -> None:
+    def __init__(
+        self, experiment: Experiment, sensor: ExperimentSensor | str, *, shared: SharedWrenches | None = None
+    ) -> None:
         """Choose a sensor.
 
         Args:
             experiment: The experiment.
             sensor: One of its sensors, or its name.
+            shared: Expected wrenches of sensors of the experiment that are analysed after it, or before; None where it
+                is analysed alone.
         """
+        self.shared = shared
+        """What it has in common with other sensors of the experiment; None where it is analysed alone."""
         self.experiment = experiment
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
@@ -188,6 +195,7 @@ class SensorRun:
                 smoothed=smoothed,
                 with_flattening=with_flattening,
                 known=self._without_filter(),
+                shared=self.shared,
             )
         return kept
 
@@ -201,7 +209,7 @@ class SensorRun:
         Returns:
             The sensor; what it computes further is not known to this one.
         """
-        other = SensorRun(self.experiment, self.sensor)
+        other = SensorRun(self.experiment, self.sensor, shared=self.shared)
         other._known, other._samples = dict(self._known), dict(self._samples)
         return other
 
@@ -279,6 +287,7 @@ class SensorRun:
                 self.stream,
                 self.instants(interval).at_ns,
                 processing=self.experiment.processing,
+                filters=None if self.shared is None else self.shared.filters,
             )
         )
         return motions[-1]

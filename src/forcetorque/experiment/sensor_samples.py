@@ -20,6 +20,7 @@ from forcetorque.recording.fingerprint import fingerprint, kept_hashes, window_h
 from forcetorque.recording.recording import Interval, Recording, Use
 from forcetorque.robot.mechanics.estimate import evaluator_of_samples
 from forcetorque.robot.mechanics.samples import SensorSamples, padded_samples, sensor_samples
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 
 def logged_content(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> Content | None:
@@ -111,6 +112,7 @@ def samples_over(
     smoothed: bool = True,
     with_flattening: bool = True,
     known: Sequence[IntervalSamples] = (),
+    shared: SharedWrenches | None = None,
 ) -> IntervalSamples:
     """Pair the readings of a sensor with what the model expects over one interval.
 
@@ -122,6 +124,7 @@ def samples_over(
         smoothed: Whether the filter of the experiment is applied.
         with_flattening: As of `sensor_samples`.
         known: Samples of the sensor, without a filter, whose expected wrenches need not be computed again.
+        shared: As of `sensor_samples`.
 
     Returns:
         Reading and reference at the same instants.
@@ -152,6 +155,7 @@ def samples_over(
         quality=sample_quality(experiment, sensor),
         with_flattening=with_flattening,
         known=[other.samples for other in known if other.interval.support is interval.support],
+        shared=shared,
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     content = logged_content(experiment, sensor, interval) if interval.use is Use.CALIBRATION else None

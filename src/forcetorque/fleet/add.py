@@ -12,10 +12,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ChangingFileError, ExperimentError, MissingFileError
-from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import changed_inputs
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
 from forcetorque.fleet.failures import forget_failures
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
@@ -148,10 +146,10 @@ def _added(
     there = {sensor.serial: dataset.present(sensor.serial) for sensor in experiment.sensors}
     for sensor in experiment.sensors:
         others = [one for one in there[sensor.serial] if not (replace and one in own)]
-        _refuse_other_robot(experiment, sensor.name, sensor.serial, others, options)
+        _refuse_other_robot(source, experiment, sensor, others, options)
     changed = [one for one in own if one.recording != digest]
     if not replace:
-        _refuse_changed(experiment, dataset, changed)
+        _refuse_changed(source, experiment, dataset, changed)
     present = {
         serial: any((one.recording, one.options) == (digest, wanted) for one in files)
         for serial, files in there.items()
@@ -166,6 +164,8 @@ def _added(
         for number, record in enumerate(sensor_records(experiment, options, code_version, progress=progress)):
             if not number:
                 _refuse_changing(experiment, source)
+            if source.address is not None:
+                record = record.model_copy(update={"file": source.address})
             if not present[record.identity.serial]:
                 dataset.write(record, options)
     for one in replaced:
@@ -187,11 +187,12 @@ def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[A
     rows = dataset.rows(files, ["identity", "sensors", "inputs_sha256"])
     if not rows or len(rows) != rows[0]["sensors"] or len({file.recording for file in files}) != 1:
         return None
-    folder = real_path(source.experiment).parent
     written_ns = min((dataset.folder / file.path).stat().st_mtime_ns for file in files)
     # a new file in a folder that is a log may belong to it
-    if changed_inputs(folder, rows[0]["inputs_sha256"]) or any(
-        one.stat().st_mtime_ns > written_ns for one in source.log_folders()
+    if (
+        source.address is not None
+        or source.changed(rows[0]["inputs_sha256"])
+        or any(one.stat().st_mtime_ns > written_ns for one in source.log_folders())
     ):
         return None
     return [
@@ -202,7 +203,7 @@ def _unchanged(source: RecordingSource, dataset: Dataset, wanted: str) -> list[A
 
 def _refuse_changing(experiment: Experiment, source: RecordingSource) -> None:
     """Refuse a recording that was written to while it was read."""
-    changed = changed_inputs(real_path(source.experiment).parent, experiment.inputs_sha256)
+    changed = source.changed(experiment.inputs_sha256)
     if changed:
         raise ChangingFileError(
             f"{source.path}: expected inputs that do not change while they are read, got {', '.join(changed)}, which "
@@ -211,24 +212,31 @@ def _refuse_changing(experiment: Experiment, source: RecordingSource) -> None:
 
 
 def _refuse_other_robot(
-    experiment: Experiment, name: str, serial: str, there: Sequence[RecordFile], options: AddOptions
+    source: RecordingSource,
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    there: Sequence[RecordFile],
+    options: AddOptions,
 ) -> None:
     robot = options.robot or experiment.model.name
     other = next((one.robot for one in there if one.robot != robot), None)
     if other is not None:
         raise ExperimentError(
-            f"{experiment.file}: sensor {name!r}: expected a serial number that no other robot has, got {serial!r}, "
+            f"{source.path}: sensor {sensor.name!r}: expected a serial number that no other robot has, got "
+            f"{sensor.serial!r}, "
             f"which the dataset has of robot {other!r}, here it is of {robot!r}; correct serial in [[sensor]], name "
             "the robot with --robot, or, where this recording itself was added with another, put it right by --replace"
         )
 
 
-def _refuse_changed(experiment: Experiment, dataset: Dataset, changed: Sequence[RecordFile]) -> None:
+def _refuse_changed(
+    source: RecordingSource, experiment: Experiment, dataset: Dataset, changed: Sequence[RecordFile]
+) -> None:
     for earlier in changed:
         before = dataset.rows([earlier], ["inputs_sha256"])[0]["inputs_sha256"]
         now = experiment.inputs_sha256
         names = sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
         raise ExperimentError(
-            f"{experiment.file}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace "
+            f"{source.path}: changed after it was added to {dataset.folder}: {', '.join(names)}; --replace "
             "puts what it is now in the place of what was added"
         )

@@ -70,7 +70,7 @@ class RecordFile:
             date=record.date,
             recording=record.recording[:20],
             options=options.digest(record.code_version),
-            path_hash=path_digest(Path(record.file)),
+            path_hash=path_digest(record.file),
         )
 
     @classmethod

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
 
-from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import declare_outputs
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
 from forcetorque.calibration.calibrate_command import calibration_files, end_with
@@ -118,6 +119,22 @@ COMMANDS: Final[Mapping[str, Callable[[Dataset, Mapping[str, Any]], None]]] = Ma
     {"calibrate": _calibrate, "evaluate": _evaluate}
 )
 """Commands that take a dataset, and what they then do."""
+FROM_LOGS: Final = (
+    "accept",
+    "balance",
+    "coherence",
+    "compare",
+    "estimate",
+    "fits",
+    "inspect",
+    "payload",
+    "plan",
+    "sphere",
+    "tare",
+    "validate",
+    "view",
+)
+"""Commands that need samples of recordings: they read the experiment files that a dataset names."""
 
 
 def needs_samples(dataset: Dataset, sensors: Sequence[str] = ()) -> str:
@@ -140,7 +157,52 @@ def needs_samples(dataset: Dataset, sensors: Sequence[str] = ()) -> str:
     )
 
 
-def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DatasetLogs:
+    """Recordings of a dataset, for what needs samples."""
+
+    files: tuple[Path, ...]
+    """Experiment files in the order of time."""
+    sensors: tuple[str, ...]
+    """Names that the sensors have in them, of those that were chosen; none where none was."""
+
+    @classmethod
+    def of(cls, dataset: Dataset, command: str, sensors: Sequence[str]) -> DatasetLogs:
+        """Find the experiment files of recordings.
+
+        Args:
+            dataset: The dataset.
+            command: Name of the command, for messages.
+            sensors: Serial numbers or names; none for all.
+
+        Returns:
+            The files.
+
+        Raises:
+            ExperimentError: If a recording is a log to which an experiment file was applied.
+            MissingFileError: If a file is not there any more.
+        """
+        chosen = [file for sensor in sensors for file in dataset.of_sensor(sensor)] or list(dataset.files)
+        rows = sorted(dataset.rows(chosen, ["start_ns", "file"]), key=lambda row: (row["start_ns"], row["file"]))
+        files = tuple(dict.fromkeys(row["file"] for row in rows))
+        why = f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected"
+        for file in files:
+            if not file.lower().endswith(".toml"):
+                raise ExperimentError(
+                    f"{why} recordings with an experiment file each, got the log {file}; name an experiment file of it"
+                )
+            if not Path(file).exists():
+                raise MissingFileError(
+                    f"{why} the recording where it was added from, {file}, which is not there; name experiment files "
+                    "instead"
+                )
+        return cls(
+            files=tuple(map(Path, files)),
+            sensors=tuple(dict.fromkeys(dataset.identity(sensor).name for sensor in sensors)),
+        )
+
+
+def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> DatasetLogs | None:
     """Run a command on a dataset.
 
     Args:
@@ -148,10 +210,21 @@ def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> No
         folder: Folder of the dataset.
         given: What was typed, by name.
 
+    Returns:
+        The recordings that the command is to be run on, where it needs samples; None where it was run.
+
     Raises:
-        ExperimentError: If the command needs samples.
+        ExperimentError: If the command reads something else than recordings.
     """
     dataset = Dataset.opened(folder)
-    if command not in COMMANDS:
-        raise ExperimentError(f"{folder}: {command} {needs_samples(dataset, given.get('sensor') or ())}")
-    COMMANDS[command](dataset, given)
+    if command in COMMANDS:
+        COMMANDS[command](dataset, given)
+        return None
+    sensors = given.get("sensor") or ()
+    if command not in FROM_LOGS:
+        raise ExperimentError(f"{folder}: {command} {needs_samples(dataset, sensors)}")
+    logs = DatasetLogs.of(dataset, command, [sensors] if isinstance(sensors, str) else list(sensors))
+    listed = ", ".join(map(str, logs.files[-_MOST_LOGS:][::-1]))
+    more = f" and {len(logs.files) - _MOST_LOGS} more" if len(logs.files) > _MOST_LOGS else ""
+    start_logging().info("%s needs samples: reading the recordings of %s: %s%s", command, folder, listed, more)
+    return logs

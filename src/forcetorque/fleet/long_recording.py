@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
@@ -25,12 +24,14 @@ from forcetorque.experiment.calibration.stored_moments import IntervalMoments, R
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sample_quality import dropped_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
 from forcetorque.fleet.evaluation_blocks import EvaluatedSamples, evaluated_variables
 from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.inspection.plausibility.reversed_sense_and_gain import require_moving_load
 from forcetorque.recording.fingerprint import joined_fingerprint
+from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment, segments_of
 
@@ -151,8 +152,9 @@ class SegmentedSensor:
         self._doubts: list[dict[str, str]] = []
         self._left_out: list[str] = []
         self._errors: dict[str, RecordingError] = {}  # the first of every interval
+        self._lost: dict[str, list[tuple[int, UnusableCounts]]] = {}  # samples of parts without one that can be used
         self._fitted: set[str] = set()
-        self._evaluated: dict[str, _Evaluated] = {}
+        self._evaluated = _Evaluated()
         self._names = evaluated_variables(run)
 
     def add(self, run: SensorRun) -> None:
@@ -166,10 +168,7 @@ class SegmentedSensor:
         if fitted:
             self._add_moments(run, fitted)
         for part in self._parts(run, Use.VALIDATION, self._names):
-            label = part.interval.label
-            if label not in self._evaluated:
-                self._evaluated[label] = _Evaluated(part)
-            self._evaluated[label].add(run, part)
+            self._evaluated.add(run, part)
 
     def _parts(self, run: SensorRun, use: Use, variables: Sequence[str]) -> Iterator[IntervalSamples]:
         """Samples of the parts of intervals, without those in which the log has none."""
@@ -178,6 +177,9 @@ class SegmentedSensor:
                 yield run.interval_samples(interval, variables=variables)
             except RecordingError as error:
                 self._errors.setdefault(interval.label, error)
+                with suppress(RecordingError):  # no sample at all
+                    lost = dropped_in(run.experiment, run.sensor, interval)
+                    self._lost.setdefault(interval.label, []).append(lost)
 
     def _add_moments(self, run: SensorRun, parts: Sequence[IntervalSamples]) -> None:
         campaign = Campaign.of(run)
@@ -236,13 +238,10 @@ class SegmentedSensor:
         require_moving_load(pooled(self._pooled))
         recording, models = CampaignRecording.of(run), self._models.mapped()
         intervals = {interval.label: interval for interval in run.experiment.recording.intervals}
-        blocks = [
-            block
-            for label, interval in intervals.items()
-            for block in _of_interval(
-                [_with_model(block, models[at:]) for block, at in self._moments.get(label, ())], interval
-            )
-        ]
+        blocks: list[IntervalMoments] = []
+        for label, interval in intervals.items():
+            own = [_with_model(block, models[at:]) for block, at in self._moments.get(label, ())]
+            blocks += _of_interval(_with_lost(own, self._lost.get(label, ())), interval)
         said = [*_joined_doubts(self._doubts), *self._left_out]
         return moments_of(recording, _with_all_terms(blocks), variables=self._variables, doubts=said)
 
@@ -257,8 +256,8 @@ class SegmentedSensor:
         """
         if not self._run.has(Use.VALIDATION):
             return None
-        self._require_samples(Use.VALIDATION, self._evaluated)
-        return [self._evaluated[one.label].samples(one) for one in self._run.intervals(Use.VALIDATION)]
+        self._require_samples(Use.VALIDATION, self._evaluated.labels)
+        return self._evaluated.samples(self._run.intervals(Use.VALIDATION))
 
     def _require_samples(self, use: Use, seen: Collection[str]) -> None:
         """Refuse intervals without a sample in any segment, as in a recording that is reduced as a whole."""
@@ -300,6 +299,18 @@ def _with_model(block: IntervalMoments, values: FloatArray) -> IntervalMoments:
     return block.model_copy(update={"model": values[: shape[0] * shape[1]].reshape(shape)})
 
 
+def _with_lost(blocks: Sequence[IntervalMoments], lost: Sequence[tuple[int, UnusableCounts]]) -> list[IntervalMoments]:
+    """Blocks of which the first counts the samples of parts that have no block."""
+    if not blocks or not lost:
+        return list(blocks)
+    first = blocks[0]
+    counts = {
+        "dropped": first.dropped + sum(dropped for dropped, _ in lost),
+        "unusable": UnusableCounts.total([first.unusable, *(unusable for _, unusable in lost)]),
+    }
+    return [first.model_copy(update=counts), *blocks[1:]]
+
+
 def _of_interval(blocks: Sequence[IntervalMoments], interval: Interval) -> Iterator[IntervalMoments]:
     """Blocks of parts of an interval as those of the interval."""
     contents = [block.interval.content for block in blocks if block.interval.content is not None]
@@ -332,30 +343,42 @@ def _with_all_terms(blocks: Sequence[IntervalMoments]) -> list[IntervalMoments]:
 
 
 class _Evaluated:
-    """Samples of one validation interval, in a temporary file."""
+    """Samples of the validation intervals of a sensor, in two temporary files however many intervals there are."""
 
-    def __init__(self, part: IntervalSamples) -> None:
-        self._channels = part.raw.shape[1]
+    def __init__(self) -> None:
         self._stamps = RowsOnDisk(dtype=np.int64)
-        self._columns = RowsOnDisk((self._channels + 6 + part.samples.variables.shape[1],))
-        self._ends = [0]
-        self._contents: list[Content] = []
+        self._columns: RowsOnDisk | None = None
+        self._channels = 0
+        self._parts: dict[str, list[slice]] = {}
+        self._contents: dict[str, list[Content]] = {}
+
+    @property
+    def labels(self) -> Collection[str]:
+        return self._parts.keys()
 
     def add(self, run: SensorRun, part: IntervalSamples) -> None:
-        samples = part.samples
+        samples, label = part.samples, part.interval.label
+        if self._columns is None:
+            self._channels = part.raw.shape[1]
+            self._columns = RowsOnDisk((self._channels + 6 + samples.variables.shape[1],))
+        first = len(self._stamps)
         self._stamps.append(samples.stamp_ns)
         self._columns.append(np.hstack([part.raw, samples.reference, samples.variables]))
-        self._ends.append(len(self._stamps))
+        self._parts.setdefault(label, []).append(slice(first, len(self._stamps)))
         content = logged_content(run.experiment, run.sensor, part.interval)
-        self._contents += [] if content is None else [content]
+        self._contents.setdefault(label, []).extend([] if content is None else [content])
 
-    def samples(self, interval: Interval) -> EvaluatedSamples:
+    def samples(self, intervals: Sequence[Interval]) -> list[EvaluatedSamples]:
+        if self._columns is None:
+            return []
         stamps, columns = self._stamps.mapped(), self._columns.mapped()
-        parts = [slice(first, after) for first, after in pairwise(self._ends)]
-        return EvaluatedSamples(
-            interval=interval,
-            content=_joined_content(self._contents),
-            channels=self._channels,
-            stamp_ns=[stamps[part] for part in parts],
-            columns=[columns[part] for part in parts],
-        )
+        return [
+            EvaluatedSamples(
+                interval=interval,
+                content=_joined_content(self._contents[interval.label]),
+                channels=self._channels,
+                stamp_ns=[stamps[part] for part in self._parts[interval.label]],
+                columns=[columns[part] for part in self._parts[interval.label]],
+            )
+            for interval in intervals
+        ]

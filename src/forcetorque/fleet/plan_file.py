@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text, read_toml
+from forcetorque.fleet.address import addresses, is_address, require_path
 from forcetorque.fleet.source import RecordingSource
 
 
@@ -24,7 +25,7 @@ class RecordingsTable(Table):
     template: Path | None = None
     """Experiment file that is applied to every log, in place of the path of its [recording]."""
     logs: Text | None = None
-    """Pattern of logs, files or folders, relative to the plan."""
+    """Pattern of logs, files or folders, relative to the plan, or an address that fsspec reads."""
     robot: Text | None = None
     """Name of the robot in the dataset; that of its robot model if left out."""
 
@@ -69,7 +70,12 @@ def read_plan(path: Path | str) -> PlanFile:
     Returns:
         The plan.
     """
-    return read_toml(path, PlanFile, what="a plan of fleet run")
+    plan = read_toml(path, PlanFile, what="a plan of fleet run")
+    for key in ("dataset", "calibrations"):
+        folder = getattr(plan, key)
+        if folder is not None:
+            require_path(str(folder), f"{path}: {key}")
+    return plan
 
 
 def planned_recordings(plan: PlanFile, file: Path) -> list[PlannedRecording]:
@@ -85,7 +91,7 @@ def planned_recordings(plan: PlanFile, file: Path) -> list[PlannedRecording]:
     Raises:
         ExperimentError: If a pattern matches nothing, or two tables have one recording.
     """
-    found: dict[Path, int] = {}
+    found: dict[Path | str, int] = {}
     made = []
     for number, table in enumerate(plan.recordings):
         for source in _sources(table, file, f"{file}: recordings[{number}]"):
@@ -101,6 +107,12 @@ def planned_recordings(plan: PlanFile, file: Path) -> list[PlannedRecording]:
 
 def _sources(table: RecordingsTable, file: Path, where: str) -> Iterator[RecordingSource]:
     pattern = table.experiments or table.logs or ""
+    if table.experiments is not None:
+        require_path(pattern, f"{where}: experiments")
+    if is_address(pattern) and table.template is not None:
+        for address in addresses(pattern, where):
+            yield RecordingSource(experiment=file.parent / table.template, address=address)
+        return
     folder, rest = (Path("/"), pattern.lstrip("/")) if pattern.startswith("/") else (file.parent, pattern)
     try:
         matches = sorted(path for path in folder.glob(rest) if not path.name.startswith("."))

@@ -27,11 +27,13 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.fleet.address import is_address
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.long_recording import SegmentedSensor, forget_recording, joined_findings, recorded_segments
 from forcetorque.inspection.findings import inspect_experiment, unreliable_among
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 SCHEMA: Final = "forcetorque/dataset/1"
 """Name and version of the form of a file."""
@@ -161,7 +163,7 @@ def sensor_records(
         A record per sensor; nothing of the log is read after the first.
     """
     segments = recorded_segments(experiment)
-    runs = [SensorRun(experiment, sensor) for sensor in experiment.sensors]
+    runs = _runs(experiment)
     if len(segments) == 1:
         reduced = [_of_whole(run, options) for run in runs]
         found = _joined([own.findings for own in reduced])
@@ -174,8 +176,8 @@ def sensor_records(
     left = TimeLeft(progress, f"adding {experiment.name}", len(segments) * len(runs))
     for number, segment in enumerate(segments):
         part, found_in = replace(experiment, recording=segment.recording), []
-        for place, (run, sensor, said, of_fit) in enumerate(zip(runs, sensors, warnings, of_fits, strict=True)):
-            own = SensorRun(part, run.sensor)
+        each = enumerate(zip(runs, _runs(part), sensors, warnings, of_fits, strict=True))
+        for place, (run, own, sensor, said, of_fit) in each:
             sensor.add(own)
             found_in.append(_findings(own))
             of_fit.append(_findings_of_fit(own) if run.has(Use.CALIBRATION) else ())
@@ -194,6 +196,12 @@ def sensor_records(
             said |= dict.fromkeys(doubts_of_intervals(run, among))
         whole = _Reduced(moments=sensor.moments(), evaluation=evaluation, warnings=tuple(said), findings=())
         yield _record(run, found_in_all, whole, code_version)
+
+
+def _runs(experiment: Experiment) -> list[SensorRun]:
+    """The sensors, whose expected wrenches are computed at once."""
+    shared = SharedWrenches(experiment.recording, {sensor.name: sensor.stream for sensor in experiment.sensors})
+    return [SensorRun(experiment, sensor, shared=shared) for sensor in experiment.sensors]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -266,13 +274,14 @@ def _prior_error(
     return PriorError.of(WrenchModel(matrix=run.sensor.prior, offset=np.zeros(6)), parts)
 
 
-def path_digest(file: Path) -> str:
-    """Hash the path of an experiment file.
+def path_digest(file: Path | str) -> str:
+    """Hash the path of an experiment file or log.
 
     Args:
-        file: The file.
+        file: The file; an address is taken as it is.
 
     Returns:
         Twelve hexadecimal digits.
     """
-    return hashlib.sha256(str(real_path(file)).encode()).hexdigest()[:12]
+    text = file if isinstance(file, str) and is_address(file) else str(real_path(Path(file)))
+    return hashlib.sha256(text.encode()).hexdigest()[:12]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,8 +12,9 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import real_path
 from forcetorque.base.toml_file import toml_content
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import InMemory, Inputs
+from forcetorque.experiment.input_files import InMemory, Inputs, changed_inputs
 from forcetorque.experiment.loading import load_experiment, load_tables
+from forcetorque.fleet.address import copied, is_address, sizes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,11 +25,13 @@ class RecordingSource:
     """Experiment file."""
     log: Path | None = None
     """Log that takes the place of `path` of its [recording]; None where the file has its own."""
+    address: str | None = None
+    """Address that fsspec reads the log from, in place of `log`."""
 
     @property
-    def path(self) -> Path:
+    def path(self) -> Path | str:
         """What tells it from others: the log, else the experiment file."""
-        return self.experiment if self.log is None else self.log
+        return self.address or self.log or self.experiment
 
     def absolute(self) -> RecordingSource:
         """Give the same from any working folder.
@@ -43,8 +47,10 @@ class RecordingSource:
         """List the logs.
 
         Returns:
-            Files and folders, there or not; none where the experiment file cannot be read.
+            Files and folders of this machine, there or not; none where the experiment file cannot be read.
         """
+        if self.address is not None:
+            return []
         try:
             recording = toml_content(self.experiment)[1].get("recording")
         except (OSError, ValueError):
@@ -68,8 +74,11 @@ class RecordingSource:
         """Tell the state of the log without reading it.
 
         Returns:
-            Path, size in bytes and instant of the last change in ns of every file of it, sorted.
+            Path, size in bytes and instant of the last change in ns of every file of it, sorted; of an address 0 in
+            place of the instant.
         """
+        if self.address is not None:
+            return [(name, size, 0) for name, size in sizes(self.address)]
         files = [one for log in self.logs() for one in (log.rglob("*") if log.is_dir() else (log,)) if one.is_file()]
         return sorted((str(file), file.stat().st_size, file.stat().st_mtime_ns) for file in files)
 
@@ -82,8 +91,25 @@ class RecordingSource:
         Raises:
             ExperimentError: If the experiment file has no [recording] with a path.
         """
-        if self.log is None:
-            return load_experiment(self.experiment)
+        if self.address is not None:
+            with copied(self.address) as copy:
+                return self._load(copy, self.address)
+        return load_experiment(self.experiment) if self.log is None else self._load(self.log, None)
+
+    def changed(self, inputs_sha256: Mapping[str, str]) -> list[str]:
+        """Name the inputs that are not what they were.
+
+        Args:
+            inputs_sha256: SHA-256 by name, of the experiment.
+
+        Returns:
+            Those that changed or are gone, of files on this machine.
+        """
+        own = {name: digest for name, digest in inputs_sha256.items() if not is_address(name)}
+        return changed_inputs(real_path(self.experiment).parent, own)
+
+    def _load(self, log: Path, address: str | None) -> Experiment:
+        """Read a log by the experiment file; of an address it is a copy."""
         tables = toml_content(self.experiment)[1]
         recording = tables.get("recording")
         if not isinstance(recording, dict) or "path" not in recording:
@@ -91,15 +117,19 @@ class RecordingSource:
                 f"{self.experiment}: expected [recording] with path, in whose place logs are read, got none"
             )
         folder = real_path(self.experiment).parent
-        path = Path(os.path.relpath(real_path(self.log), folder)).as_posix()
+        path = Path(os.path.relpath(real_path(log), folder)).as_posix()
         named = tables | {"recording": recording | {"path": path}}
         if "name" in tables:
-            named["name"] = f"{tables['name']}, {self.log.stem}"
+            named["name"] = f"{tables['name']}, {log.stem}"
         experiment = load_tables(named, InMemory(), folder=folder)
         template = Inputs(folder)
         template.file(Path(self.experiment.name))
+        inputs = experiment.inputs_sha256 | template.sha256()
+        if address is not None:
+            inputs = {
+                f"{address}{name.removeprefix(path)}" if name == path or name.startswith(f"{path}/") else name: digest
+                for name, digest in inputs.items()
+            }
         return replace(
-            experiment,
-            file=self.log,
-            inputs_sha256=dict(sorted((experiment.inputs_sha256 | template.sha256()).items())),
+            experiment, file=log if address is None else self.experiment, inputs_sha256=dict(sorted(inputs.items()))
         )

@@ -329,4 +329,5 @@ def _motion(
         run.stream,
         at_ns,
         processing=experiment.processing,
+        filters=None if run.shared is None else run.shared.filters,
     )

@@ -27,6 +27,7 @@ from forcetorque.inspection.plausibility.hypotheses import Explanation
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
@@ -78,6 +79,7 @@ def inspect_experiment(
         Findings in the order of time, those without a time first.
     """
     inspected = [sensor for sensor in experiment.sensors if sensors is None or sensor.name in sensors]
+    shared = SharedWrenches(experiment.recording, {sensor.name: sensor.stream for sensor in inspected})
     time_left = TimeLeft(progress, f"inspecting {experiment.name}", len(inspected) * _STEPS)
     findings = list(_once(experiment, "streams", lambda: inspect_recording(experiment.recording)))
     for number, sensor in enumerate(inspected):
@@ -90,7 +92,7 @@ def inspect_experiment(
             findings.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         if by_model:
             calibration = (calibrations or {}).get(sensor.name)
-            run = SensorRun(experiment, sensor)
+            run = SensorRun(experiment, sensor, shared=shared)
             if computed is not None and computed.sensor is sensor:
                 run = computed.copy()
             at_half = partial(time_left.at, number * _STEPS + 1)

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -15,6 +16,7 @@ from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import Interpolation, Neighbours, rows_of
 from forcetorque.recording.recording import Recording
+from forcetorque.recording.shared_filters import SharedFilters
 from forcetorque.recording.smoothing import FilteredColumns, SavitzkyGolay
 from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 from forcetorque.robot.model import Joint, JointType, RobotModel
@@ -295,6 +297,7 @@ class LoggedJoints:
         *,
         window: SavitzkyGolay,
         logged_derivatives: bool = False,
+        filters: SharedFilters | None = None,
     ) -> None:
         """Find the streams of joints.
 
@@ -303,6 +306,7 @@ class LoggedJoints:
             joints: Names of the joints.
             window: Filter that differentiates the logged positions on their own clock.
             logged_derivatives: Whether velocities and accelerations are taken from the log instead.
+            filters: What is filtered already, and is kept for other analyses; None for this one alone.
 
         Raises:
             RecordingError: If a joint is in no stream, or the log lacks derivatives that are to be taken from it.
@@ -313,7 +317,8 @@ class LoggedJoints:
         if logged_derivatives:
             self._logged = {name: _holders(recording, joints, name) for name in ("velocity", "acceleration")}
         self._derivatives = [
-            None if logged_derivatives or one.is_at_rest else one.derivatives(window) for one in self._positions
+            None if logged_derivatives or one.is_at_rest else one.derivatives(window, filters)
+            for one in self._positions
         ]
 
     def at(self, at_ns: IntArray) -> JointMotion:
@@ -334,7 +339,7 @@ class LoggedJoints:
                 motion["position"][block, holder.places] = holder.interpolated(neighbours)
                 if derivatives is not None:
                     rows, before, after = rows_of(neighbours)
-                    for name, values in zip(names[1:], derivatives.at(rows), strict=True):
+                    for name, values in zip(names[1:], derivatives(rows), strict=True):
                         motion[name][block, holder.places] = neighbours.interpolated(values[before], values[after])
                 elif not self._logged:
                     none = np.zeros((len(neighbours.before), len(holder.places)))
@@ -387,10 +392,14 @@ class _Holder:
         """Whether its samples have no times."""
         return self.stream.clock == ROW_CLOCK
 
-    def derivatives(self, window: SavitzkyGolay) -> FilteredColumns:
-        """Rates and second derivatives of its joints."""
+    def derivatives(
+        self, window: SavitzkyGolay, filters: SharedFilters | None
+    ) -> Callable[[IntArray], list[FloatArray]]:
+        """Give rates and second derivatives of its joints in rows."""
+        if filters is not None:
+            return partial(filters.at, self.stream, self.signal, self.columns, window)
         stamps, values = self.stream.stamp_ns, self.signal.values
-        return FilteredColumns(stamps, values, window, columns=self.columns, derivatives=(1, 2))
+        return FilteredColumns(stamps, values, window, columns=self.columns, derivatives=(1, 2)).at
 
     def interpolated(self, neighbours: Neighbours) -> FloatArray:
         """Its joints as logged, at instants."""

@@ -128,16 +128,14 @@ def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray
     """
     columns: dict[str, FloatArray] = {}
     for k, state in equation.states.items():
-        inertia, pose, name = tree.bodies[k].inertia, equation.poses[k], _name(tree, k)
+        inertia, pose = tree.bodies[k].inertia, equation.poses[k]
         omega, alpha, proper = state.angular_velocity, state.angular_acceleration, state.proper_acceleration
-        body_R_link = tree.frames[name][1][:3, :3]
         wrenches = [net_wrench(inertia, state)]
-        for unit in inertia.mass * body_R_link.T:
+        for unit in inertia.mass * link_axes(tree, k).T:
             force = cross(alpha, unit) + cross(omega, cross(omega, unit))
             wrenches.append(np.concatenate([force, cross(unit, proper)], axis=1))
-        names = [_mass(tree, k), *(f"{axis}{CENTRE}{name}" for axis in "xyz")]
         at_root = -transform_wrench(pose[:, None], np.stack(wrenches, axis=1))
-        columns |= {own: equation.rows * at_root[:, place] for place, own in enumerate(names)}
+        columns |= {own: equation.rows * at_root[:, place] for place, own in enumerate(terms_of_body(tree, k))}
     return columns | acceleration_columns(tree, equation)
 
 
@@ -201,6 +199,44 @@ def mass_shares(tree: BodyTree, part: SubModel, terms: Sequence[ErrorTerm]) -> F
     masses = {_mass(tree, k): tree.bodies[k].inertia.mass for k in heavy_bodies(tree, part)}
     total = sum(masses.values())
     return np.array([masses.get(term.name, 0.0) / total if total else 0.0 for term in terms])
+
+
+def terms_of_body(tree: BodyTree, k: int) -> tuple[str, ...]:
+    """Name the errors of a body: of its mass, then of its centre along three axes.
+
+    Args:
+        tree: The robot.
+        k: Index of the body.
+
+    Returns:
+        Four names.
+    """
+    return _mass(tree, k), *(f"{axis}{CENTRE}{_name(tree, k)}" for axis in "xyz")
+
+
+def link_axes(tree: BodyTree, k: int) -> FloatArray:
+    """Give the axes along which the centre of a body is moved, those of its heaviest link.
+
+    Args:
+        tree: The robot.
+        k: Index of the body.
+
+    Returns:
+        Axes in the frame of the body, one per column; shape (3, 3).
+    """
+    return np.asarray(tree.frames[_name(tree, k)][1][:3, :3])
+
+
+def terms_of_acceleration(tree: BodyTree) -> tuple[str, ...]:
+    """Name the errors of the acceleration of the root along three axes.
+
+    Args:
+        tree: The robot.
+
+    Returns:
+        Three names.
+    """
+    return tuple(_acceleration(axis, tree) for axis in "xyz")
 
 
 def _mass(tree: BodyTree, k: int) -> str:

@@ -263,8 +263,10 @@ class DataSet(ArrayRecord):
             marks: Which; shape (n,).
 
         Returns:
-            The others left out.
+            The others left out; the same where none is.
         """
+        if marks.all():
+            return self
         return replace(
             self,
             raw=self.raw[marks],

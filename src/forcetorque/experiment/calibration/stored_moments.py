@@ -196,8 +196,9 @@ def end_samples(data: DataSet, moments: Moments) -> IntArray:
     _, of_raw = np.linalg.eigh(moments.raw_raw)
     scale = np.sqrt(np.maximum(np.diag(moments.reference_reference), np.finfo(float).tiny))
     _, of_loads = np.linalg.eigh(moments.reference_reference / np.outer(scale, scale))
-    along = np.hstack([data.raw, data.raw @ of_raw, data.reference, data.reference / scale @ of_loads])
-    return np.unique([along.argmin(axis=0), along.argmax(axis=0)])
+    along = [data.raw.T, of_raw.T @ data.raw.T, data.reference.T, (of_loads.T / scale) @ data.reference.T]
+    rows = [np.ascontiguousarray(row) for rows in along for row in rows]  # along samples is five times as fast
+    return np.unique([[row.argmin(), row.argmax()] for row in rows])
 
 
 class VariableDescription(StoredTable):

@@ -15,11 +15,13 @@ from forcetorque.recording.alignment import interpolate, require_overlap, usable
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.shared_filters import SharedFilters
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate, evaluator_of_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import LoggedSupport, joints_to_support
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, JointUnits, LoggedJoints, RootMotion, blocks_of
 from forcetorque.robot.tree import build_tree
@@ -243,6 +245,7 @@ def sensor_samples(
     quality: SampleQuality | None = None,
     with_flattening: bool = True,
     known: Sequence[SensorSamples] = (),
+    shared: SharedWrenches | None = None,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -263,6 +266,7 @@ def sensor_samples(
         quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
         with_flattening: Whether the flattening is evaluated, for a fit.
         known: Samples on the same support, by the same processing without `smoothing`, whose reference holds here too.
+        shared: Expected wrenches of other sensors of the recording, computed with those of this one; None for it alone.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -283,11 +287,11 @@ def sensor_samples(
         new = np.isnan(columns["reference"]).any(axis=1)
         joints: tuple[str, ...] = ()
         if new.any():
-            columns["reference"][new], joints = _expected(*robot[:-1], at_ns[new], processing, evaluator)
+            columns["reference"][new], joints = _expected(*robot[:-1], at_ns[new], processing, evaluator, shared)
         if with_flattening and not processing.logged_derivatives:
             longer = replace(processing, derivative_window=processing.derivative_window.doubled())
             # near the end of a log there may be no room for the longer window
-            flattening = np.nan_to_num(columns["reference"] - _expected(*robot, longer, evaluator)[0])
+            flattening = np.nan_to_num(columns["reference"] - _expected(*robot, longer, evaluator, shared)[0])
             columns["flattening"] = flattening
     else:
         columns["reference"], joints = _applied(recording, source, applied, at_ns), ()
@@ -391,19 +395,34 @@ def _expected(
     at_ns: IntArray,
     processing: Processing,
     evaluator: Evaluator | None,
+    shared: SharedWrenches | None = None,
 ) -> tuple[FloatArray, tuple[str, ...]]:
     """Expected wrench of a sensor at given instants, and the joints it needed."""
-    name = model.sensor(sensor).name
-    question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
-    robot = LoggedRobot(recording, model, support, required_joints_of(question), source, processing=processing)
-    if evaluator is None:
-        evaluator = evaluator_of_samples(len(at_ns))
-    expected = np.empty((len(at_ns), 6))
-    for block in blocks_of(len(at_ns)):
-        joints, root = robot.at(at_ns[block])
-        expected[block] = estimate(question, joints, root, evaluator=evaluator).expected_of(name)
-    robot.require_radians()
-    return expected, robot.joints
+    tree = build_tree(model, support.frame)
+
+    def question_of(names: Sequence[str]) -> Question:
+        return Question(tree=tree, expected=tuple(model.sensor(name).name for name in names), equations=())
+
+    def compute(names: Sequence[str]) -> dict[str, FloatArray]:
+        question = question_of(names)
+        joints, filters = required_joints_of(question), None if shared is None else shared.filters
+        robot = LoggedRobot(recording, model, support, joints, source, processing=processing, filters=filters)
+        by = evaluator_of_samples(len(at_ns)) if evaluator is None else evaluator
+        expected = {name: np.empty((len(at_ns), 6)) for name in names}
+        for block in blocks_of(len(at_ns)):
+            estimates = estimate(question, *robot.at(at_ns[block]), evaluator=by)
+            for name, wrenches in expected.items():
+                wrenches[block] = estimates.expected_of(model.sensor(name).name)
+        robot.require_radians()
+        return expected
+
+    if shared is None:
+        wrenches = compute([sensor])[sensor]
+    else:
+        key = (id(support), processing.derivative_window, processing.logged_derivatives, processing.gravity)
+        wrenches = shared.of(sensor, key, at_ns, compute)
+    needed = required_joints_of(question_of([sensor]))
+    return wrenches, tuple(dict.fromkeys((*needed, *joints_to_support(model, recording, support))))
 
 
 class LoggedRobot:
@@ -418,6 +437,7 @@ class LoggedRobot:
         source: Stream,
         *,
         processing: Processing,
+        filters: SharedFilters | None = None,
     ) -> None:
         """Find the streams of the joints and of the IMU.
 
@@ -428,6 +448,7 @@ class LoggedRobot:
             joints: Joints whose motion is wanted.
             source: Stream that the instants are of.
             processing: Filters and gravity.
+            filters: As of `LoggedJoints`.
         """
         self.joints = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
         """Joints whose motion is given: those that are wanted, and those between an IMU and the support."""
@@ -440,7 +461,11 @@ class LoggedRobot:
                 require_overlap(source, recording.stream(stream))
         window = processing.derivative_window
         self._joints = LoggedJoints(
-            recording, self.joints, window=window, logged_derivatives=processing.logged_derivatives
+            recording,
+            self.joints,
+            window=window,
+            logged_derivatives=processing.logged_derivatives,
+            filters=filters,
         )
         self._support = LoggedSupport(model, recording, support, window=window, gravity=processing.gravity)
         self._units = JointUnits(model, self.joints)
@@ -472,6 +497,7 @@ def robot_motion_at(
     at_ns: IntArray,
     *,
     processing: Processing,
+    filters: SharedFilters | None = None,
 ) -> tuple[JointMotion, RootMotion]:
     """Give the motion of joints and support at instants of a stream.
 
@@ -483,11 +509,12 @@ def robot_motion_at(
         source: Stream that the instants are of.
         at_ns: Instants; shape (n,); ns.
         processing: Filters and gravity.
+        filters: As of `LoggedJoints`.
 
     Returns:
         Motion of the joints, and of those between an IMU and the support; motion of the support frame.
     """
-    robot = LoggedRobot(recording, model, support, joints, source, processing=processing)
+    robot = LoggedRobot(recording, model, support, joints, source, processing=processing, filters=filters)
     motion = robot.at(at_ns)
     robot.require_radians()
     return motion
