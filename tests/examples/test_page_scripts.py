@@ -18,6 +18,7 @@ RUN_ELSEWHERE = {
     "locomotion/balance.md": "tests/locomotion/standing/test_balance.py",
     "calibration/method.md": "tests/examples/test_calibration_page.py",
     "estimation/estimation.md": "tests/robot/mechanics/test_documentation.py",
+    "live.md": "tests/live/test_corrector.py",
     "yarp.md": "tests/experiment/test_written_logs.py",
     "calibration/joint.md": "tests/calibration/joint/test_joint_calibration.py",
     "payload/robot_load.md": "tests/payload/robot_files/test_tare.py",

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -190,3 +192,17 @@ def test_what_is_missing_is_refused() -> None:
         Corrector(make_calibration(), CorrectorOptions(session="monday"))
     with pytest.raises(RecordingError, match="at least one"):
         Corrector([])
+
+
+def test_the_program_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The block of docs/live.md, with two sensors that have a thermometer."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("left", "right"):
+        make_calibration(name=name, variables=(make_variable(),)).save(f"{name}.json")
+    page = (EXAMPLES.parent / "docs" / "live.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    names: dict[str, Any] = {"left_counts": RAW, "right_counts": 2.0 * RAW, "now_ns": 0}
+    exec(compile(block, "live.md", "exec"), names)
+    assert np.allclose(
+        names["sample"].wrench[0], names["corrector"].correct([RAW, RAW], variables=[[31.5], [30.2]]).wrench[0]
+    )
