@@ -38,7 +38,7 @@ def collisions_answers(collisions: Collisions) -> Iterator[Answer]:
 
 def _strongest(row: CollisionRow) -> str:
     link = row.link if not row.other_links else f"{row.link} (or {', '.join(row.other_links[:2])})"
-    stays = ", and stays" if row.kind == "new_level" else ""
+    stays = ", and stays, or an earlier contact ended" if row.kind == "new_level" else ""
     force = plus_minus(row.force_N, row.force_half_width_95_N, "N")
     return f"clearest: {row.start_s:.2f} to {row.end_s:.2f} s, {force} on {link}{stays}"
 

@@ -30,6 +30,8 @@ from forcetorque.recording.recording import Interval, Use
 
 SHORT_S: Final = 0.5
 """Length below which a contact is a collision."""
+_RATES: Final = (1e-6, 3600.0)
+"""Rates of false alarms that a threshold can be set for; per hour."""
 _LEAST_FREE_S: Final = 10.0
 """Time without contact below which noise is not known."""
 _ENOUGH_FREE_S: Final = 60.0
@@ -65,8 +67,11 @@ def find_collisions(
         ExperimentError: If there is no interval to look at, too little time without contact, or the rate is not above
             0.
     """
-    if not alarms_per_hour > 0.0:
-        raise ExperimentError(f"alarms per hour: expected a number above 0, got {alarms_per_hour:g}")
+    if not _RATES[0] <= alarms_per_hour <= _RATES[1]:
+        raise ExperimentError(
+            f"alarms per hour: expected a number from {_RATES[0]:g} to {_RATES[1]:g}, got {alarms_per_hour:g}"
+        )
+    _require_rate(run)
     watched = [
         interval
         for _, interval in chosen_intervals([run], intervals)
@@ -97,6 +102,16 @@ def find_collisions(
         curves=(_curve(run, looked),),
         warnings=tuple(_warnings(run, rows, threshold, [one.label for one in _free(run, free)])),
     )
+
+
+def _require_rate(run: SensorRun) -> None:
+    """Refuse a stream of which some windows have no sample."""
+    period_s = float(np.median(np.diff(run.stream.stamp_ns))) * 1e-9 if len(run.stream) > 1 else np.inf
+    if period_s > 1.01 * WINDOW_S:
+        raise ExperimentError(
+            f"sensor {run.sensor.name!r}: expected readings at {1.0 / WINDOW_S:g} Hz at least, for contacts are looked "
+            f"for in windows of {WINDOW_S:g} s, got {1.0 / period_s:.3g} Hz; record it faster"
+        )
 
 
 def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> tuple[FreeModel, Threshold]:
@@ -178,7 +193,7 @@ def _sensitivity(run: SensorRun, looked: Sequence[_Looked], model: FreeModel, th
         tail_decides=threshold.by_tail is not None and threshold.value <= threshold.by_tail,
         alarms_per_hour=threshold.alarms_per_hour,
         free_s=threshold.free_s,
-        looked_at_s=sum(len(one.signals) for one in looked) * WINDOW_S,
+        looked_at_s=sum(int(np.isfinite(one.detected.excess[:, 0]).sum()) for one in looked) * WINDOW_S,
     )
 
 

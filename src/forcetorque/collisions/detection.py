@@ -25,6 +25,8 @@ HOLD_S: Final = 0.2
 """Time below it after which it is."""
 LONGEST_S: Final = 20.0
 """Length from which a contact is taken for a new level: the sensor stepped, or something leans on the robot."""
+NOTICED: Final = 0.95
+"""Probability with which the smallest force is noticed in the direction in which the sensor knows least."""
 _SLOW_S: Final = 1.0
 """Time that slow noise goes on at least, which vibration may hide; s."""
 _BLOCK_S: Final = 1.0
@@ -185,7 +187,7 @@ def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> 
 
 
 def smallest_force(covariances: Sequence[FloatArray] | FloatArray, threshold: float) -> float:
-    """Give the force that is found wherever and however it acts.
+    """Give the force that a single window notices with a probability of `NOTICED`, wherever and however it acts.
 
     Args:
         covariances: Covariances of what a sensor reads without a contact; shape (w, 6, 6).
@@ -194,8 +196,12 @@ def smallest_force(covariances: Sequence[FloatArray] | FloatArray, threshold: fl
     Returns:
         Median over the windows; N.
     """
+    from scipy.optimize import brentq
+    from scipy.stats import ncx2
+
+    far = brentq(lambda square: float(ncx2.sf(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
     of_force = np.asarray(covariances)[:, :3, :3]
-    return float(np.median(np.sqrt(threshold * np.linalg.eigvalsh(of_force)[:, -1])))
+    return float(np.median(np.sqrt(far * np.linalg.eigvalsh(of_force)[:, -1])))
 
 
 def inside(time_s: FloatArray, spans: Sequence[tuple[float, float]]) -> BoolArray:

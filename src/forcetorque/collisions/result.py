@@ -20,8 +20,8 @@ class CollisionRow(Row):
     interval: Annotated[str, Shown("interval")]
     """Label of the interval."""
     kind: Annotated[Literal["collision", "contact", "new_level"], Shown("kind")]
-    """Shorter than half a second; longer; or still there when looking for it ended: something leans on the robot, or
-    the reading stepped."""
+    """Shorter than half a second; longer; or still there when looking for it ended: something leans on the robot, what
+    leant on it before has gone, with the opposite force, or the reading stepped."""
     start_s: Annotated[float, Shown("from", "s", digits=2)]
     """Begin, from the start of the recording."""
     end_s: Annotated[float, Shown("to", "s", digits=2)]
@@ -60,7 +60,8 @@ class SensitivityRow(Row):
     sensor: Annotated[str, Shown("sensor")]
     """Sensor."""
     smallest_force_N: Annotated[float, Shown("noticed from", "N", digits=1)]
-    """Force that is noticed whatever its direction and place, mean over 50 ms; median over what was looked at."""
+    """Force that a window of 50 ms notices with a probability of 95 %, whatever its direction and place; median over
+    what was looked at."""
     threshold: Annotated[float, Shown("threshold", digits=1)]
     """Threshold of the squared residual over its covariance."""
     tail_decides: Annotated[bool, Shown("set by the tail")]
@@ -70,7 +71,7 @@ class SensitivityRow(Row):
     free_s: Annotated[float, Shown("learnt from", "s", digits=0)]
     """Time without contact that errors and noise are learnt from."""
     looked_at_s: Annotated[float, Shown("looked at", "s", digits=0)]
-    """Time that was looked at."""
+    """Time that was looked at, without that in which the level is found."""
 
 
 class CollisionCurve(Row):
