@@ -54,6 +54,8 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.arm_loads --json build/benchmarks/arm_loads.json
 	$(BIN)/python -m benchmarks.viewer --json build/benchmarks/viewer.json
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.collisions --json build/benchmarks/collisions.json
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.live --json build/benchmarks/live.json
 
 # the pages and the API reference as build/docs/index.html; a warning is an error
 docs: $(VENV)/docs.stamp
