@@ -3,11 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.results.figures import REFERENCE_COLOUR, ROW_INCHES, in_figure_style, look, new_figure, shown_name
+from forcetorque.results.figures import (
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    in_figure_style,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,6 +23,9 @@ if TYPE_CHECKING:
     from forcetorque.collisions.result import Collisions
 
 
+_FORCE: dict[str, Any] = {"color": look(0).colour, "linewidth": 0.8}
+_NOTICED: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5)), "linewidth": 1.0}
+_CONTACT: dict[str, Any] = {"color": look(1).colour, "linewidth": 6.0, "alpha": 0.25}
 _NAMED = 3
 """Contacts of a sensor that are named, the strongest first, each a line lower."""
 
@@ -37,11 +48,11 @@ def collisions_figure(result: Collisions) -> Figure:
     for panel, curve, sensor in zip(panels, result.curves, result.sensitivity, strict=False):
         time_s, force = np.asarray(curve.time_s), np.asarray(curve.force_N)
         gaps = np.flatnonzero(np.diff(time_s) > 1.0) + 1
-        panel.plot(np.insert(time_s, gaps, np.nan), np.insert(force, gaps, np.nan), color=look(0).colour, linewidth=0.8)
-        panel.axhline(sensor.smallest_force_N, color=REFERENCE_COLOUR, linestyle=(0, (4, 1.5)), linewidth=1.0)
+        panel.plot(np.insert(time_s, gaps, np.nan), np.insert(force, gaps, np.nan), **_FORCE)
+        panel.axhline(sensor.smallest_force_N, **_NOTICED)
         own = [row for row in result.collisions if row.sensor == curve.sensor]
         for row in own:
-            panel.axvspan(row.start_s, row.end_s, color=look(1).colour, alpha=0.25, linewidth=0.0)
+            panel.axvspan(row.start_s, row.end_s, color=_CONTACT["color"], alpha=0.25, linewidth=0.0)
         for place, row in enumerate(sorted(own, key=lambda row: -row.force_N)[:_NAMED]):
             panel.annotate(
                 f"{row.force_N:.3g} N, {shown_name(row.link)}",
@@ -51,9 +62,16 @@ def collisions_figure(result: Collisions) -> Figure:
                 textcoords="offset points",
                 clip_on=True,
             )
+        if own:  # room for the names
+            panel.set_ylim(top=1.4 * float(force.max(initial=0.0)))
         panel.set_ylabel("force beyond the model, N")
         panel.set_title(
-            f"{shown_name(curve.sensor)}: dashed, any force from {sensor.smallest_force_N:.2g} N is noticed"
+            f"{shown_name(curve.sensor)}: {_contacts(len(own))}, noticed from {sensor.smallest_force_N:.2g} N"
         )
     panels[-1].set_xlabel("time, s")
+    legend_below(figure, [("force beyond the model", _FORCE), ("noticed from", _NOTICED), ("contact", _CONTACT)])
     return figure
+
+
+def _contacts(count: int) -> str:
+    return "1 contact" if count == 1 else f"{count or 'no'} contacts"
