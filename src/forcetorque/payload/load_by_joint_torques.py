@@ -4,7 +4,7 @@
     torque = unit_torque [m; m c] + bias + error,    in posture k and joint j
 
 Each joint has a bias and a variance of its own. Errors of one posture, of which the noise of samples is the least part,
-are one row: a posture counts once, however long it is held.
+are one row: a posture counts once, however long and often it is held.
 """
 
 from __future__ import annotations
@@ -114,9 +114,11 @@ class TorqueLoad(Result):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Postures:
-    """Means over the samples of each posture."""
+class _Stays:
+    """Means over the samples of each stay in a posture."""
 
+    position: FloatArray
+    """Angles; shape (k, d); rad."""
     torque: FloatArray
     """Declared load included; shape (k, d); N m."""
     unit_torque: FloatArray
@@ -139,9 +141,11 @@ def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names
     Raises:
         FitError: If there are too few postures, they leave something open, or the mass is not above zero.
     """
-    parts = [_postures(log) for log in logs]
+    parts = [_stays(log) for log in logs]
+    number = _posture_numbers(np.concatenate([part.position for part in parts]))
     torque, unit_torque = (
-        np.concatenate([getattr(part, name) for part in parts]) for name in ("torque", "unit_torque")
+        _means_over_stays(np.concatenate([getattr(part, name) for part in parts]), number)
+        for name in ("torque", "unit_torque")
     )
     _require_postures(unit_torque, names)
     values, covariance, deviation = _fit(torque, unit_torque)
@@ -186,11 +190,11 @@ def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names
     )
 
 
-def _postures(log: LoggedTorques) -> _Postures:
+def _stays(log: LoggedTorques) -> _Stays:
     known = np.column_stack([log.declared_mass, log.declared_mass[:, None] * log.declared_centre])
     torque = log.torque + np.einsum("nda,na->nd", log.unit_torque, known)
     still = np.flatnonzero(log.is_still)
-    number = _numbers(still, log.position)
+    number = _stay_numbers(still, log.position)
     starts = np.flatnonzero(np.diff(number, prepend=-1))
     counts = np.diff(starts, append=len(still))
 
@@ -198,11 +202,13 @@ def _postures(log: LoggedTorques) -> _Postures:
         sums = np.add.reduceat(values[still], starts, axis=0) if len(starts) else values[:0]
         return sums / counts.reshape(-1, *(1,) * (values.ndim - 1))
 
-    return _Postures(torque=means(torque), unit_torque=means(log.unit_torque), samples=len(still))
+    return _Stays(
+        position=means(log.position), torque=means(torque), unit_torque=means(log.unit_torque), samples=len(still)
+    )
 
 
-def _numbers(still: IntArray, position: FloatArray) -> IntArray:
-    """Number of the posture of each sample at rest; what moves to another posture and is not logged ends one too."""
+def _stay_numbers(still: IntArray, position: FloatArray) -> IntArray:
+    """Number of the stay of each sample at rest; what moves to another posture and is not logged ends one too."""
     if not len(still):
         return still
     jumps = (np.diff(still) > 1) | (np.abs(np.diff(position[still], axis=0)).max(axis=1) > _SAME_RAD)
@@ -210,6 +216,16 @@ def _numbers(still: IntArray, position: FloatArray) -> IntArray:
     first = position[still[starts]]
     is_another = np.concatenate([[False], np.abs(np.diff(first, axis=0)).max(axis=1) > _SAME_RAD])
     return np.repeat(np.cumsum(is_another), np.diff(starts, append=len(still)))
+
+
+def _posture_numbers(position: FloatArray) -> IntArray:
+    """Number of the posture of each stay, shape (k,): one that the arm takes again, in any log, is the same."""
+    first = [int(np.argmax(np.abs(position - own).max(axis=1) <= _SAME_RAD)) for own in position]
+    return np.unique(np.array(first, dtype=np.int64), return_inverse=True)[1]
+
+
+def _means_over_stays(values: FloatArray, number: IntArray) -> FloatArray:
+    return np.array([values[number == posture].mean(axis=0) for posture in np.unique(number)])
 
 
 def _require_postures(unit_torque: FloatArray, names: str) -> None:
