@@ -170,6 +170,7 @@ def payload(
         experiment_of_description,
         is_experiment_file,
         load_of_torque_logs,
+        refuse_a_log_twice,
     )
     from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
@@ -180,6 +181,7 @@ def payload(
     specified = _specified(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
     _refuse_without_log(logs, specified, save_experiment)
+    refuse_a_log_twice(logs)
     runs, arms, torques = [], [], {}
     for path in experiments:
         log.info("reading %s", path)
