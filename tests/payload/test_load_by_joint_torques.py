@@ -84,6 +84,35 @@ def test_a_table_of_joint_torques_is_enough(tmp_path: Path, run: Run) -> None:
     assert (result["postures"], result["samples"]) == (12, 36)
 
 
+@pytest.mark.parametrize(
+    ("arm", "doubt"),
+    [
+        (held(53, postures=5, moves=(5, 6)), "the mass at 1.66 kg"),
+        (held(9, postures=4), "the centre of mass within 46 mm"),
+    ],
+)
+def test_a_doubtful_load_is_written_with_a_reason_only(tmp_path: Path, run: Run, arm: Held, doubt: str) -> None:
+    """One by the wrench is not written either; answer and file say the same."""
+    asked = ("payload", write_table(tmp_path / "log.csv", arm.states()), "--recording", "payload_kg=0")
+    file = tmp_path / "load.py"
+    shown = run(*asked)
+    assert "more postures" in shown.out
+    assert "--to franka" not in shown.out
+    refused = " ".join(run(*asked, "--to", "franka", "-o", file).error().split())
+    assert f"load by joint torques: expected what the measurements agree on, got: the postures leave {doubt}" in refused
+    assert not file.exists()
+    assert run(*asked, "--to", "franka", "-o", file, "--override", "slow arm").code == 0
+    assert f"written by override (slow arm), although: the postures leave {doubt}" in file.read_text(encoding="utf-8")
+
+
+def test_options_without_a_meaning_are_refused(tmp_path: Path, run: Run) -> None:
+    """The load is in the flange, and no program of an arm asks for a frame of tf."""
+    asked = ("payload", write_table(tmp_path / "log.csv", held(5).states()), "--recording", "payload_kg=0")
+    for option in (("--world-frame", "map"), ("--sensor-pose", *"000000")):
+        refused = run(*asked, "--to", "franka", "-o", tmp_path / "load.py", *option).error()
+        assert f"{option[0]}: expected a log with a wrench, got joint torques" in refused
+
+
 def test_the_declared_load_is_part_of_it(tmp_path: Path) -> None:
     """Of states without a wrench, which have it."""
     arm, mass, centre = held(3), 0.4, np.array([0.0, 0.01, 0.05])

@@ -21,6 +21,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques
 from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.load_warnings import overruled, torque_doubt
 from forcetorque.payload.result import ArmLog, LoadRow, load_words
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.results.number_text import plus_minus
@@ -97,19 +98,28 @@ class TorqueLoad(Result):
         """
         return [self.load.flat() | joint.flat() for joint in self.joints]
 
-    def robot_load(self) -> RobotLoad:
+    def robot_load(self, *, override: str | None = None) -> RobotLoad:
         """Give the load to write it for a robot.
+
+        Args:
+            override: Reason to tell of a doubtful load, which is written with it; refused if None.
 
         Returns:
             The load in the frame of the flange.
+
+        Raises:
+            ExperimentError: If the load is doubtful, without a reason.
         """
+        sensor = "joint torques"
+        note = overruled(torque_doubt(self.load), override, where=f"load by {sensor}")
         return RobotLoad(
-            sensor="joint torques",
+            sensor=sensor,
             frame=FLANGE,
             direction=MeasureDirection.PARENT_TO_CHILD,
             mass=float(self.load.mass_kg or 0.0),
             centre_of_mass=np.array(self.load.centre_of_mass_m, dtype=np.float64),
             bias=np.zeros(6),
+            override=note,
         )
 
 
