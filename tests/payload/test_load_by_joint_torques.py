@@ -23,7 +23,7 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.app.outcome import Run
 from tests.formats.franka.states import write_states, write_table
-from tests.payload.simulated_panda import GRAVITY, Held, held, holding
+from tests.payload.simulated_panda import GRAVITY, SAMPLES, Held, held, holding
 
 STEP_RAD = 1e-5
 """Of central differences, whose error is about 1e-9 of lengths of a metre."""
@@ -154,8 +154,29 @@ def test_a_posture_that_comes_again_counts_once(tmp_path: Path) -> None:
     assert torques is not None
     together = load_of_torque_logs({path: torques, tmp_path / "other.csv": torques}, NOTHING_DECLARED)
     for load in (again.load, together.load):
-        np.testing.assert_allclose(load.mass_half_width_95_kg, once.load.mass_half_width_95_kg, rtol=1e-9)
-        np.testing.assert_allclose(load.centre_of_mass_m, once.load.centre_of_mass_m, atol=1e-12)
+        assert load.mass_half_width_95_kg == pytest.approx(once.load.mass_half_width_95_kg, rel=1e-9)
+        assert load.centre_of_mass_m == pytest.approx(once.load.centre_of_mass_m, abs=1e-12)
+
+
+@pytest.mark.parametrize("same_postures", [False, True])
+def test_logs_of_different_tools_are_named(tmp_path: Path, same_postures: bool) -> None:
+    """In other postures, and in the same ones, which a load between them fits; logs of one tool are not named."""
+    arm = held(4, postures=24)
+    if same_postures:
+        half = replace(arm, position=arm.position[:12], torque=arm.torque[:36])
+        arm = replace(arm, position=np.tile(half.position, (2, 1)), torque=np.tile(half.torque, (2, 1)))
+    more = np.repeat(holding(arm.position[12:], 0.2 * arm.mass, arm.centre), SAMPLES, axis=0)
+    heavier = replace(arm, torque=arm.torque + np.concatenate([np.zeros((36, 7)), more]))
+    for held_by, count in ((arm, 0), (heavier, 1)):
+        states, logs = held_by.states(), {}
+        for name, part in (("first", states[:36]), ("second", states[36:])):
+            path = write_table(tmp_path / f"{name}.csv", part)
+            torques = described_log(path, NOTHING_DECLARED).torques
+            assert torques is not None
+            logs[path] = torques
+        warnings = load_of_torque_logs(logs, NOTHING_DECLARED).warnings
+        assert len(warnings) == count
+        assert all("the logs seem to hold different loads: with a load of its own for each" in one for one in warnings)
 
 
 @pytest.mark.parametrize(

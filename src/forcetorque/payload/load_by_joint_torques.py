@@ -41,6 +41,10 @@ _POOLED = 1.0
 exact."""
 _SMALLEST = 1e-9
 """Share of the largest torque that an error of a joint is at least, which keeps weights finite."""
+_BETTER = 0.7
+"""Share of the residual that is left where logs hold several loads (heuristic)."""
+_RARE = 1e-3
+"""Probability of a better fit by a load of each log where they hold one, below which they seem to hold several."""
 _UPPER = 0.975
 """Probability below the upper end of a 95 % interval."""
 
@@ -151,12 +155,9 @@ def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names
     Raises:
         FitError: If there are too few postures, they leave something open, or the mass is not above zero.
     """
-    parts = [_stays(log) for log in logs]
-    number = _posture_numbers(np.concatenate([part.position for part in parts]))
-    torque, unit_torque = (
-        _means_over_stays(np.concatenate([getattr(part, name) for part in parts]), number)
-        for name in ("torque", "unit_torque")
-    )
+    parts = [_postures(_stays(log)) for log in logs]
+    together = _postures(*parts)
+    torque, unit_torque = together.torque, together.unit_torque
     _require_postures(unit_torque, names)
     values, covariance, deviation = _fit(torque, unit_torque)
     half_width = _quantile(len(torque) - 1) * np.sqrt(np.diagonal(covariance))
@@ -195,8 +196,9 @@ def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names
             for name, own, left in zip(logs[0].joints, bias, deviation, strict=True)
         ),
         postures=len(torque),
-        samples=sum(part.samples for part in parts),
+        samples=together.samples,
         arms=tuple(arms),
+        warnings=tuple(_loads_differ(parts, deviation)),
     )
 
 
@@ -228,14 +230,54 @@ def _stay_numbers(still: IntArray, position: FloatArray) -> IntArray:
     return np.repeat(np.cumsum(is_another), np.diff(starts, append=len(still)))
 
 
-def _posture_numbers(position: FloatArray) -> IntArray:
-    """Number of the posture of each stay, shape (k,): one that the arm takes again, in any log, is the same."""
+def _postures(*parts: _Stays) -> _Stays:
+    """Means over the stays in each posture; one that the arm takes again, in any part, is the same."""
+    position = np.concatenate([part.position for part in parts])
     first = [int(np.argmax(np.abs(position - own).max(axis=1) <= _SAME_RAD)) for own in position]
-    return np.unique(np.array(first, dtype=np.int64), return_inverse=True)[1]
+    number = np.array(first, dtype=np.int64)
+
+    def means(name: str) -> FloatArray:
+        values = np.concatenate([getattr(part, name) for part in parts])
+        rows = [values[number == posture].mean(axis=0) for posture in np.unique(number)]
+        return np.array(rows) if rows else values
+
+    return _Stays(
+        position=means("position"),
+        torque=means("torque"),
+        unit_torque=means("unit_torque"),
+        samples=sum(part.samples for part in parts),
+    )
 
 
-def _means_over_stays(values: FloatArray, number: IntArray) -> FloatArray:
-    return np.array([values[number == posture].mean(axis=0) for posture in np.unique(number)])
+def _loads_differ(parts: Sequence[_Stays], deviation: FloatArray) -> Iterator[str]:
+    """Say that logs hold several loads, where the torques go clearly better with one of each; deviations (d,)."""
+    from scipy.special import fdtrc  # here because importing it takes longer than most commands
+
+    if len(parts) < 2:
+        return
+    weighted = np.concatenate([part.unit_torque for part in parts]) / deviation[:, None]
+    log = np.repeat(np.arange(len(parts)), [len(part.torque) for part in parts])
+    own = np.concatenate([weighted * (log == k)[:, None, None] for k in range(len(parts))], axis=2)
+    torque = np.concatenate([part.torque for part in parts]) / deviation
+    (one, few), (several, many) = (_left(torque, design) for design in (weighted, own))
+    freedom = torque.size - torque.shape[1] - many
+    if many <= few or freedom <= 0:
+        return
+    ratio = (one - several) / (many - few) / max(several / freedom, np.finfo(float).tiny)
+    left = float(np.sqrt(several / one)) if one else 1.0
+    if left < _BETTER and fdtrc(many - few, freedom, ratio) < _RARE:
+        yield (
+            "the logs seem to hold different loads: with a load of its own for each, "
+            f"{100 * left:.0f} % of the residual is left; weigh each log by itself"
+        )
+
+
+def _left(torque: FloatArray, design: FloatArray) -> tuple[float, int]:
+    """Sum of squares that unknowns and a bias of each joint leave, and the number of unknowns that are determined."""
+    y, columns = torque - torque.mean(axis=0), design - design.mean(axis=0)
+    flat = columns.reshape(-1, columns.shape[2])
+    values, _, rank, _ = np.linalg.lstsq(flat, y.ravel(), rcond=None)
+    return float(((y.ravel() - flat @ values) ** 2).sum()), int(rank)
 
 
 def _require_postures(unit_torque: FloatArray, names: str) -> None:
