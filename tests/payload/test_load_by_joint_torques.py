@@ -176,7 +176,7 @@ def test_logs_of_different_tools_are_named(tmp_path: Path, same_postures: bool) 
             logs[path] = torques
         warnings = load_of_torque_logs(logs, NOTHING_DECLARED).warnings
         assert len(warnings) == count
-        assert all("the logs seem to hold different loads: with a load of its own for each" in one for one in warnings)
+        assert all("the logs seem to hold different loads, weigh each by itself" in one for one in warnings)
 
 
 @pytest.mark.parametrize(

@@ -267,8 +267,8 @@ def _loads_differ(parts: Sequence[_Stays], deviation: FloatArray) -> Iterator[st
     left = float(np.sqrt(several / one)) if one else 1.0
     if left < _BETTER and fdtrc(many - few, freedom, ratio) < _RARE:
         yield (
-            "the logs seem to hold different loads: with a load of its own for each, "
-            f"{100 * left:.0f} % of the residual is left; weigh each log by itself"
+            "the logs seem to hold different loads, weigh each by itself: a load of each log leaves "
+            f"{100 * left:.0f} % of the residual"
         )
 
 
