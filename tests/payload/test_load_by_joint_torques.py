@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.app.outcome import Run
 from tests.formats.franka.states import write_states, write_table
-from tests.payload.simulated_panda import GRAVITY, Held, held, holding
+from tests.payload.simulated_panda import GRAVITY, SAMPLES, Held, held, holding
 
 STEP_RAD = 1e-5
 """Of central differences, whose error is about 1e-9 of lengths of a metre."""
@@ -83,6 +84,35 @@ def test_a_table_of_joint_torques_is_enough(tmp_path: Path, run: Run) -> None:
     assert (result["postures"], result["samples"]) == (12, 36)
 
 
+@pytest.mark.parametrize(
+    ("arm", "doubt"),
+    [
+        (held(53, postures=5, moves=(5, 6)), "the mass at 1.66 kg"),
+        (held(9, postures=4), "the centre of mass within 46 mm"),
+    ],
+)
+def test_a_doubtful_load_is_written_with_a_reason_only(tmp_path: Path, run: Run, arm: Held, doubt: str) -> None:
+    """One by the wrench is not written either; answer and file say the same."""
+    asked = ("payload", write_table(tmp_path / "log.csv", arm.states()), "--recording", "payload_kg=0")
+    file = tmp_path / "load.py"
+    shown = run(*asked)
+    assert "more postures" in shown.out
+    assert "--to franka" not in shown.out
+    refused = " ".join(run(*asked, "--to", "franka", "-o", file).error().split())
+    assert f"load by joint torques: expected what the measurements agree on, got: the postures leave {doubt}" in refused
+    assert not file.exists()
+    assert run(*asked, "--to", "franka", "-o", file, "--override", "slow arm").code == 0
+    assert f"written by override (slow arm), although: the postures leave {doubt}" in file.read_text(encoding="utf-8")
+
+
+def test_options_without_a_meaning_are_refused(tmp_path: Path, run: Run) -> None:
+    """The load is in the flange, and no program of an arm asks for a frame of tf."""
+    asked = ("payload", write_table(tmp_path / "log.csv", held(5).states()), "--recording", "payload_kg=0")
+    for option in (("--world-frame", "map"), ("--sensor-pose", *"000000")):
+        refused = run(*asked, "--to", "franka", "-o", tmp_path / "load.py", *option).error()
+        assert f"{option[0]}: expected a log with a wrench, got joint torques" in refused
+
+
 def test_the_declared_load_is_part_of_it(tmp_path: Path) -> None:
     """Of states without a wrench, which have it."""
     arm, mass, centre = held(3), 0.4, np.array([0.0, 0.01, 0.05])
@@ -112,13 +142,50 @@ def test_short_logs_are_one(tmp_path: Path) -> None:
     assert together.load == one.load
 
 
+def test_a_posture_that_comes_again_counts_once(tmp_path: Path) -> None:
+    """A program that loops over its postures, in one log or in two, tells no more of their errors than one pass."""
+    arm = held(4)
+    loops = replace(arm, position=np.tile(arm.position, (3, 1)), torque=np.tile(arm.torque, (3, 1)))
+    once = _weighed(write_table(tmp_path / "once.csv", arm.states()))
+    path = write_table(tmp_path / "loops.csv", loops.states())
+    again = _weighed(path)
+    assert (again.postures, again.samples) == (12, 108)
+    torques = described_log(path, NOTHING_DECLARED).torques
+    assert torques is not None
+    together = load_of_torque_logs({path: torques, tmp_path / "other.csv": torques}, NOTHING_DECLARED)
+    for load in (again.load, together.load):
+        assert load.mass_half_width_95_kg == pytest.approx(once.load.mass_half_width_95_kg, rel=1e-9)
+        assert load.centre_of_mass_m == pytest.approx(once.load.centre_of_mass_m, abs=1e-12)
+
+
+@pytest.mark.parametrize("same_postures", [False, True])
+def test_logs_of_different_tools_are_named(tmp_path: Path, same_postures: bool) -> None:
+    """In other postures, and in the same ones, which a load between them fits; logs of one tool are not named."""
+    arm = held(4, postures=24)
+    if same_postures:
+        half = replace(arm, position=arm.position[:12], torque=arm.torque[:36])
+        arm = replace(arm, position=np.tile(half.position, (2, 1)), torque=np.tile(half.torque, (2, 1)))
+    more = np.repeat(holding(arm.position[12:], 0.2 * arm.mass, arm.centre), SAMPLES, axis=0)
+    heavier = replace(arm, torque=arm.torque + np.concatenate([np.zeros((36, 7)), more]))
+    for held_by, count in ((arm, 0), (heavier, 1)):
+        states, logs = held_by.states(), {}
+        for name, part in (("first", states[:36]), ("second", states[36:])):
+            path = write_table(tmp_path / f"{name}.csv", part)
+            torques = described_log(path, NOTHING_DECLARED).torques
+            assert torques is not None
+            logs[path] = torques
+        warnings = load_of_torque_logs(logs, NOTHING_DECLARED).warnings
+        assert len(warnings) == count
+        assert all("the logs seem to hold different loads, weigh each by itself" in one for one in warnings)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
         ({"reversed": True}, "expected a mass above 0 kg"),
         ({"postures": 3}, "expected at least 4 postures at rest, by which errors of joint torques are separable"),
         ({"moves": (0,)}, "12 that leave open mass, centre of mass along x, centre of mass along y"),
-        ({"moves": (6,)}, "12 that leave open mass, centre of mass along z"),
+        ({"moves": (6,)}, "11 that leave open mass, centre of mass along z"),  # two are 0.013 rad apart
     ],
 )
 def test_what_torques_do_not_tell_is_refused(tmp_path: Path, change: dict[str, object], message: str) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,10 +13,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
+from forcetorque.payload.load_of_log import refuse_a_log_twice
 from forcetorque.results.answer import MOST_LINES
 from tests.app.outcome import Run
-from tests.formats.franka.states import CENTRE, MASS, states, write_states
+from tests.formats.franka.states import CENTRE, MASS, states, write_states, write_table
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
+from tests.payload.simulated_panda import held
 
 TOOL = Tool()
 Columns = dict[str, FloatArray]
@@ -38,6 +42,21 @@ def test_a_recording_is_enough(tmp_path: Path, run: Run) -> None:
     assert "assumed: actual_TCP_force is the force of the tool on the arm" in shown.out
     assert "--to ur" in shown.out
     assert run("payload", file).out.splitlines()[:4] == shown.out.splitlines()[:4]
+
+
+def test_a_copy_of_a_log_is_refused(tmp_path: Path, run: Run) -> None:
+    """Of a wrench and of joint torques, files and folders; samples that count twice make an interval too narrow."""
+    wrench, torques = _written(tmp_path, _few()), write_table(tmp_path / "q.csv", held(1, postures=4).states())
+    for log in (wrench, torques):
+        copy = Path(shutil.copy(log, tmp_path / f"copy_of_{log.name}"))
+        error = run("payload", log, copy, "--recording", "payload_kg=0").error()
+        assert f"{copy.name}: expected every log once, got the content of {log} again" in " ".join(error.split())
+    for name, text in (("a", "1"), ("b", "2"), ("c", "1")):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "bag.db3").write_text(text, encoding="utf-8")
+    refuse_a_log_twice([tmp_path / "a", tmp_path / "b", wrench])
+    with pytest.raises(ExperimentError, match=f"c: expected every log once, got the content of {tmp_path / 'a'} again"):
+        refuse_a_log_twice([tmp_path / name for name in "abc"])
 
 
 def test_a_file_that_was_written_is_named_and_not_the_next_step(tmp_path: Path, run: Run) -> None:

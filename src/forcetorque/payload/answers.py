@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.formats.logged_wrist import BAG
-from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree
+from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
 from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
@@ -49,10 +49,6 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
         )
 
 
-_WIDE = 0.2
-"""Share of a mass from which on its interval is too wide to use (heuristic)."""
-
-
 def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
     """Give the answer for the load that joint torques hold.
 
@@ -62,8 +58,7 @@ def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
     Yields:
         One answer.
     """
-    mass, half_width = held.load.mass_kg or 0.0, held.load.mass_half_width_95_kg or 0.0
-    is_wide, is_written = half_width > _WIDE * mass, held.robot_file is not None
+    doubt, is_written = torque_doubt(held.load), held.robot_file is not None
     more = "record more postures that turn the wrist"
     controller = held.arms[-1].controller
     specified = [word for entry in held.arms[-1].specified for word in ("--recording", entry)]
@@ -75,10 +70,10 @@ def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
             f"{held.postures} postures at rest; the largest bias of a joint is {_largest_bias(held)}",
             *(f"assumed: {words}" for words in dict.fromkeys("; ".join(arm.assumed) for arm in held.arms)),
         ),
-        step=more if is_wide else "" if is_written else "write it to a file that the robot reads",
-        command="" if is_wide or is_written else write,
+        step=more if doubt else "" if is_written else "write it to a file that the robot reads",
+        command="" if doubt or is_written else write,
         written=(held.robot_file,),
-        concern=Concern.UNCERTAIN if is_wide else Concern.NONE,
+        concern=Concern.UNCERTAIN if doubt else Concern.NONE,
     )
 
 

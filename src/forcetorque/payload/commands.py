@@ -170,6 +170,7 @@ def payload(
         experiment_of_description,
         is_experiment_file,
         load_of_torque_logs,
+        refuse_a_log_twice,
     )
     from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
@@ -180,6 +181,7 @@ def payload(
     specified = _specified(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
     _refuse_without_log(logs, specified, save_experiment)
+    refuse_a_log_twice(logs)
     runs, arms, torques = [], [], {}
     for path in experiments:
         log.info("reading %s", path)
@@ -200,9 +202,12 @@ def payload(
         runs.append(SensorRun(content, content.sensors[0]))
     if torques:
         _refuse_beside_torques(experiments, torques, save_experiment, to)
+        _refuse_places(next(iter(torques)), world_frame, sensor_pose)
         held = load_of_torque_logs(torques, specified)
         if output is not None and to is not None:
-            write_load(held.robot_load(), output, to, world_frame=None, sensor_pose=sensor_pose, log=log)
+            with stated_in(", ".join(str(path) for path in experiments)):
+                robot = held.robot_load(override=override)
+            write_load(robot, output, to, world_frame=None, sensor_pose=None, log=log)
             held = held.model_copy(update={"robot_file": str(output)})
         if output == STANDARD_OUTPUT:
             show_warnings(held)
@@ -281,6 +286,15 @@ def _refuse_beside_torques(
         raise ForceTorqueError(
             f"--to {to}: expected a form without the bias of a sensor, {', '.join(ARMS)}, since {first} has no wrench"
         )
+
+
+def _refuse_places(log: Path, world_frame: str | None, sensor_pose: tuple[float, ...] | None) -> None:
+    for option, value in (("--world-frame", world_frame), ("--sensor-pose", sensor_pose)):
+        if value is not None:
+            raise ForceTorqueError(
+                f"{option}: expected a log with a wrench, got joint torques, by which the load is in the flange: "
+                f"{log}; leave the option out"
+            )
 
 
 def tare(

@@ -4,7 +4,7 @@
     torque = unit_torque [m; m c] + bias + error,    in posture k and joint j
 
 Each joint has a bias and a variance of its own. Errors of one posture, of which the noise of samples is the least part,
-are one row: a posture counts once, however long it is held.
+are one row: a posture counts once, however long and often it is held.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques
 from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.load_warnings import overruled, torque_doubt
 from forcetorque.payload.result import ArmLog, LoadRow, load_words
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.results.number_text import plus_minus
@@ -40,6 +41,10 @@ _POOLED = 1.0
 exact."""
 _SMALLEST = 1e-9
 """Share of the largest torque that an error of a joint is at least, which keeps weights finite."""
+_BETTER = 0.7
+"""Share of the residual that is left where logs hold several loads (heuristic)."""
+_RARE = 1e-3
+"""Probability of a better fit by a load of each log where they hold one, below which they seem to hold several."""
 _UPPER = 0.975
 """Probability below the upper end of a 95 % interval."""
 
@@ -97,26 +102,37 @@ class TorqueLoad(Result):
         """
         return [self.load.flat() | joint.flat() for joint in self.joints]
 
-    def robot_load(self) -> RobotLoad:
+    def robot_load(self, *, override: str | None = None) -> RobotLoad:
         """Give the load to write it for a robot.
+
+        Args:
+            override: Reason to tell of a doubtful load, which is written with it; refused if None.
 
         Returns:
             The load in the frame of the flange.
+
+        Raises:
+            ExperimentError: If the load is doubtful, without a reason.
         """
+        sensor = "joint torques"
+        note = overruled(torque_doubt(self.load), override, where=f"load by {sensor}")
         return RobotLoad(
-            sensor="joint torques",
+            sensor=sensor,
             frame=FLANGE,
             direction=MeasureDirection.PARENT_TO_CHILD,
             mass=float(self.load.mass_kg or 0.0),
             centre_of_mass=np.array(self.load.centre_of_mass_m, dtype=np.float64),
             bias=np.zeros(6),
+            override=note,
         )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Postures:
-    """Means over the samples of each posture."""
+class _Stays:
+    """Means over the samples of each stay in a posture."""
 
+    position: FloatArray
+    """Angles; shape (k, d); rad."""
     torque: FloatArray
     """Declared load included; shape (k, d); N m."""
     unit_torque: FloatArray
@@ -139,10 +155,9 @@ def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names
     Raises:
         FitError: If there are too few postures, they leave something open, or the mass is not above zero.
     """
-    parts = [_postures(log) for log in logs]
-    torque, unit_torque = (
-        np.concatenate([getattr(part, name) for part in parts]) for name in ("torque", "unit_torque")
-    )
+    parts = [_postures(_stays(log)) for log in logs]
+    together = _postures(*parts)
+    torque, unit_torque = together.torque, together.unit_torque
     _require_postures(unit_torque, names)
     values, covariance, deviation = _fit(torque, unit_torque)
     half_width = _quantile(len(torque) - 1) * np.sqrt(np.diagonal(covariance))
@@ -181,16 +196,17 @@ def load_of_torques(logs: Sequence[LoggedTorques], arms: Sequence[ArmLog], names
             for name, own, left in zip(logs[0].joints, bias, deviation, strict=True)
         ),
         postures=len(torque),
-        samples=sum(part.samples for part in parts),
+        samples=together.samples,
         arms=tuple(arms),
+        warnings=tuple(_loads_differ(parts, deviation)),
     )
 
 
-def _postures(log: LoggedTorques) -> _Postures:
+def _stays(log: LoggedTorques) -> _Stays:
     known = np.column_stack([log.declared_mass, log.declared_mass[:, None] * log.declared_centre])
     torque = log.torque + np.einsum("nda,na->nd", log.unit_torque, known)
     still = np.flatnonzero(log.is_still)
-    number = _numbers(still, log.position)
+    number = _stay_numbers(still, log.position)
     starts = np.flatnonzero(np.diff(number, prepend=-1))
     counts = np.diff(starts, append=len(still))
 
@@ -198,11 +214,13 @@ def _postures(log: LoggedTorques) -> _Postures:
         sums = np.add.reduceat(values[still], starts, axis=0) if len(starts) else values[:0]
         return sums / counts.reshape(-1, *(1,) * (values.ndim - 1))
 
-    return _Postures(torque=means(torque), unit_torque=means(log.unit_torque), samples=len(still))
+    return _Stays(
+        position=means(log.position), torque=means(torque), unit_torque=means(log.unit_torque), samples=len(still)
+    )
 
 
-def _numbers(still: IntArray, position: FloatArray) -> IntArray:
-    """Number of the posture of each sample at rest; what moves to another posture and is not logged ends one too."""
+def _stay_numbers(still: IntArray, position: FloatArray) -> IntArray:
+    """Number of the stay of each sample at rest; what moves to another posture and is not logged ends one too."""
     if not len(still):
         return still
     jumps = (np.diff(still) > 1) | (np.abs(np.diff(position[still], axis=0)).max(axis=1) > _SAME_RAD)
@@ -210,6 +228,56 @@ def _numbers(still: IntArray, position: FloatArray) -> IntArray:
     first = position[still[starts]]
     is_another = np.concatenate([[False], np.abs(np.diff(first, axis=0)).max(axis=1) > _SAME_RAD])
     return np.repeat(np.cumsum(is_another), np.diff(starts, append=len(still)))
+
+
+def _postures(*parts: _Stays) -> _Stays:
+    """Means over the stays in each posture; one that the arm takes again, in any part, is the same."""
+    position = np.concatenate([part.position for part in parts])
+    first = [int(np.argmax(np.abs(position - own).max(axis=1) <= _SAME_RAD)) for own in position]
+    number = np.array(first, dtype=np.int64)
+
+    def means(name: str) -> FloatArray:
+        values = np.concatenate([getattr(part, name) for part in parts])
+        rows = [values[number == posture].mean(axis=0) for posture in np.unique(number)]
+        return np.array(rows) if rows else values
+
+    return _Stays(
+        position=means("position"),
+        torque=means("torque"),
+        unit_torque=means("unit_torque"),
+        samples=sum(part.samples for part in parts),
+    )
+
+
+def _loads_differ(parts: Sequence[_Stays], deviation: FloatArray) -> Iterator[str]:
+    """Say that logs hold several loads, where the torques go clearly better with one of each; deviations (d,)."""
+    from scipy.special import fdtrc  # here because importing it takes longer than most commands
+
+    if len(parts) < 2:
+        return
+    weighted = np.concatenate([part.unit_torque for part in parts]) / deviation[:, None]
+    log = np.repeat(np.arange(len(parts)), [len(part.torque) for part in parts])
+    own = np.concatenate([weighted * (log == k)[:, None, None] for k in range(len(parts))], axis=2)
+    torque = np.concatenate([part.torque for part in parts]) / deviation
+    (one, few), (several, many) = (_left(torque, design) for design in (weighted, own))
+    freedom = torque.size - torque.shape[1] - many
+    if many <= few or freedom <= 0:
+        return
+    ratio = (one - several) / (many - few) / max(several / freedom, np.finfo(float).tiny)
+    left = float(np.sqrt(several / one)) if one else 1.0
+    if left < _BETTER and fdtrc(many - few, freedom, ratio) < _RARE:
+        yield (
+            "the logs seem to hold different loads, weigh each by itself: a load of each log leaves "
+            f"{100 * left:.0f} % of the residual"
+        )
+
+
+def _left(torque: FloatArray, design: FloatArray) -> tuple[float, int]:
+    """Sum of squares that unknowns and a bias of each joint leave, and the number of unknowns that are determined."""
+    y, columns = torque - torque.mean(axis=0), design - design.mean(axis=0)
+    flat = columns.reshape(-1, columns.shape[2])
+    values, _, rank, _ = np.linalg.lstsq(flat, y.ravel(), rcond=None)
+    return float(((y.ravel() - flat @ values) ** 2).sum()), int(rank)
 
 
 def _require_postures(unit_torque: FloatArray, names: str) -> None:

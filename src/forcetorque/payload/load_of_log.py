@@ -13,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import InMemory
+from forcetorque.experiment.input_files import InMemory, sha256_of
 from forcetorque.experiment.loading import load_tables
 from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription, LogFormat
 from forcetorque.formats.logged_torques import LoggedTorques
@@ -54,6 +54,37 @@ def is_experiment_file(path: Path) -> bool:
         Whether its name ends in .toml, or there is no log there.
     """
     return path.suffix.lower() == ".toml" or not path.exists() or recognised_format(path) is None
+
+
+def refuse_a_log_twice(logs: Sequence[Path]) -> None:
+    """Refuse a copy of a log, whose samples would count twice.
+
+    Args:
+        logs: Files or folders of logs.
+
+    Raises:
+        ExperimentError: If two have the same content.
+    """
+    seen: dict[tuple[tuple[str, int, str], ...], Path] = {}
+    sizes = [_file_sizes(log) for log in logs]
+    for log, own in zip(logs, sizes, strict=True):
+        if sizes.count(own) == 1:  # another size is another content, for which nothing need be read
+            continue
+        content = tuple((name, size, sha256_of(log / name)) for name, size in own)
+        if content in seen:
+            raise ExperimentError(
+                f"{log}: expected every log once, got the content of {seen[content]} again; its samples would count "
+                "twice; name one of the two"
+            )
+        seen[content] = log
+
+
+def _file_sizes(log: Path) -> tuple[tuple[str, int], ...]:
+    """Names and sizes of the files of a log; the name of a log that is a file is no part of it."""
+    if not log.is_dir():
+        return (("", log.stat().st_size),)
+    files = sorted(path for path in log.rglob("*") if path.is_file())
+    return tuple((str(path.relative_to(log)), path.stat().st_size) for path in files)
 
 
 def described_log(path: Path, specified: Mapping[str, object]) -> LogDescription:

@@ -17,8 +17,9 @@ from forcetorque.payload.identification.load_estimates import HypothesisRow, Loa
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_stated, wrist_loads
 from forcetorque.payload.loads_on_robot_links import LinkLoads, link_loads
-from forcetorque.payload.result import WeighedLoad, bias_words
+from forcetorque.payload.result import LoadRow, WeighedLoad, bias_words
 from forcetorque.recording.recording import Support, Use
+from forcetorque.results.number_text import amount, plus_minus
 
 
 def reversed_sense(run: SensorRun) -> Iterator[str]:
@@ -275,6 +276,30 @@ def reason_to_withhold(weighed: WeighedLoad) -> str | None:
         count = f"{len(weighed.disagreeing)} of {weighed.observations} samples disagree with the others"
         return "; ".join((*weighed.disagreements[:1], *((count,) if weighed.disagreeing else ())))
     return weighed.undetermined[0] if weighed.undetermined else None
+
+
+_WIDE = 0.2
+"""Share of a mass from which on its interval is too wide to use (heuristic)."""
+_WIDE_CENTRE_M = 0.02
+"""Half-width from which on the interval of a centre of mass is too wide to use; m (heuristic)."""
+
+
+def torque_doubt(load: LoadRow) -> str | None:
+    """Say why a robot is not to be told of a load that joint torques hold.
+
+    Args:
+        load: The load.
+
+    Returns:
+        What its postures leave too wide an interval of; None where they do not.
+    """
+    mass, half_width = load.mass_kg or 0.0, load.mass_half_width_95_kg or 0.0
+    if half_width > _WIDE * mass:
+        return f"the postures leave the mass at {plus_minus(mass, half_width, 'kg')}"
+    widest = max(half or 0.0 for half in load.centre_of_mass_half_width_95_m)
+    if widest > _WIDE_CENTRE_M:
+        return f"the postures leave the centre of mass within {amount(1e3 * widest, 'mm')} to either side"
+    return None
 
 
 def overruled(doubt: str | None, override: str | None, *, where: str) -> str | None:

@@ -128,6 +128,17 @@ def test_joints_of_the_own_robot_are_taken(tmp_path: Path) -> None:
         read_frame_tree(bag, "/ft")
 
 
+@pytest.mark.parametrize("robots", [("/left", "/middle", "/right"), ("/a", "/b", "")])
+def test_joints_of_a_third_robot_are_taken(tmp_path: Path, robots: tuple[str, ...]) -> None:
+    """Whichever comes first by name: two that are as far from the topic do not matter where a nearer one has it."""
+    types = Types("mcap")
+    topics = {f"{robot}{name}": messages for robot in robots for name, messages in _topics(types).items()}
+    with opened_bag(write_bag(tmp_path / "three", "mcap", topics)) as bag:
+        for robot in robots:
+            tree = read_frame_tree(bag, f"{robot}/hand/ft")
+            assert {pose.topic for pose in tree.transforms.values()} == {f"{robot}/joint_states"}
+
+
 def test_a_joint_without_positions_is_named(tmp_path: Path) -> None:
     """One that is not a number throughout, by bag, topic and joint; and a moving frame that is sent once."""
     types, empty, turn = Types("mcap"), np.empty(0), np.array([0.0, 0.0, 0.0, 1.0])

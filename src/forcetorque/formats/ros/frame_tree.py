@@ -370,23 +370,24 @@ def _positions(
     wanted = {joint.name if joint.mimic is None else joint.mimic.leader for joint in moved}
     units = {name: "m" if joint.type is JointType.PRISMATIC else "rad" for name, joint in model.joints.items()}
     states: dict[str, tuple[Stream, FloatArray, str]] = {}
-    for source in sorted(source for source, kind in bag.types.items() if kind == JOINT_TYPE):
-        if source.rpartition("/")[2] != _STATES or not wanted:
+    depths: dict[str, int] = {}
+    sources = sorted(source for source, kind in bag.types.items() if kind == JOINT_TYPE)
+    for source in sorted(sources, key=lambda one: -namespace_depth(topic, one)):  # the nearest, which decides, first
+        depth = namespace_depth(topic, source)
+        if source.rpartition("/")[2] != _STATES or all(depth < depths.get(name, depth) for name in wanted):
             continue
         stream = topic_stream(bag, source, name=source, frame=None, world=None, joint_units=units).stream
         position = stream.signals.get("position")
         for k, name in enumerate(position.columns if position is not None else ()):
             if position is None or name not in wanted:
                 continue
-            before = states[name][2] if name in states else None
-            nearer = 1 if before is None else namespace_depth(topic, source) - namespace_depth(topic, before)
-            if nearer == 0:
+            if name not in states:
+                states[name], depths[name] = (stream, position.values[:, k], source), depth
+            elif depths[name] == depth:
                 raise FormatError(
                     f"{bag.path}: expected joint {name!r} in one topic, or in one of the namespace of {topic}, got it "
-                    f"in {before} and {source}"
+                    f"in {states[name][2]} and {source}"
                 )
-            if nearer > 0:
-                states[name] = (stream, position.values[:, k], source)
     return states
 
 
