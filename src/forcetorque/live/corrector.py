@@ -141,6 +141,8 @@ class Corrector:
             self._reference[k, :own] = term.reference_values
             used = np.r_[np.arange(6 + own), d - 1]
             covariance[k][:, used[:, None], used] = term.covariance * NORMAL_95**2
+        # a tare takes off the errors of matrix and coefficients at its load, so they act on the change since then
+        self._tared, self._at_tare, self._since = np.zeros((3, count, d))
         self._covariance = covariance.reshape(count, 6 * d, d)
         self._half_width = np.zeros((count, 6))
         self._held = np.full((2, count, 6), np.nan)
@@ -158,7 +160,7 @@ class Corrector:
         self._stamp_ns: int | None = None
         # views with a last axis for products of matrix and vector
         self._columns = (self._sample[..., None], self._wrench[..., None], self._half_width[..., None])
-        self._load_column, self._products_column = self._load[..., None], self._half_products.reshape(count, 6 * d, 1)
+        self._load_column, self._products_column = self._since[..., None], self._half_products.reshape(count, 6 * d, 1)
         self._quadratic = [(k, term.quadratic) for k, term in enumerate(terms) if term.quadratic is not None]
 
     def tare(self) -> None:
@@ -219,6 +221,7 @@ class Corrector:
         if has_variables:
             self._load[:, 6:-1] = self._values
         load = self._load_column
+        np.subtract(self._load, self._tared, out=self._since)
         np.matmul(self._covariance, load, out=self._products_column)
         np.matmul(self._half_products, load, out=half_width)
         if not self._is_plain:
@@ -296,8 +299,6 @@ class Corrector:
             np.subtract(self._wrench, self._weight, out=self._unloaded)
             self._learn(stamp_ns, usable)
         np.subtract(self._wrench, self.bias, out=self._wrench)
-        if self.options.take_tool_off:
-            np.subtract(self._wrench, self._weight, out=self._wrench)
 
     def _weigh(self, gravity: Any) -> None:
         if gravity is None:
@@ -313,9 +314,11 @@ class Corrector:
         temperature = self._temperature()
         if self._tare is not None:
             self._status |= Status.TARING
+            self._at_tare[usable, :6], self._at_tare[usable, 6:-1] = self._weight[usable], self._values[usable]
             if self._tare.add(self._unloaded, stamp_ns, usable):
                 self.bias[:], self.bias_variance[:] = self._tare.bias()
                 self._add_tool_variance()
+                self._tared[:] = self._at_tare
                 self._tare = None
                 if self.options.offset is OffsetSource.TRACKED:
                     self.tracker = BiasTracker(self.options.tracking, self.bias, self.bias_variance, temperature)
@@ -350,6 +353,8 @@ class Corrector:
         if self.options.offset is not OffsetSource.FITTED:
             self._half_width += NORMAL_95**2 * self.bias_variance
         np.maximum(self._half_width, 0.0, out=self._half_width)
+        if self.options.take_tool_off:  # not before: the errors of the matrix act on the weight too
+            np.subtract(self._wrench, self._weight, out=self._wrench)
 
     def _apply_policy(self) -> None:
         faulty = (self._status & FAULTS) != 0
