@@ -167,7 +167,11 @@ def test_losses_need_numbers_or_a_rate() -> None:
     assert result.packets.lost == 2
     result, _ = _run(text, Settings(**stated))
     assert result.packets.lost is None
-    assert "not countable" in next(result.answers()).verdict
+    answer = next(result.answers())
+    assert "not countable" in answer.verdict
+    assert "state --rate, or --sequence" in answer.step
+    result, _ = _run(text, Settings(**stated | {"stamp": None}))
+    assert "state --stamp and --rate, or --sequence" in next(result.answers()).step
 
 
 def test_numbers_wrap_around_and_begin_again() -> None:
@@ -182,6 +186,26 @@ def test_numbers_wrap_around_and_begin_again() -> None:
     assert account.counts == PacketCounts(received=5, late=1, repeated=1, countable=True)
     assert add(100_000, 1) == [0, 0]
     assert (account.counts.lost, account.counts.restarts) == (99_998, 1)
+
+
+@pytest.mark.parametrize("stated", [TABLE, TABLE | {"sequence": None, "rate_hz": 100.0}, TABLE | {"stamp": None}])
+def test_a_sender_that_begins_again_is_heard(stated: dict[str, Any]) -> None:
+    """After eight packets, whether numbers, stamps or both began again; the answer says why samples were faulty."""
+    lines = [_line(k, k * 0.01, (RAW[0] + k % 3).tolist()) for k in range(60)]
+    result, rows = _run("".join(["n,t," + CHANNELS + "\n", *lines, *lines[3:50]]), Settings(**stated))
+    assert (result.packets.restarts, result.packets.lost) == (1, 0)
+    assert result.sensors[0].faulty == 7
+    assert not any(row.status for row in rows[67:])
+    assert "7 late" in (why := next(result.answers()).why[0]) or "7 repeated" in why
+
+
+def test_packets_that_come_twice_are_no_restart() -> None:
+    """Also if every packet comes again some packets later."""
+    account = PacketAccount()
+    for number in range(20, 60):
+        account.add(Packet(values=RAW, sequence=number))
+        account.add(Packet(values=RAW, sequence=number - 15))
+    assert account.counts.restarts == 0
 
 
 def test_a_gap_of_millions_takes_no_memory() -> None:
@@ -301,6 +325,7 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
         ({"stamp": "t"}, "COLUMN:UNIT"),
         ({"envelope": True}, "--envelope: not of"),
+        ({"stamp": None, "rate_hz": 100.0}, "expected --stamp too"),
         ({"frame": "tool"}, "--frame: not of --input csv"),
         ({"form": None, "ati": "127.0.0.1"}, "--channels: not of --ati"),
         ({"variables": ("temperature=T",)}, "SENSOR.]NAME=COLUMN"),

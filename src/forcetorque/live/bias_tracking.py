@@ -108,6 +108,10 @@ class BiasTracker:
         """Part that is linear in temperature; shape (s, 6); N, N m per degC."""
         return self._coefficient
 
+    def restart_time(self) -> None:
+        """Let stamps begin anew."""
+        self._last_ns = None
+
     def add(self, unloaded: FloatArray, stamp_ns: int, temperature: FloatArray | None, usable: list[bool]) -> bool:
         """Take a sample in.
 

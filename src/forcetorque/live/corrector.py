@@ -173,6 +173,14 @@ class Corrector:
             raise RecordingError("tare: expected the offset 'tare' or 'tracked', got 'fitted'")
         self._tare = TareSamples(self.options.tare_s)
 
+    def restart_time(self) -> None:
+        """Let stamps begin anew, because the sender did."""
+        self._stamp_ns, self._same_since = None, [None] * len(self._same_since)
+        if self.tracker is not None:
+            self.tracker.restart_time()
+        if self._tare is not None:
+            self.tare()
+
     def correct(
         self,
         samples: Any,

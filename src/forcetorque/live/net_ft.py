@@ -140,7 +140,7 @@ def fetch_units(host: str, port: int = 80, timeout_s: float = 3.0) -> CountUnits
 
 
 class NetFtSource:
-    """Samples of a box, which is asked again when it falls silent."""
+    """Samples of a box, which is asked again when it falls silent, and then counts its packets from 1 again."""
 
     def __init__(
         self,
@@ -149,7 +149,6 @@ class NetFtSource:
         *,
         clock: Callable[[], float],
         port: int = RDT_PORT,
-        rate_hz: float | None = None,
         ask_again_s: float = 1.0,
         samples: int | None = None,
     ) -> None:
@@ -160,11 +159,12 @@ class NetFtSource:
             units: What its counts are.
             clock: Gives seconds.
             port: Its port.
-            rate_hz: Rate of its samples; Hz; None for not known.
             ask_again_s: Time without a packet after which it is asked again; s.
             samples: Packets after which to stop; None for no end.
         """
-        self.counts, self.rate_hz = PacketCounts(countable=True), rate_hz
+        self.counts = PacketCounts(countable=True)
+        self.rate_hz: float | None = None
+        self._last, self._asked_again = 0, False
         self._address = (socket.gethostbyname(host), port)
         self._scale = np.repeat([units.newton, units.newton_metre], 3)
         self._clock, self._ask_again_s, self._samples = clock, ask_again_s, samples
@@ -185,7 +185,7 @@ class NetFtSource:
                     if not select.select([client], [], [], min(WAIT_S, self._ask_again_s))[0]:
                         if self._clock() - asked > self._ask_again_s:
                             self._ask(client, START)
-                            asked = self._clock()
+                            asked, self._asked_again = self._clock(), True
                         yield None
                         continue
                     for packet in self._waiting(client):
@@ -221,7 +221,11 @@ class NetFtSource:
             fault = Status(0)
             if status & _SUMMARY_ERROR:
                 fault = Status.SATURATED if status & _SATURATED else Status.DEVICE
+            # old packets may still be on their way
+            begins = self._asked_again and sequence < self._last
+            self._asked_again, self._last = self._asked_again and not begins, sequence
             yield Packet(
+                begins=begins,
                 values=np.multiply(counts, self._scale)[None],
                 stamp_ns=round(self._clock() * 1e9),
                 sequence=sequence,

@@ -57,7 +57,7 @@ class LivePackets(Row):
     received: Annotated[int, Shown("received")]
     """Packets that could be read, repeated and late ones among them."""
     lost: Annotated[int | None, Shown("lost")]
-    """Packets that never came; None where neither numbers nor a rate show it."""
+    """Packets that never came; None where neither numbers nor stamps and a rate show it."""
     repeated: Annotated[int, Shown("repeated")]
     """Packets whose number or stamp was there already."""
     late: Annotated[int, Shown("late")]
@@ -122,8 +122,8 @@ class LiveRun(Result):
     def _why(self, row: LiveSensor) -> Iterator[str]:
         packets = self.packets
         named = {
-            "repeated": packets.repeated,
-            "late": packets.late,
+            "repeated": row.repeated,
+            "late": row.late,
             "back in time": packets.backwards,
             "unreadable": packets.unreadable,
             "oversized": packets.oversized,
@@ -153,7 +153,8 @@ class LiveRun(Result):
 
     def _step(self) -> str:
         if self.packets.lost is None:
-            return "state --rate, or send numbers of packets, so that lost samples are seen"
+            stamps = "" if self.stamps == "sender" else "--stamp and "
+            return f"state {stamps}--rate, or --sequence (--envelope of yarp), so that lost samples are seen"
         return "look at the network and at the rate of the sender" if self.packets.lost else ""
 
     def blocks(self) -> Iterator[Table | str]:

@@ -204,7 +204,11 @@ class LiveLoop:
             counts.longest_silence_s = max(counts.longest_silence_s, now - self._last_s)
         self._silent, self._last_s = False, now
         corrector, states = self.correctors[packet.group], self.states[packet.group]
-        known = self.accounts[packet.group].add(packet)
+        account = self.accounts[packet.group]
+        restarts = account.counts.restarts
+        known = account.add(packet)
+        if account.counts.restarts > restarts:
+            corrector.restart_time()
         faults = packet.faults
         if known:
             faults = [known | one for one in faults or [0] * len(states)]

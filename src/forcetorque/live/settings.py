@@ -185,7 +185,7 @@ def make_run(
         _refuse(settings, *_OF_LINES)
         return _replayed(settings, calibrations, clock)
     if settings.ati is not None:
-        _refuse(settings, *_OF_LINES)
+        _refuse(settings, *_OF_LINES, "rate_hz")
         if settings.quantity is HeldQuantity.RAW:
             raise RecordingError("--quantity raw: a box sends wrenches")
         corrector = _only(calibrations, "a box", corrector_options(settings, HeldQuantity.WRENCH))
@@ -204,6 +204,11 @@ def _require_gravity(settings: Settings, gravity: str | None, sensors: int = 1) 
         )
 
 
+def _require_stamps(settings: Settings, there: bool, option: str) -> None:
+    if settings.rate_hz is not None and not there:
+        raise RecordingError(f"--rate: gaps in time need the time of the sender: expected {option} too, got none")
+
+
 def _only(calibrations: Sequence[Calibration], what: str, options: CorrectorOptions) -> Corrector:
     if len(calibrations) != 1:
         raise RecordingError(f"{what} is one sensor: expected one calibration, got {len(calibrations)}")
@@ -218,7 +223,7 @@ def _box(settings: Settings, clock: Callable[[], float]) -> NetFtSource:
         units = CountUnits.of(settings.ati_force, settings.ati_torque)
     else:
         units = fetch_units(host)
-    return NetFtSource(host, units, clock=clock, port=settings.ati_port, rate_hz=settings.rate_hz)
+    return NetFtSource(host, units, clock=clock, port=settings.ati_port)
 
 
 def _replayed(
@@ -274,6 +279,7 @@ def _lines(
         if form is Input.ROS2_CSV:
             reader = RosCsvLines(frame=settings.frame)
         else:
+            _require_stamps(settings, settings.envelope, "--envelope")
             reader = YarpLines(channels=corrector.channels, envelope=settings.envelope)
     else:
         corrector = Corrector(calibrations, options)
@@ -284,12 +290,14 @@ def _lines(
             gravity = () if settings.gravity is None else tuple(settings.gravity.split(","))
             if len(gravity) not in (0, 3):
                 raise RecordingError(f"--gravity: expected three columns between commas, got {settings.gravity!r}")
+            _require_stamps(settings, settings.stamp is not None, "--stamp")
             reader = CsvLines(
                 sensors=sensors, stamp=_stamp(settings.stamp), sequence=settings.sequence, gravity=gravity
             )
         else:
             _refuse(settings, "channels", "status", "stamp", "sequence", "gravity", "frame")
             _require_gravity(settings, None)
+            _require_stamps(settings, settings.envelope, "--envelope")
             reader = MeasuresLines(sensors=sensors, envelope=settings.envelope)
     return LineSource(descriptor, reader, rate_hz=settings.rate_hz, warn=warn), (corrector,)
 
@@ -308,7 +316,7 @@ def _refuse(settings: Settings, *names: str) -> None:
     )
     for name in names:
         if getattr(settings, name):
-            option = {"variables": "variable"}.get(name, name)
+            option = {"variables": "variable", "rate_hz": "rate"}.get(name, name)
             raise RecordingError(f"--{option}: not of {of}")
 
 
