@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.base.output_file import is_replaceable
 from forcetorque.live import outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
@@ -152,9 +153,11 @@ def test_stamps_are_read_exactly() -> None:
     texts = {"1700000000.010000": 1_700_000_000_010_000_000, "-0.5": -500_000_000, "1e-3": 1_000_000, "7": 7 * 10**9}
     assert {text: stamp_of(text, "s") for text in texts} == texts
     assert stamp_of("1700000000123456789", "ns") == 1_700_000_000_123_456_789
-    for text in ("nan", "inf", "soon", ""):
+    for text in ("nan", "inf", "soon", "", "1e30", "9300000000"):
         with pytest.raises(FormatError):
             stamp_of(text, "s")
+    with pytest.raises(FormatError, match="292 years"):
+        RosCsvLines().packet("9223372036,999999999,f,1,2,3,4,5,6")
 
 
 def test_losses_need_numbers_or_a_rate() -> None:
@@ -242,6 +245,33 @@ def test_a_source_that_stops_is_reported_and_waited_for() -> None:
     assert "silent 1 time" in next(result.answers()).why[0]
 
 
+def test_a_silence_that_lasts_to_the_end_is_counted() -> None:
+    """As where the sender dies before its pipe is closed."""
+    now = [0.0]
+
+    def packets() -> Iterator[Packet | None]:
+        yield Packet(values=RAW)
+        now[0] = 10.0
+        yield None
+
+    source = LineSource(0, YarpLines(channels=6, envelope=False))
+    source.packets = packets  # type: ignore[method-assign]
+    loop = LiveLoop(source, [Corrector(make_calibration())], [], clock=lambda: now[0])
+    result = loop.result(loop.run())
+    assert (result.packets.silences, result.packets.longest_silence_s) == (1, 10.0)
+
+
+def test_a_stamp_without_place_is_an_unreadable_line(tmp_path: Path) -> None:
+    """The file is kept."""
+    with TemporaryFile() as text, parquet_file(tmp_path / "live.parquet") as output:
+        text.write(("n,t," + CHANNELS + "\n" + _line(0, 0.0) + _line(1, "1e30") + _line(2, 0.02)).encode())
+        text.seek(0)
+        source, correctors = make_run(Settings(**TABLE), [make_calibration()], descriptor=text.fileno(), warn=print)
+        loop = LiveLoop(source, correctors, [output], clock=lambda: 0.0)
+        assert loop.result(loop.run()).packets.unreadable == 1
+    assert pq.read_table(tmp_path / "live.parquet")["stamp_ns"].to_pylist() == [0, 20_000_000]
+
+
 @pytest.mark.parametrize(("raised", "ended_by"), [(KeyboardInterrupt, "interrupt"), (BrokenPipeError, "closed output")])
 def test_an_interrupt_ends_with_an_account(raised: type[BaseException], ended_by: str) -> None:
     """What was read until then is in it."""
@@ -298,6 +328,7 @@ def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.Mon
     with pytest.raises(FormatError), parquet_file(tmp_path / "other.parquet"):
         raise FormatError("broken")
     assert [path.name for path in tmp_path.iterdir()] == ["live.parquet"]
+    assert is_replaceable(file)  # the same command may run again
 
 
 def test_datagrams_go_to_this_machine_only() -> None:
@@ -325,6 +356,8 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
         ({"stamp": "t"}, "COLUMN:UNIT"),
         ({"envelope": True}, "--envelope: not of"),
+        ({"rate_hz": 0.0}, "--rate: expected a number above 0"),
+        ({"ati_port": 70_000}, "--ati-port: expected a port"),
         ({"stamp": None, "rate_hz": 100.0}, "expected --stamp too"),
         ({"frame": "tool"}, "--frame: not of --input csv"),
         ({"form": None, "ati": "127.0.0.1"}, "--channels: not of --ati"),

@@ -125,6 +125,8 @@ class LiveLoop:
             close = getattr(packets, "close", None)
             if close is not None:
                 close()
+            if self._silent or self._clock() - self._last_s > self._silence_s:
+                self._count_silence(self._clock())
         return "end of input"
 
     def counts(self) -> PacketCounts:
@@ -194,14 +196,17 @@ class LiveLoop:
             output.flush()
         self._show(self)
 
+    def _count_silence(self, now: float) -> None:
+        counts = self._source.counts
+        counts.silences += 1
+        counts.longest_silence_s = max(counts.longest_silence_s, now - self._last_s)
+
     def _take(self, packet: Packet) -> None:
         now = self._clock()
         if self._first_s is None:
             self._first_s = now
         elif self._silent or now - self._last_s > self._silence_s:
-            counts = self._source.counts
-            counts.silences += 1
-            counts.longest_silence_s = max(counts.longest_silence_s, now - self._last_s)
+            self._count_silence(now)
         self._silent, self._last_s = False, now
         corrector, states = self.correctors[packet.group], self.states[packet.group]
         account = self.accounts[packet.group]

@@ -175,6 +175,10 @@ def make_run(
     names = [one.sensor.name for one in calibrations]
     if len(set(names)) < len(names):
         raise RecordingError(f"expected one calibration per sensor, got {', '.join(names)}")
+    if settings.rate_hz is not None and not settings.rate_hz > 0.0:
+        raise RecordingError(f"--rate: expected a number above 0, got {settings.rate_hz:g}")
+    if not 0 < settings.ati_port < 1 << 16:
+        raise RecordingError(f"--ati-port: expected a port from 1 to 65535, got {settings.ati_port}")
     stated = {"--input": settings.form, "--replay": settings.replay, "--ati": settings.ati}
     if sum(value is not None for value in stated.values()) != 1:
         got = ", ".join(name for name, value in stated.items() if value is not None) or "none"

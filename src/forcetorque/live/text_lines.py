@@ -65,8 +65,18 @@ def stamp_of(text: str, unit: str) -> int:
         Nanoseconds.
 
     Raises:
-        FormatError: If it is no finite number.
+        FormatError: If it is no number, or has no place in 64 bits.
     """
+    return _within_64_bits(_nanoseconds(text, unit), f"{text} {unit}")
+
+
+def _within_64_bits(stamp_ns: int, text: str) -> int:
+    if not -(1 << 63) <= stamp_ns < 1 << 63:
+        raise FormatError(f"expected a time within 292 years of 1970, got {quoted(text)}")
+    return stamp_ns
+
+
+def _nanoseconds(text: str, unit: str) -> int:
     factor = STAMP_UNITS[unit]
     whole, point, fraction = text.partition(".")
     try:
@@ -288,4 +298,5 @@ class RosCsvLines:
         if self.frame is not None and cells[2].strip() != self.frame:
             raise FormatError(f"frame: expected {self.frame!r}, got {quoted(cells[2])}")
         stamp_ns = stamp_of(cells[0].strip(), "s") + stamp_of(cells[1].strip(), "ns")
+        _within_64_bits(stamp_ns, f"{cells[0]},{cells[1]}")
         return Packet(values=np.array([[_number(cell) for cell in cells[3:]]]), stamp_ns=stamp_ns)
