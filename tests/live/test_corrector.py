@@ -199,6 +199,24 @@ def test_intervals_hold_in_another_posture(offset: OffsetSource, take_off: bool)
     assert 0.92 < np.mean(inside) < 0.98
 
 
+@pytest.mark.parametrize("offset", [OffsetSource.TARE, OffsetSource.TRACKED])
+def test_a_dead_sensor_keeps_no_other_from_its_tare(offset: OffsetSource) -> None:
+    """Nor is more and more kept for it; it is tared when it comes alive."""
+    corrector = Corrector([make_calibration(), make_calibration(name="b")], CorrectorOptions(offset=offset, tare_s=0.1))
+    rng, dead = np.random.default_rng(0), np.full(6, np.nan)
+    held = set()
+    for k in range(90):
+        samples = np.array([RAW, RAW + 50.0 if k >= 60 else dead]) + rng.normal(0.0, 1.0, (2, 6))
+        given = corrector.correct(samples, stamp_ns=k * 10 * MS)
+        assert (given.status & Status.TARING != 0).tolist() == [k <= 10, k <= 70]
+        if 10 < k < 60:
+            held.add(sum(map(len, corrector._tare._samples)) if corrector._tare else 0)
+    assert held == {11}
+    expected = [make_calibration().apply(raw, serial="SN001") for raw in (RAW, RAW + 50.0)]
+    assert np.abs(corrector.bias - expected).max() < 0.05
+    assert (corrector.bias_variance > 0.0).all()
+
+
 def test_what_is_missing_is_refused() -> None:
     """Shapes, variables, time and gravity are asked for by name."""
     warm = make_calibration(variables=(make_variable(),))

@@ -312,6 +312,14 @@ def test_a_tracked_bias_is_in_the_account() -> None:
     assert json.loads(result.json_text())["sensors"][0]["drift"] is not None
 
 
+def test_a_tare_that_did_not_end_is_told() -> None:
+    """Of the sensor whose samples have faults."""
+    lines = [_line(k, k * 0.01, [float("nan")] * 6) for k in range(50)]
+    result, _ = _run("".join(["n,t," + CHANNELS + "\n", *lines]), Settings(**TABLE, offset=OffsetSource.TARE))
+    assert result.sensors[0].taring
+    assert "Its tare did not end" in " ".join(next(result.answers()).why)
+
+
 def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """All rows, no more than a group in memory; no file of a run that failed."""
     monkeypatch.setattr(outputs, "ROW_GROUP", 10)

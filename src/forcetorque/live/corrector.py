@@ -112,6 +112,11 @@ class Corrector:
         return self._raw.shape[1]
 
     @property
+    def taring(self) -> BoolArray:
+        """Of which sensors a tare collects; shape (s,)."""
+        return np.zeros(len(self._terms), dtype=np.bool_) if self._tare is None else self._tare.collecting.copy()
+
+    @property
     def variables(self) -> tuple[tuple[str, ...], ...]:
         """Names of the variables of every sensor, in the order in which `correct` takes them."""
         return tuple(term.variables for term in self._terms)
@@ -171,7 +176,7 @@ class Corrector:
         """
         if self.options.offset is OffsetSource.FITTED:
             raise RecordingError("tare: expected the offset 'tare' or 'tracked', got 'fitted'")
-        self._tare = TareSamples(self.options.tare_s)
+        self._tare, self.tracker = TareSamples(self.options.tare_s, len(self._terms)), None
 
     def restart_time(self) -> None:
         """Let stamps begin anew, because the sender did."""
@@ -179,7 +184,7 @@ class Corrector:
         if self.tracker is not None:
             self.tracker.restart_time()
         if self._tare is not None:
-            self.tare()
+            self._tare.restart_time()
 
     def correct(
         self,
@@ -319,32 +324,35 @@ class Corrector:
             self._weight[k] = matrix @ directions.reshape(-1, 3)[k]
 
     def _learn(self, stamp_ns: int, usable: BoolArray) -> None:
-        temperature = self._temperature()
+        temperature, tracker = self._temperature(), self.tracker
         if self._tare is not None:
-            self._status |= Status.TARING
+            collecting = self.taring
+            self._status[collecting] |= Status.TARING
             self._at_tare[usable, :6], self._at_tare[usable, 6:-1] = self._weight[usable], self._values[usable]
-            if self._tare.add(self._unloaded, stamp_ns, usable):
-                self.bias[:], self.bias_variance[:] = self._tare.bias()
-                self._add_tool_variance()
-                self._tared[:] = self._at_tare
+            for k in self._tare.add(self._unloaded, stamp_ns, usable):
+                self._end_tare(k, self._tare, temperature)
+            if not self._tare.collecting.any():
                 self._tare = None
-                if self.options.offset is OffsetSource.TRACKED:
-                    self.tracker = BiasTracker(self.options.tracking, self.bias, self.bias_variance, temperature)
-        elif self.tracker is not None:
-            if self.tracker.add(self._unloaded, stamp_ns, temperature, usable.tolist()):
-                self.bias[:], self.bias_variance[:] = self.tracker.bias, self.tracker.variance
-            if self.tracker.in_contact.any():
-                self._status[self.tracker.in_contact] |= Status.CONTACT
+            usable &= ~collecting
+        if tracker is not None:  # not one that this sample began
+            if tracker.add(self._unloaded, stamp_ns, temperature, usable.tolist()):
+                self.bias[:], self.bias_variance[:] = tracker.bias, tracker.variance
+            if tracker.in_contact.any():
+                self._status[tracker.in_contact] |= Status.CONTACT
 
-    def _add_tool_variance(self) -> None:
-        """What is not known of the tool is in the bias that keeps it, as of the orientation at the end of the tare."""
+    def _end_tare(self, k: int, tare: TareSamples, temperature: FloatArray | None) -> None:
+        self.bias[k], self.bias_variance[k] = tare.bias(k)
         tool = self.options.tool
-        if tool is None:
-            return
-        for k, matrix in enumerate(self._per_gravity):
-            # gravity of the last sample, from the weight that it made
-            gravity = self._weight[k, :3] * np.sign(matrix[0, 0]) / tool.mass_kg if tool.mass_kg else np.zeros(3)
+        if tool is not None:
+            # what is not known of the tool is in the bias that keeps it; gravity from the weight that it makes now
+            sign = np.sign(self._per_gravity[k][0, 0])
+            gravity = self._weight[k, :3] * sign / tool.mass_kg if tool.mass_kg else np.zeros(3)
             self.bias_variance[k] += tool.weight_variance(gravity)
+        self._tared[k] = self._at_tare[k]
+        if self.options.offset is OffsetSource.TRACKED:
+            if self.tracker is None:
+                self.tracker = BiasTracker(self.options.tracking, self.bias, self.bias_variance, temperature)
+            self.tracker.begin(k, self.bias[k], self.bias_variance[k], temperature)
 
     def _temperature(self) -> FloatArray | None:
         if not self.options.tracking.with_temperature or self.options.offset is not OffsetSource.TRACKED:

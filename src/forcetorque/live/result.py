@@ -49,6 +49,8 @@ class LiveSensor(Row):
     """Half-width of its 95 % interval."""
     drift: WrenchValues | None
     """Change of the bias since the tare; None where it was not tracked."""
+    taring: bool
+    """Whether its tare did not end: for want of time, or of samples without fault."""
 
 
 class LivePackets(Row):
@@ -109,7 +111,8 @@ class LiveRun(Result):
         lost = self.packets.lost
         for row in self.sensors:
             missing = "losses not countable" if lost is None else f"{lost} lost"
-            bad = bool(lost or row.faulty or self.packets.unreadable or self.packets.oversized or self.packets.silences)
+            packets = self.packets
+            bad = bool(lost or row.faulty or packets.unreadable or packets.oversized or packets.silences or row.taring)
             yield Answer(
                 subject=f"{row.sensor} ({row.serial})",
                 verdict=f"{counted(row.samples, 'sample')}, {missing}, {row.faulty} with faults",
@@ -148,6 +151,8 @@ class LiveRun(Result):
             )
             drift = "" if row.drift is None else f", {max(abs(row.drift[:3])):.2f} N away from the tare"
             sentences.append(f"Bias of the force: {force} N{drift}.")
+        if row.taring:
+            sentences.append("Its tare did not end: the offset is that of the calibration.")
         if sentences:
             yield " ".join(sentences)
 

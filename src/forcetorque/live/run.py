@@ -185,6 +185,7 @@ class LiveLoop:
             bias=corrector.bias[k].copy() if has_bias else None,
             bias_half_width_95=NORMAL_95 * np.sqrt(corrector.bias_variance[k]) if has_bias else None,
             drift=tracked,
+            taring=bool(corrector.taring[k]),
         )
 
     def _wait(self) -> None:
