@@ -93,6 +93,15 @@ def test_units_are_stated_or_published() -> None:
             CountUnits.of_configuration(text.encode())
 
 
+@pytest.mark.parametrize("host", ["no box", "a" * 70, "x:y"])
+def test_a_box_without_address_is_named(host: str) -> None:
+    """Whether its units are stated or asked for."""
+    with pytest.raises(RecordingError, match=f"--ati {host}: expected the address"):
+        NetFtSource(host, UNITS, clock=time.monotonic)
+    with pytest.raises(RecordingError, match=f"--ati {host}: expected its"):
+        fetch_units(host, timeout_s=0.5)
+
+
 def test_a_box_without_web_server_is_named() -> None:
     """With what to state instead."""
     with socket.socket() as free:

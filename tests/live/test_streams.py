@@ -27,7 +27,7 @@ from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings, make_run
 from forcetorque.live.sources import LONGEST_LINE, LineSource
-from forcetorque.live.text_lines import RosCsvLines, YarpLines, stamp_of
+from forcetorque.live.text_lines import MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
 from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 
 RAW = np.array([[100.0, -200.0, 300.0, -400.0, 500.0, -600.0]])
@@ -124,6 +124,23 @@ def test_lists_of_a_device_are_read_by_their_indices() -> None:
     assert [row.status for row in rows] == [0, Status.REPEATED, 0]
     assert result.packets.unreadable == 1
     assert np.allclose(rows[0].values[:6], make_calibration().apply(RAW[0], serial="SN001"))
+
+
+def test_indices_are_of_the_lists_of_a_device() -> None:
+    """One that is none is refused; one beyond a list makes its lines unreadable, by name; an empty list is NaN."""
+    stated: dict[str, Any] = {"form": Input.YARP_MEASURES, "quantity": HeldQuantity.WRENCH}
+    warm = make_calibration(name="warm", variables=(make_variable(),))
+    for index in ("foo", "-1", "²"):
+        settings = Settings(**stated, index=("0",), variables=(f"temperature={index}",))
+        with pytest.raises(RecordingError, match=f"temperatures, got {index}"):
+            make_run(settings, [warm], descriptor=0, warn=print)
+    line = "() () () () (((31.0) 8.0)) (((1 2 3 4 5 6) 8.0)) () () () ()"
+    columns = SensorColumns(name="warm", variables=("0",), index=7)
+    with pytest.raises(FormatError, match="index 7, the list has 1"):
+        MeasuresLines(sensors=[columns], envelope=False).packet(line)
+    empty = MeasuresLines(sensors=[columns], envelope=False).packet("() () () () () () () () () ()")
+    assert empty is not None
+    assert np.isnan(empty.values).all()
 
 
 @pytest.mark.real_data
@@ -364,6 +381,13 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
         ({"stamp": "t"}, "COLUMN:UNIT"),
         ({"envelope": True}, "--envelope: not of"),
+        ({"speed": 0.0}, "--speed: not of --input csv"),
+        ({"ati_force": "1 N"}, "--ati-force: not of --input csv"),
+        ({"ati_port": 1}, "--ati-port: not of --input csv"),
+        ({"random_walk": "1,1"}, "--random-walk: not of --offset fitted"),
+        ({"with_temperature": True, "offset": OffsetSource.TARE}, "--with-temperature: not of --offset tare"),
+        ({"tare_s": 2.0}, "--tare-s: not of --offset fitted"),
+        ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "gravity": "x,y,z"}, "without --take-tool-off"),
         ({"rate_hz": 0.0}, "--rate: expected a number above 0"),
         ({"ati_port": 70_000}, "--ati-port: expected a port"),
         ({"stamp": None, "rate_hz": 100.0}, "expected --stamp too"),
@@ -394,7 +418,7 @@ def test_a_heading_must_have_the_columns() -> None:
 def test_options_of_tracking_are_read() -> None:
     """Numbers between commas."""
     given = make_run(
-        Settings(**TABLE, random_walk="2,0.1", tracking_noise="0.3,0.01"),
+        Settings(**TABLE, offset=OffsetSource.TRACKED, random_walk="2,0.1", tracking_noise="0.3,0.01"),
         [make_calibration()],
         descriptor=0,
         warn=lambda _: None,

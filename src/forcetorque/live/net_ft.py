@@ -122,20 +122,22 @@ def fetch_units(host: str, port: int = 80, timeout_s: float = 3.0) -> CountUnits
     """
     from http.client import HTTPConnection, HTTPException
 
-    connection = HTTPConnection(host, port, timeout=timeout_s)
+    connection = None
     try:
+        connection = HTTPConnection(host, port, timeout=timeout_s)
         connection.request("GET", "/netftapi2.xml")
         response = connection.getresponse()
         text = response.read(_LARGEST_XML)
         if response.status != 200:
             raise RecordingError(f"--ati {host}: netftapi2.xml: expected an answer, got status {response.status}")
-    except (OSError, HTTPException) as error:
+    except (OSError, UnicodeError, HTTPException) as error:
         raise RecordingError(
             f"--ati {host}: expected its configuration at http://{host}:{port}/netftapi2.xml, got {error}; or state "
             "--ati-force and --ati-torque, the units of a count"
         ) from None
     finally:
-        connection.close()
+        if connection is not None:
+            connection.close()
     return CountUnits.of_configuration(text)
 
 
@@ -161,11 +163,17 @@ class NetFtSource:
             port: Its port.
             ask_again_s: Time without a packet after which it is asked again; s.
             samples: Packets after which to stop; None for no end.
+
+        Raises:
+            RecordingError: If the address is not known.
         """
         self.counts = PacketCounts(countable=True)
         self.rate_hz: float | None = None
         self._last, self._asked_again = 0, False
-        self._address = (socket.gethostbyname(host), port)
+        try:
+            self._address = (socket.gethostbyname(host), port)
+        except (OSError, UnicodeError) as error:
+            raise RecordingError(f"--ati {host}: expected the address of a box, got {error}") from None
         self._scale = np.repeat([units.newton, units.newton_metre], 3)
         self._clock, self._ask_again_s, self._samples = clock, ask_again_s, samples
 

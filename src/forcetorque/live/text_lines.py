@@ -241,7 +241,8 @@ class MeasuresLines:
         variables = np.full((len(self.sensors), max(len(sensor.variables) for sensor in self.sensors)), math.nan)
         faults = [0] * len(self.sensors)
         for k, sensor in enumerate(self.sensors):
-            if sensor.index < len(wrenches):
+            if wrenches:
+                _require_index(sensor.name, sensor.index, len(wrenches))
                 numbers, stamp = wrenches[sensor.index]
                 if len(numbers) != 6:
                     raise FormatError(f"sensor {sensor.name!r}: expected six numbers, got {len(numbers)}")
@@ -249,9 +250,15 @@ class MeasuresLines:
                 faults[k] = int(Status.REPEATED) if self._board_stamps.get(sensor.name) == stamp else 0
                 self._board_stamps[sensor.name] = stamp
             for place, index in enumerate(sensor.variables):
-                if int(index) < len(temperatures):
+                if temperatures:
+                    _require_index(sensor.name, int(index), len(temperatures))
                     variables[k, place] = temperatures[int(index)][0][0]
         return Packet(values=values, variables=variables, stamp_ns=stamp_ns, sequence=sequence, faults=faults)
+
+
+def _require_index(sensor: str, index: int, count: int) -> None:
+    if index >= count:
+        raise FormatError(f"sensor {sensor!r}: index {index}, the list has {count}")
 
 
 def _sensors_in(lists: Bottle, kind: MeasuresList) -> list[tuple[list[float], float]]:
