@@ -14,8 +14,12 @@ _REMEMBERED: Final = 4096
 """Sequence numbers that may still come late; a packet that lies further back means that the sender began again."""
 _RESTARTED: Final = 8
 """Old packets in a row, in their order, from which on the sender began again."""
-_LATE_BY: Final = 1.5
-"""Periods between two samples from which on samples are missing between them."""
+_FARTHEST: Final = 1 << 20
+"""Numbers ahead from which on the sender began to count elsewhere."""
+_FOLLOWED: Final = 0.1
+"""Share of what a sample is off its period by which the periods move, so that they follow a clock that is off."""
+_DOUBTFUL: Final = 2
+"""Samples within which one that is too early shows that one before was only late, and nothing lost."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -103,6 +107,7 @@ class PacketAccount:
         self._stamp_ns: int | None = None
         self._missing: OrderedDict[int, None] = OrderedDict()
         self._old, self._old_in_a_row = 0, 0
+        self._behind, self._doubtful, self._since_gap = 0.0, 0, 0
 
     def add(self, packet: Packet) -> Status:
         """Count a packet.
@@ -136,10 +141,12 @@ class PacketAccount:
         if step == 0:
             self.counts.repeated += 1
             return Status.REPEATED
-        if step < self._modulus // 2:
+        if step <= min(_FARTHEST, self._modulus // 2):
             self._skip(highest, step - 1)
             self._highest, self._old_in_a_row = number, 0
             return Status(0)
+        if step < self._modulus // 2:
+            return self._begin(number)
         again = self._begins_again(number, number == self._old + 1)
         if number in self._missing:
             del self._missing[number]
@@ -178,14 +185,30 @@ class PacketAccount:
                 return Status.REPEATED
             if self._begins_again(stamp_ns, stamp_ns > self._old):
                 self.counts.restarts += 1
-                self._stamp_ns, self._old_in_a_row = stamp_ns, 0
+                self._stamp_ns, self._old_in_a_row, self._behind = stamp_ns, 0, 0.0
                 return Status(0)
+            if not self._is_found():
+                self._behind -= 1.0
             self.counts.late += 1
             self.counts.backwards += 1
             return Status.LATE
         if before is not None and self._period_ns is not None:
-            periods = (stamp_ns - before) / self._period_ns
-            if periods > _LATE_BY:
-                self.counts.lost += round(periods) - 1
+            periods = (stamp_ns - before) / self._period_ns + self._behind
+            steps = round(periods)
+            if steps > 1:
+                self.counts.lost += steps - 1
+                self._doubtful, self._since_gap = steps - 1, 0
+            elif steps == 1 or not self._is_found():
+                steps = 1
+            self._since_gap += 1
+            self._behind = max(-1.0, (1.0 - _FOLLOWED) * (periods - steps))
         self._stamp_ns, self._old_in_a_row = stamp_ns, 0
         return Status(0)
+
+    def _is_found(self) -> bool:
+        """Take back a loss just before, as the sample is there."""
+        if not self._doubtful or self._since_gap > _DOUBTFUL:
+            return False
+        self._doubtful -= 1
+        self.counts.lost -= 1
+        return True
