@@ -27,7 +27,7 @@ from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings, make_run
 from forcetorque.live.sources import LONGEST_LINE, LineSource
-from forcetorque.live.text_lines import MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
+from forcetorque.live.text_lines import LineForm, MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
 from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 
 RAW = np.array([[100.0, -200.0, 300.0, -400.0, 500.0, -600.0]])
@@ -146,7 +146,7 @@ def test_indices_are_of_the_lists_of_a_device() -> None:
 @pytest.mark.real_data
 def test_captured_lines_are_read(data_dir: Path) -> None:
     """`yarp read` with and without its envelope, and `ros2 topic echo --csv`: the known truth."""
-    forms = {
+    forms: dict[str, LineForm] = {
         "yarp_read_analog_envelope.txt": YarpLines(channels=6, envelope=True),
         "yarp_read_analog.txt": YarpLines(channels=6, envelope=False),
         "ros2_topic_echo_csv.txt": RosCsvLines(frame="ft_sensor"),

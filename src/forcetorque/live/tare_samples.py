@@ -31,8 +31,9 @@ class TareSamples:
 
     def restart_time(self) -> None:
         """Begin again with the sensors that have no bias yet."""
-        for entries in (*self._samples, *self._stamps_ns):
-            entries.clear()
+        for samples, stamps in zip(self._samples, self._stamps_ns, strict=True):
+            samples.clear()
+            stamps.clear()
 
     def add(self, unloaded: FloatArray, stamp_ns: int, usable: BoolArray) -> list[int]:
         """Take a sample in.
