@@ -15,6 +15,7 @@ from forcetorque.base.errors import FitError, RecordingError, ShapeError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
@@ -168,6 +169,54 @@ def test_a_tare_keeps_the_tool() -> None:
         expected = np.zeros(6) if take_off else weight @ postures[1]
         # a mean of eleven alternating counts is off by an eleventh of one
         assert np.abs(after.wrench[0] - expected).max() < np.abs(calibration.matrix).sum(axis=1).max() / 10.0
+
+
+@pytest.mark.parametrize("offset", OffsetSource)
+@pytest.mark.parametrize("take_off", [False, True])
+def test_intervals_hold_in_another_posture(offset: OffsetSource, take_off: bool) -> None:
+    """The error of the matrix acts on the load since the tare, also where the weight is taken off."""
+    rng, half = np.random.default_rng(0), 0.05
+    covariance = np.zeros((6, 7, 7))
+    covariance[:, range(6), range(6)] = (half / NORMAL_95) ** 2
+    posterior = Posterior(
+        space="wrench", variables=(), sessions=("first",), drift=False, mean=np.zeros((6, 7)), covariance=covariance,
+        mean_covariance=covariance[:, :6, :6], prior_covariance=None, to_wrench=np.eye(6), accuracy=np.zeros(6),
+        noise=(RowNoise(white=0.01, time_constant_s=0.0, ratio=0.0),) * 6, repeatability=0.0, load_centre=np.zeros(6),
+    )  # fmt: skip
+    calibration = make_calibration().model_copy(update={"posterior": posterior})
+    tool = Tool(mass_kg=4.0, centre_m=np.zeros(3))
+    weight, inverse = tool.per_gravity(calibration.sensor.measure_direction), np.linalg.inv(calibration.matrix)
+    down = np.array([0.0, 0.0, -9.81])
+    inside = []
+    for _ in range(50):
+        options = CorrectorOptions(offset=offset, tare_s=0.08, tool=tool, take_tool_off=take_off)
+        corrector = Corrector(calibration, options)
+        error = np.eye(6) + rng.normal(0.0, half / NORMAL_95, (6, 6))
+        for k in range(11):
+            gravity = down if k < 10 else -down
+            raw = inverse @ (error @ weight @ gravity - calibration.offset + rng.normal(0.0, 0.001, 6))
+            given = corrector.correct(raw, stamp_ns=k * 10 * MS, gravity=gravity)
+        expected = np.zeros(6) if take_off else weight @ -down
+        inside.append(np.abs(given.wrench[0] - expected) <= given.half_width[0])
+    assert 0.92 < np.mean(inside) < 0.98
+
+
+@pytest.mark.parametrize("offset", [OffsetSource.TARE, OffsetSource.TRACKED])
+def test_a_dead_sensor_keeps_no_other_from_its_tare(offset: OffsetSource) -> None:
+    """Nor is more and more kept for it; it is tared when it comes alive."""
+    corrector = Corrector([make_calibration(), make_calibration(name="b")], CorrectorOptions(offset=offset, tare_s=0.1))
+    rng, dead = np.random.default_rng(0), np.full(6, np.nan)
+    held = set()
+    for k in range(90):
+        samples = np.array([RAW, RAW + 50.0 if k >= 60 else dead]) + rng.normal(0.0, 1.0, (2, 6))
+        given = corrector.correct(samples, stamp_ns=k * 10 * MS)
+        assert (given.status & Status.TARING != 0).tolist() == [k <= 10, k <= 70]
+        if 10 < k < 60:
+            held.add(sum(map(len, corrector._tare._samples)) if corrector._tare else 0)
+    assert held == {11}
+    expected = [make_calibration().apply(raw, serial="SN001") for raw in (RAW, RAW + 50.0)]
+    assert np.abs(corrector.bias - expected).max() < 0.05
+    assert (corrector.bias_variance > 0.0).all()
 
 
 def test_what_is_missing_is_refused() -> None:

@@ -72,10 +72,10 @@ def test_what_cannot_be_done_is_refused(fitted: Path, run: Run, monkeypatch: pyt
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("ending", ["pipe", "interrupt"])
+@pytest.mark.parametrize("ending", ["pipe", "interrupt", "terminate"])
 def test_a_process_ends_cleanly(fitted: Path, ending: str) -> None:
-    """When nobody reads its lines any more, and by Ctrl-C: exit code 0, the account, no traceback."""
-    words = ("live", "arm.json", "--input", "yarp", "--quantity", "raw")
+    """When nobody reads its lines any more, by Ctrl-C and SIGTERM: exit code 0, account and file, no traceback."""
+    words = ("live", "arm.json", "--input", "yarp", "--quantity", "raw", "-o", "live.parquet")
     with subprocess.Popen(
         [sys.executable, "-m", "forcetorque", *words],
         cwd=fitted, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -86,9 +86,10 @@ def test_a_process_ends_cleanly(fitted: Path, ending: str) -> None:
         process.stdin.write("1 2 3 4 5 6\n" * 3)
         process.stdin.flush()
         assert process.stdout.readline().startswith("stamp_ns")
-        assert process.stdout.readline().endswith("ok\n")
-        if ending == "interrupt":
-            process.send_signal(signal.SIGINT)
+        for _ in range(2):
+            assert process.stdout.readline().endswith("ok\n")
+        if ending != "pipe":
+            process.send_signal(signal.SIGINT if ending == "interrupt" else signal.SIGTERM)
         else:
             process.stdout.close()
             process.stdin.write("1 2 3 4 5 7\n" * 3)
@@ -96,5 +97,6 @@ def test_a_process_ends_cleanly(fitted: Path, ending: str) -> None:
         err = process.stderr.read()
         assert process.wait(30) == 0
     assert "arm_ft (SIM001)" in err
+    assert pq.read_table(fitted / "live.parquet").num_rows >= 1
     assert "Traceback" not in err
     assert "BrokenPipe" not in err

@@ -29,17 +29,17 @@ XML = (
 def test_every_event_of_a_box_is_counted() -> None:
     """One in a hundred dropped, some twice, some late, and silence until it is asked again."""
     dropped, repeated, delayed = frozenset({50, 150, 250}), frozenset({20, 170}), frozenset({30, 90, 270})
-    faults = BoxFaults(dropped=dropped, repeated=repeated, delayed=delayed, silent_after=200, silent_s=0.3, missed=40)
-    received = 300 - 40 - len(dropped) + len(repeated)
+    faults = BoxFaults(dropped=dropped, repeated=repeated, delayed=delayed, silent_after=200, silent_s=0.3)
+    received = 300 - len(dropped) + len(repeated)
     with SimulatedBox(COUNTS, 300, faults) as box:
         source = NetFtSource("127.0.0.1", UNITS, clock=time.monotonic, port=box.port, ask_again_s=0.1, samples=received)
         loop = LiveLoop(source, [Corrector(make_calibration())], [], clock=time.monotonic, silence_s=0.15)
         result = loop.result(loop.run())
     packets = result.packets
-    assert (packets.received, packets.lost) == (received, 3 + 40)
+    assert (packets.received, packets.lost, packets.restarts) == (received, 3, 1)
     assert (packets.repeated, packets.late, packets.silences) == (2, 3, 1)
     assert packets.longest_silence_s > 0.2
-    assert result.sensors[0].samples == received
+    assert (result.sensors[0].samples, result.sensors[0].repeated, result.sensors[0].late) == (received, 2, 3)
 
 
 def test_counts_become_newtons_and_strangers_are_dropped() -> None:
@@ -91,6 +91,15 @@ def test_units_are_stated_or_published() -> None:
     for text in (XML.format(cpf=0, unit="N"), XML.format(cpf=1, unit="stone"), "<netft/>", "no XML"):
         with pytest.raises(FormatError, match="netftapi2"):
             CountUnits.of_configuration(text.encode())
+
+
+@pytest.mark.parametrize("host", ["no box", "a" * 70, "x:y"])
+def test_a_box_without_address_is_named(host: str) -> None:
+    """Whether its units are stated or asked for."""
+    with pytest.raises(RecordingError, match=f"--ati {host}: expected the address"):
+        NetFtSource(host, UNITS, clock=time.monotonic)
+    with pytest.raises(RecordingError, match=f"--ati {host}: expected its"):
+        fetch_units(host, timeout_s=0.5)
 
 
 def test_a_box_without_web_server_is_named() -> None:

@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.base.output_file import is_replaceable
 from forcetorque.live import outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
@@ -26,7 +27,7 @@ from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings, make_run
 from forcetorque.live.sources import LONGEST_LINE, LineSource
-from forcetorque.live.text_lines import RosCsvLines, YarpLines, stamp_of
+from forcetorque.live.text_lines import LineForm, MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
 from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 
 RAW = np.array([[100.0, -200.0, 300.0, -400.0, 500.0, -600.0]])
@@ -125,10 +126,27 @@ def test_lists_of_a_device_are_read_by_their_indices() -> None:
     assert np.allclose(rows[0].values[:6], make_calibration().apply(RAW[0], serial="SN001"))
 
 
+def test_indices_are_of_the_lists_of_a_device() -> None:
+    """One that is none is refused; one beyond a list makes its lines unreadable, by name; an empty list is NaN."""
+    stated: dict[str, Any] = {"form": Input.YARP_MEASURES, "quantity": HeldQuantity.WRENCH}
+    warm = make_calibration(name="warm", variables=(make_variable(),))
+    for index in ("foo", "-1", "²"):
+        settings = Settings(**stated, index=("0",), variables=(f"temperature={index}",))
+        with pytest.raises(RecordingError, match=f"temperatures, got {index}"):
+            make_run(settings, [warm], descriptor=0, warn=print)
+    line = "() () () () (((31.0) 8.0)) (((1 2 3 4 5 6) 8.0)) () () () ()"
+    columns = SensorColumns(name="warm", variables=("0",), index=7)
+    with pytest.raises(FormatError, match="index 7, the list has 1"):
+        MeasuresLines(sensors=[columns], envelope=False).packet(line)
+    empty = MeasuresLines(sensors=[columns], envelope=False).packet("() () () () () () () () () ()")
+    assert empty is not None
+    assert np.isnan(empty.values).all()
+
+
 @pytest.mark.real_data
 def test_captured_lines_are_read(data_dir: Path) -> None:
     """`yarp read` with and without its envelope, and `ros2 topic echo --csv`: the known truth."""
-    forms = {
+    forms: dict[str, LineForm] = {
         "yarp_read_analog_envelope.txt": YarpLines(channels=6, envelope=True),
         "yarp_read_analog.txt": YarpLines(channels=6, envelope=False),
         "ros2_topic_echo_csv.txt": RosCsvLines(frame="ft_sensor"),
@@ -152,9 +170,11 @@ def test_stamps_are_read_exactly() -> None:
     texts = {"1700000000.010000": 1_700_000_000_010_000_000, "-0.5": -500_000_000, "1e-3": 1_000_000, "7": 7 * 10**9}
     assert {text: stamp_of(text, "s") for text in texts} == texts
     assert stamp_of("1700000000123456789", "ns") == 1_700_000_000_123_456_789
-    for text in ("nan", "inf", "soon", ""):
+    for text in ("nan", "inf", "soon", "", "1e30", "9300000000"):
         with pytest.raises(FormatError):
             stamp_of(text, "s")
+    with pytest.raises(FormatError, match="292 years"):
+        RosCsvLines().packet("9223372036,999999999,f,1,2,3,4,5,6")
 
 
 def test_losses_need_numbers_or_a_rate() -> None:
@@ -167,7 +187,11 @@ def test_losses_need_numbers_or_a_rate() -> None:
     assert result.packets.lost == 2
     result, _ = _run(text, Settings(**stated))
     assert result.packets.lost is None
-    assert "not countable" in next(result.answers()).verdict
+    answer = next(result.answers())
+    assert "not countable" in answer.verdict
+    assert "state --rate, or --sequence" in answer.step
+    result, _ = _run(text, Settings(**stated | {"stamp": None}))
+    assert "state --stamp and --rate, or --sequence" in next(result.answers()).step
 
 
 def test_numbers_wrap_around_and_begin_again() -> None:
@@ -184,13 +208,46 @@ def test_numbers_wrap_around_and_begin_again() -> None:
     assert (account.counts.lost, account.counts.restarts) == (99_998, 1)
 
 
+@pytest.mark.parametrize("stated", [TABLE, TABLE | {"sequence": None, "rate_hz": 100.0}, TABLE | {"stamp": None}])
+def test_a_sender_that_begins_again_is_heard(stated: dict[str, Any]) -> None:
+    """After eight packets, whether numbers, stamps or both began again; the answer says why samples were faulty."""
+    lines = [_line(k, k * 0.01, (RAW[0] + k % 3).tolist()) for k in range(60)]
+    result, rows = _run("".join(["n,t," + CHANNELS + "\n", *lines, *lines[3:50]]), Settings(**stated))
+    assert (result.packets.restarts, result.packets.lost) == (1, 0)
+    assert result.sensors[0].faulty == 7
+    assert not any(row.status for row in rows[67:])
+    assert "7 late" in (why := next(result.answers()).why[0]) or "7 repeated" in why
+
+
+def test_packets_that_come_twice_are_no_restart() -> None:
+    """Also if every packet comes again some packets later."""
+    account = PacketAccount()
+    for number in range(20, 60):
+        account.add(Packet(values=RAW, sequence=number))
+        account.add(Packet(values=RAW, sequence=number - 15))
+    assert account.counts.restarts == 0
+
+
+@pytest.mark.parametrize("clock", [1.0, 0.999, 1.001])
+def test_jitter_loses_nothing(clock: float) -> None:
+    """Half a millisecond at 500 Hz, also of a clock that is off; two that were not sent are counted."""
+    rng, account = np.random.default_rng(0), PacketAccount(500.0)
+    for k in range(5000):
+        if k not in (100, 2000):
+            stamp_ns = round(clock * k * 2e6 + rng.normal(0.0, 5e5))
+            account.add(Packet(values=RAW, stamp_ns=stamp_ns))
+    assert account.counts.lost == 2
+
+
 def test_a_gap_of_millions_takes_no_memory() -> None:
     """Of a long gap only the last numbers may still come late."""
     account = PacketAccount()
-    for number in (0, 1 << 30, (1 << 30) - 1, 5):
+    for number in (0, 1 << 20, (1 << 20) - 1, 5):
         account.add(Packet(values=RAW, sequence=number))
-    assert account.counts.lost == (1 << 30) - 2
+    assert account.counts.lost == (1 << 20) - 2
     assert len(account._missing) < 5000
+    account.add(Packet(values=RAW, sequence=1 << 21))  # so far ahead that it began to count elsewhere
+    assert (account.counts.lost, account.counts.restarts) == ((1 << 20) - 2, 2)
 
 
 def test_a_source_that_stops_is_reported_and_waited_for() -> None:
@@ -216,6 +273,33 @@ def test_a_source_that_stops_is_reported_and_waited_for() -> None:
     assert (result.packets.silences, result.stamps) == (1, "arrival")
     assert result.packets.longest_silence_s > 8.0
     assert "silent 1 time" in next(result.answers()).why[0]
+
+
+def test_a_silence_that_lasts_to_the_end_is_counted() -> None:
+    """As where the sender dies before its pipe is closed."""
+    now = [0.0]
+
+    def packets() -> Iterator[Packet | None]:
+        yield Packet(values=RAW)
+        now[0] = 10.0
+        yield None
+
+    source = LineSource(0, YarpLines(channels=6, envelope=False))
+    source.packets = packets  # type: ignore[method-assign]
+    loop = LiveLoop(source, [Corrector(make_calibration())], [], clock=lambda: now[0])
+    result = loop.result(loop.run())
+    assert (result.packets.silences, result.packets.longest_silence_s) == (1, 10.0)
+
+
+def test_a_stamp_without_place_is_an_unreadable_line(tmp_path: Path) -> None:
+    """The file is kept."""
+    with TemporaryFile() as text, parquet_file(tmp_path / "live.parquet") as output:
+        text.write(("n,t," + CHANNELS + "\n" + _line(0, 0.0) + _line(1, "1e30") + _line(2, 0.02)).encode())
+        text.seek(0)
+        source, correctors = make_run(Settings(**TABLE), [make_calibration()], descriptor=text.fileno(), warn=print)
+        loop = LiveLoop(source, correctors, [output], clock=lambda: 0.0)
+        assert loop.result(loop.run()).packets.unreadable == 1
+    assert pq.read_table(tmp_path / "live.parquet")["stamp_ns"].to_pylist() == [0, 20_000_000]
 
 
 @pytest.mark.parametrize(("raised", "ended_by"), [(KeyboardInterrupt, "interrupt"), (BrokenPipeError, "closed output")])
@@ -258,6 +342,14 @@ def test_a_tracked_bias_is_in_the_account() -> None:
     assert json.loads(result.json_text())["sensors"][0]["drift"] is not None
 
 
+def test_a_tare_that_did_not_end_is_told() -> None:
+    """Of the sensor whose samples have faults."""
+    lines = [_line(k, k * 0.01, [float("nan")] * 6) for k in range(50)]
+    result, _ = _run("".join(["n,t," + CHANNELS + "\n", *lines]), Settings(**TABLE, offset=OffsetSource.TARE))
+    assert result.sensors[0].taring
+    assert "Its tare did not end" in " ".join(next(result.answers()).why)
+
+
 def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """All rows, no more than a group in memory; no file of a run that failed."""
     monkeypatch.setattr(outputs, "ROW_GROUP", 10)
@@ -274,6 +366,7 @@ def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.Mon
     with pytest.raises(FormatError), parquet_file(tmp_path / "other.parquet"):
         raise FormatError("broken")
     assert [path.name for path in tmp_path.iterdir()] == ["live.parquet"]
+    assert is_replaceable(file)  # the same command may run again
 
 
 def test_datagrams_go_to_this_machine_only() -> None:
@@ -301,6 +394,16 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
         ({"stamp": "t"}, "COLUMN:UNIT"),
         ({"envelope": True}, "--envelope: not of"),
+        ({"speed": 0.0}, "--speed: not of --input csv"),
+        ({"ati_force": "1 N"}, "--ati-force: not of --input csv"),
+        ({"ati_port": 1}, "--ati-port: not of --input csv"),
+        ({"random_walk": "1,1"}, "--random-walk: not of --offset fitted"),
+        ({"with_temperature": True, "offset": OffsetSource.TARE}, "--with-temperature: not of --offset tare"),
+        ({"tare_s": 2.0}, "--tare-s: not of --offset fitted"),
+        ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "gravity": "x,y,z"}, "without --take-tool-off"),
+        ({"rate_hz": 0.0}, "--rate: expected a number above 0"),
+        ({"ati_port": 70_000}, "--ati-port: expected a port"),
+        ({"stamp": None, "rate_hz": 100.0}, "expected --stamp too"),
         ({"frame": "tool"}, "--frame: not of --input csv"),
         ({"form": None, "ati": "127.0.0.1"}, "--channels: not of --ati"),
         ({"variables": ("temperature=T",)}, "SENSOR.]NAME=COLUMN"),
@@ -328,7 +431,7 @@ def test_a_heading_must_have_the_columns() -> None:
 def test_options_of_tracking_are_read() -> None:
     """Numbers between commas."""
     given = make_run(
-        Settings(**TABLE, random_walk="2,0.1", tracking_noise="0.3,0.01"),
+        Settings(**TABLE, offset=OffsetSource.TRACKED, random_walk="2,0.1", tracking_noise="0.3,0.01"),
         [make_calibration()],
         descriptor=0,
         warn=lambda _: None,

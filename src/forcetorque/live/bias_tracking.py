@@ -108,6 +108,29 @@ class BiasTracker:
         """Part that is linear in temperature; shape (s, 6); N, N m per degC."""
         return self._coefficient
 
+    def begin(self, sensor: int, bias: FloatArray, variance: FloatArray, temperature: FloatArray | None) -> None:
+        """Begin again with a sensor.
+
+        Args:
+            sensor: Its index.
+            bias: Its bias now; shape (6,); N, N m.
+            variance: Its variance; shape (6,).
+            temperature: Temperatures now; shape (s,); degC; None without.
+        """
+        self.bias[sensor] = self._constant[sensor] = bias
+        self.variance[sensor] = self._constant_variance[sensor] = variance
+        self._coefficient[sensor] = self._covariance[sensor] = 0.0
+        self._coefficient_variance[sensor] = (
+            _both(self._tracking.coefficient_sd_N, self._tracking.coefficient_sd_Nm) ** 2
+        )
+        self._from[sensor] = 0.0 if temperature is None else temperature[sensor]
+        self.in_contact[sensor], self._within_s[sensor] = False, 0.0
+        self._sum[sensor], self._warmth[sensor], self._counts[sensor] = 0.0, 0.0, 0
+
+    def restart_time(self) -> None:
+        """Let stamps begin anew."""
+        self._last_ns = None
+
     def add(self, unloaded: FloatArray, stamp_ns: int, temperature: FloatArray | None, usable: list[bool]) -> bool:
         """Take a sample in.
 

@@ -152,6 +152,7 @@ def live(
 
     Python: `live.Corrector(calibration).correct(counts)`
     """
+    import signal
     import time
 
     from forcetorque.live.outputs import (
@@ -206,6 +207,8 @@ def live(
             warn=log.warning,
             **({"show": shown.show} if watch else {}),
         )
+        # to be terminated ends a run as Ctrl-C does: with its file and its account
+        stack.callback(signal.signal, signal.SIGTERM, signal.signal(signal.SIGTERM, signal.default_int_handler))
         ended_by = loop.run()
         if watch:
             shown.show(loop, at_once=True)

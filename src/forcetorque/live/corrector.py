@@ -112,6 +112,11 @@ class Corrector:
         return self._raw.shape[1]
 
     @property
+    def taring(self) -> BoolArray:
+        """Of which sensors a tare collects; shape (s,)."""
+        return np.zeros(len(self._terms), dtype=np.bool_) if self._tare is None else self._tare.collecting.copy()
+
+    @property
     def variables(self) -> tuple[tuple[str, ...], ...]:
         """Names of the variables of every sensor, in the order in which `correct` takes them."""
         return tuple(term.variables for term in self._terms)
@@ -141,6 +146,8 @@ class Corrector:
             self._reference[k, :own] = term.reference_values
             used = np.r_[np.arange(6 + own), d - 1]
             covariance[k][:, used[:, None], used] = term.covariance * NORMAL_95**2
+        # a tare takes off the errors of matrix and coefficients at its load, so they act on the change since then
+        self._tared, self._at_tare, self._since = np.zeros((3, count, d))
         self._covariance = covariance.reshape(count, 6 * d, d)
         self._half_width = np.zeros((count, 6))
         self._held = np.full((2, count, 6), np.nan)
@@ -158,7 +165,7 @@ class Corrector:
         self._stamp_ns: int | None = None
         # views with a last axis for products of matrix and vector
         self._columns = (self._sample[..., None], self._wrench[..., None], self._half_width[..., None])
-        self._load_column, self._products_column = self._load[..., None], self._half_products.reshape(count, 6 * d, 1)
+        self._load_column, self._products_column = self._since[..., None], self._half_products.reshape(count, 6 * d, 1)
         self._quadratic = [(k, term.quadratic) for k, term in enumerate(terms) if term.quadratic is not None]
 
     def tare(self) -> None:
@@ -169,7 +176,15 @@ class Corrector:
         """
         if self.options.offset is OffsetSource.FITTED:
             raise RecordingError("tare: expected the offset 'tare' or 'tracked', got 'fitted'")
-        self._tare = TareSamples(self.options.tare_s)
+        self._tare, self.tracker = TareSamples(self.options.tare_s, len(self._terms)), None
+
+    def restart_time(self) -> None:
+        """Let stamps begin anew, because the sender did."""
+        self._stamp_ns, self._same_since = None, [None] * len(self._same_since)
+        if self.tracker is not None:
+            self.tracker.restart_time()
+        if self._tare is not None:
+            self._tare.restart_time()
 
     def correct(
         self,
@@ -219,6 +234,7 @@ class Corrector:
         if has_variables:
             self._load[:, 6:-1] = self._values
         load = self._load_column
+        np.subtract(self._load, self._tared, out=self._since)
         np.matmul(self._covariance, load, out=self._products_column)
         np.matmul(self._half_products, load, out=half_width)
         if not self._is_plain:
@@ -296,8 +312,6 @@ class Corrector:
             np.subtract(self._wrench, self._weight, out=self._unloaded)
             self._learn(stamp_ns, usable)
         np.subtract(self._wrench, self.bias, out=self._wrench)
-        if self.options.take_tool_off:
-            np.subtract(self._wrench, self._weight, out=self._wrench)
 
     def _weigh(self, gravity: Any) -> None:
         if gravity is None:
@@ -310,30 +324,35 @@ class Corrector:
             self._weight[k] = matrix @ directions.reshape(-1, 3)[k]
 
     def _learn(self, stamp_ns: int, usable: BoolArray) -> None:
-        temperature = self._temperature()
+        temperature, tracker = self._temperature(), self.tracker
         if self._tare is not None:
-            self._status |= Status.TARING
-            if self._tare.add(self._unloaded, stamp_ns, usable):
-                self.bias[:], self.bias_variance[:] = self._tare.bias()
-                self._add_tool_variance()
+            collecting = self.taring
+            self._status[collecting] |= Status.TARING
+            self._at_tare[usable, :6], self._at_tare[usable, 6:-1] = self._weight[usable], self._values[usable]
+            for k in self._tare.add(self._unloaded, stamp_ns, usable):
+                self._end_tare(k, self._tare, temperature)
+            if not self._tare.collecting.any():
                 self._tare = None
-                if self.options.offset is OffsetSource.TRACKED:
-                    self.tracker = BiasTracker(self.options.tracking, self.bias, self.bias_variance, temperature)
-        elif self.tracker is not None:
-            if self.tracker.add(self._unloaded, stamp_ns, temperature, usable.tolist()):
-                self.bias[:], self.bias_variance[:] = self.tracker.bias, self.tracker.variance
-            if self.tracker.in_contact.any():
-                self._status[self.tracker.in_contact] |= Status.CONTACT
+            usable &= ~collecting
+        if tracker is not None:  # not one that this sample began
+            if tracker.add(self._unloaded, stamp_ns, temperature, usable.tolist()):
+                self.bias[:], self.bias_variance[:] = tracker.bias, tracker.variance
+            if tracker.in_contact.any():
+                self._status[tracker.in_contact] |= Status.CONTACT
 
-    def _add_tool_variance(self) -> None:
-        """What is not known of the tool is in the bias that keeps it, as of the orientation at the end of the tare."""
+    def _end_tare(self, k: int, tare: TareSamples, temperature: FloatArray | None) -> None:
+        self.bias[k], self.bias_variance[k] = tare.bias(k)
         tool = self.options.tool
-        if tool is None:
-            return
-        for k, matrix in enumerate(self._per_gravity):
-            # gravity of the last sample, from the weight that it made
-            gravity = self._weight[k, :3] * np.sign(matrix[0, 0]) / tool.mass_kg if tool.mass_kg else np.zeros(3)
+        if tool is not None:
+            # what is not known of the tool is in the bias that keeps it; gravity from the weight that it makes now
+            sign = np.sign(self._per_gravity[k][0, 0])
+            gravity = self._weight[k, :3] * sign / tool.mass_kg if tool.mass_kg else np.zeros(3)
             self.bias_variance[k] += tool.weight_variance(gravity)
+        self._tared[k] = self._at_tare[k]
+        if self.options.offset is OffsetSource.TRACKED:
+            if self.tracker is None:
+                self.tracker = BiasTracker(self.options.tracking, self.bias, self.bias_variance, temperature)
+            self.tracker.begin(k, self.bias[k], self.bias_variance[k], temperature)
 
     def _temperature(self) -> FloatArray | None:
         if not self.options.tracking.with_temperature or self.options.offset is not OffsetSource.TRACKED:
@@ -350,6 +369,8 @@ class Corrector:
         if self.options.offset is not OffsetSource.FITTED:
             self._half_width += NORMAL_95**2 * self.bias_variance
         np.maximum(self._half_width, 0.0, out=self._half_width)
+        if self.options.take_tool_off:  # not before: the errors of the matrix act on the weight too
+            np.subtract(self._wrench, self._weight, out=self._wrench)
 
     def _apply_policy(self) -> None:
         faulty = (self._status & FAULTS) != 0

@@ -122,25 +122,27 @@ def fetch_units(host: str, port: int = 80, timeout_s: float = 3.0) -> CountUnits
     """
     from http.client import HTTPConnection, HTTPException
 
-    connection = HTTPConnection(host, port, timeout=timeout_s)
+    connection = None
     try:
+        connection = HTTPConnection(host, port, timeout=timeout_s)
         connection.request("GET", "/netftapi2.xml")
         response = connection.getresponse()
         text = response.read(_LARGEST_XML)
         if response.status != 200:
             raise RecordingError(f"--ati {host}: netftapi2.xml: expected an answer, got status {response.status}")
-    except (OSError, HTTPException) as error:
+    except (OSError, UnicodeError, HTTPException) as error:
         raise RecordingError(
             f"--ati {host}: expected its configuration at http://{host}:{port}/netftapi2.xml, got {error}; or state "
             "--ati-force and --ati-torque, the units of a count"
         ) from None
     finally:
-        connection.close()
+        if connection is not None:
+            connection.close()
     return CountUnits.of_configuration(text)
 
 
 class NetFtSource:
-    """Samples of a box, which is asked again when it falls silent."""
+    """Samples of a box, which is asked again when it falls silent, and then counts its packets from 1 again."""
 
     def __init__(
         self,
@@ -149,7 +151,6 @@ class NetFtSource:
         *,
         clock: Callable[[], float],
         port: int = RDT_PORT,
-        rate_hz: float | None = None,
         ask_again_s: float = 1.0,
         samples: int | None = None,
     ) -> None:
@@ -160,12 +161,19 @@ class NetFtSource:
             units: What its counts are.
             clock: Gives seconds.
             port: Its port.
-            rate_hz: Rate of its samples; Hz; None for not known.
             ask_again_s: Time without a packet after which it is asked again; s.
             samples: Packets after which to stop; None for no end.
+
+        Raises:
+            RecordingError: If the address is not known.
         """
-        self.counts, self.rate_hz = PacketCounts(countable=True), rate_hz
-        self._address = (socket.gethostbyname(host), port)
+        self.counts = PacketCounts(countable=True)
+        self.rate_hz: float | None = None
+        self._last, self._asked_again = 0, False
+        try:
+            self._address = (socket.gethostbyname(host), port)
+        except (OSError, UnicodeError) as error:
+            raise RecordingError(f"--ati {host}: expected the address of a box, got {error}") from None
         self._scale = np.repeat([units.newton, units.newton_metre], 3)
         self._clock, self._ask_again_s, self._samples = clock, ask_again_s, samples
 
@@ -185,7 +193,7 @@ class NetFtSource:
                     if not select.select([client], [], [], min(WAIT_S, self._ask_again_s))[0]:
                         if self._clock() - asked > self._ask_again_s:
                             self._ask(client, START)
-                            asked = self._clock()
+                            asked, self._asked_again = self._clock(), True
                         yield None
                         continue
                     for packet in self._waiting(client):
@@ -221,7 +229,11 @@ class NetFtSource:
             fault = Status(0)
             if status & _SUMMARY_ERROR:
                 fault = Status.SATURATED if status & _SATURATED else Status.DEVICE
+            # old packets may still be on their way
+            begins = self._asked_again and sequence < self._last
+            self._asked_again, self._last = self._asked_again and not begins, sequence
             yield Packet(
+                begins=begins,
                 values=np.multiply(counts, self._scale)[None],
                 stamp_ns=round(self._clock() * 1e9),
                 sequence=sequence,

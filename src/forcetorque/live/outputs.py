@@ -166,7 +166,11 @@ class ParquetOutput:
 
         kinds = [pa.int64(), pa.dictionary(pa.int32(), pa.string()), *[pa.float64()] * 12]
         kinds.append(pa.dictionary(pa.int32(), pa.string()))
-        metadata = {"forcetorque": "live", "half_width": "half of a 95 % interval, without noise of the single sample"}
+        # the schema is the mark by which a next run may replace the file
+        metadata = {
+            "schema": "forcetorque/live/1",
+            "half_width": "half of a 95 % interval, without noise of the single sample",
+        }
         self._schema: Any = pa.schema(list(zip(COLUMNS, kinds, strict=True)), metadata=metadata)
         self._writer: Any = pq.ParquetWriter(path, self._schema)
         self._rows: list[CorrectedRow] = []

@@ -12,8 +12,14 @@ from forcetorque.live.sample_status import Status
 
 _REMEMBERED: Final = 4096
 """Sequence numbers that may still come late; a packet that lies further back means that the sender began again."""
-_LATE_BY: Final = 1.5
-"""Periods between two samples from which on samples are missing between them."""
+_RESTARTED: Final = 8
+"""Old packets in a row, in their order, from which on the sender began again."""
+_FARTHEST: Final = 1 << 20
+"""Numbers ahead from which on the sender began to count elsewhere."""
+_FOLLOWED: Final = 0.1
+"""Share of what a sample is off its period by which the periods move, so that they follow a clock that is off."""
+_DOUBTFUL: Final = 2
+"""Samples within which one that is too early shows that one before was only late, and nothing lost."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -32,6 +38,8 @@ class Packet:
     """Acceleration of free fall in the frame of the reading; shape (3,); m/s2."""
     faults: list[int] | None = None
     """Bits of `Status` per sensor that the source knows of."""
+    begins: bool = False
+    """Whether it is the first after the sender was asked to begin again."""
     group: int = 0
     """Which corrector it is for, where streams have stamps of their own."""
 
@@ -63,7 +71,7 @@ class PacketCounts:
     longest_silence_s: float = 0.0
     """Longest time without a packet; s."""
     countable: bool = False
-    """Whether losses can be seen: packets have numbers, or a rate is stated."""
+    """Whether losses can be seen: packets have numbers, or stamps and a stated rate."""
 
     def total(self, other: PacketCounts) -> None:
         """Add the counts of another source.
@@ -92,12 +100,14 @@ class PacketAccount:
                 not known.
             modulus: Number at which numbers of packets begin again at 0.
         """
-        self.counts = PacketCounts(countable=rate_hz is not None)
+        self.counts = PacketCounts()
         self._period_ns = None if rate_hz is None else 1e9 / rate_hz
         self._modulus = modulus
         self._highest: int | None = None
         self._stamp_ns: int | None = None
         self._missing: OrderedDict[int, None] = OrderedDict()
+        self._old, self._old_in_a_row = 0, 0
+        self._behind, self._doubtful, self._since_gap = 0.0, 0, 0
 
     def add(self, packet: Packet) -> Status:
         """Count a packet.
@@ -111,13 +121,16 @@ class PacketAccount:
         self.counts.received += 1
         if packet.sequence is not None:
             self.counts.countable = True
-            status = self._by_number(packet.sequence)
+            status = self._begin(packet.sequence) if packet.begins else self._by_number(packet.sequence)
             if not status and packet.stamp_ns is not None:
                 if self._stamp_ns is not None and packet.stamp_ns < self._stamp_ns:
                     self.counts.backwards += 1
                 self._stamp_ns = packet.stamp_ns
             return status
-        return Status(0) if packet.stamp_ns is None else self._by_time(packet.stamp_ns)
+        if packet.stamp_ns is None:
+            return Status(0)
+        self.counts.countable = self._period_ns is not None
+        return self._by_time(packet.stamp_ns)
 
     def _by_number(self, number: int) -> Status:
         highest = self._highest
@@ -128,22 +141,34 @@ class PacketAccount:
         if step == 0:
             self.counts.repeated += 1
             return Status.REPEATED
-        if step < self._modulus // 2:
+        if step <= min(_FARTHEST, self._modulus // 2):
             self._skip(highest, step - 1)
-            self._highest = number
+            self._highest, self._old_in_a_row = number, 0
             return Status(0)
+        if step < self._modulus // 2:
+            return self._begin(number)
+        again = self._begins_again(number, number == self._old + 1)
         if number in self._missing:
             del self._missing[number]
             self.counts.lost -= 1
             self.counts.late += 1
             return Status.LATE
-        if self._modulus - step < _REMEMBERED:
+        if self._modulus - step < _REMEMBERED and not again:
             self.counts.repeated += 1
             return Status.REPEATED
+        return self._begin(number)
+
+    def _begin(self, number: int) -> Status:
+        """Count from here on, as the sender does."""
         self.counts.restarts += 1
         self._missing.clear()
-        self._highest = number
+        self._highest, self._old_in_a_row, self._stamp_ns = number, 0, None
         return Status(0)
+
+    def _begins_again(self, old: int, follows: bool) -> bool:
+        """Whether so many old numbers or stamps followed each other that they are new ones."""
+        self._old, self._old_in_a_row = old, self._old_in_a_row + 1 if follows else 1
+        return self._old_in_a_row >= _RESTARTED
 
     def _skip(self, highest: int, count: int) -> None:
         self.counts.lost += count
@@ -158,12 +183,32 @@ class PacketAccount:
             if stamp_ns == before:
                 self.counts.repeated += 1
                 return Status.REPEATED
+            if self._begins_again(stamp_ns, stamp_ns > self._old):
+                self.counts.restarts += 1
+                self._stamp_ns, self._old_in_a_row, self._behind = stamp_ns, 0, 0.0
+                return Status(0)
+            if not self._is_found():
+                self._behind -= 1.0
             self.counts.late += 1
             self.counts.backwards += 1
             return Status.LATE
         if before is not None and self._period_ns is not None:
-            periods = (stamp_ns - before) / self._period_ns
-            if periods > _LATE_BY:
-                self.counts.lost += round(periods) - 1
-        self._stamp_ns = stamp_ns
+            periods = (stamp_ns - before) / self._period_ns + self._behind
+            steps = round(periods)
+            if steps > 1:
+                self.counts.lost += steps - 1
+                self._doubtful, self._since_gap = steps - 1, 0
+            elif steps == 1 or not self._is_found():
+                steps = 1
+            self._since_gap += 1
+            self._behind = max(-1.0, (1.0 - _FOLLOWED) * (periods - steps))
+        self._stamp_ns, self._old_in_a_row = stamp_ns, 0
         return Status(0)
+
+    def _is_found(self) -> bool:
+        """Take back a loss just before, as the sample is there."""
+        if not self._doubtful or self._since_gap > _DOUBTFUL:
+            return False
+        self._doubtful -= 1
+        self.counts.lost -= 1
+        return True

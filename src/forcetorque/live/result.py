@@ -49,6 +49,8 @@ class LiveSensor(Row):
     """Half-width of its 95 % interval."""
     drift: WrenchValues | None
     """Change of the bias since the tare; None where it was not tracked."""
+    taring: bool
+    """Whether its tare did not end: for want of time, or of samples without fault."""
 
 
 class LivePackets(Row):
@@ -57,7 +59,7 @@ class LivePackets(Row):
     received: Annotated[int, Shown("received")]
     """Packets that could be read, repeated and late ones among them."""
     lost: Annotated[int | None, Shown("lost")]
-    """Packets that never came; None where neither numbers nor a rate show it."""
+    """Packets that never came; None where neither numbers nor stamps and a rate show it."""
     repeated: Annotated[int, Shown("repeated")]
     """Packets whose number or stamp was there already."""
     late: Annotated[int, Shown("late")]
@@ -109,7 +111,8 @@ class LiveRun(Result):
         lost = self.packets.lost
         for row in self.sensors:
             missing = "losses not countable" if lost is None else f"{lost} lost"
-            bad = bool(lost or row.faulty or self.packets.unreadable or self.packets.oversized or self.packets.silences)
+            packets = self.packets
+            bad = bool(lost or row.faulty or packets.unreadable or packets.oversized or packets.silences or row.taring)
             yield Answer(
                 subject=f"{row.sensor} ({row.serial})",
                 verdict=f"{counted(row.samples, 'sample')}, {missing}, {row.faulty} with faults",
@@ -122,8 +125,8 @@ class LiveRun(Result):
     def _why(self, row: LiveSensor) -> Iterator[str]:
         packets = self.packets
         named = {
-            "repeated": packets.repeated,
-            "late": packets.late,
+            "repeated": row.repeated,
+            "late": row.late,
             "back in time": packets.backwards,
             "unreadable": packets.unreadable,
             "oversized": packets.oversized,
@@ -148,12 +151,15 @@ class LiveRun(Result):
             )
             drift = "" if row.drift is None else f", {max(abs(row.drift[:3])):.2f} N away from the tare"
             sentences.append(f"Bias of the force: {force} N{drift}.")
+        if row.taring:
+            sentences.append("Its tare did not end: the offset is that of the calibration.")
         if sentences:
             yield " ".join(sentences)
 
     def _step(self) -> str:
         if self.packets.lost is None:
-            return "state --rate, or send numbers of packets, so that lost samples are seen"
+            stamps = "" if self.stamps == "sender" else "--stamp and "
+            return f"state {stamps}--rate, or --sequence (--envelope of yarp), so that lost samples are seen"
         return "look at the network and at the rate of the sender" if self.packets.lost else ""
 
     def blocks(self) -> Iterator[Table | str]:

@@ -125,6 +125,8 @@ class LiveLoop:
             close = getattr(packets, "close", None)
             if close is not None:
                 close()
+            if self._silent or self._clock() - self._last_s > self._silence_s:
+                self._count_silence(self._clock())
         return "end of input"
 
     def counts(self) -> PacketCounts:
@@ -183,6 +185,7 @@ class LiveLoop:
             bias=corrector.bias[k].copy() if has_bias else None,
             bias_half_width_95=NORMAL_95 * np.sqrt(corrector.bias_variance[k]) if has_bias else None,
             drift=tracked,
+            taring=bool(corrector.taring[k]),
         )
 
     def _wait(self) -> None:
@@ -194,17 +197,24 @@ class LiveLoop:
             output.flush()
         self._show(self)
 
+    def _count_silence(self, now: float) -> None:
+        counts = self._source.counts
+        counts.silences += 1
+        counts.longest_silence_s = max(counts.longest_silence_s, now - self._last_s)
+
     def _take(self, packet: Packet) -> None:
         now = self._clock()
         if self._first_s is None:
             self._first_s = now
         elif self._silent or now - self._last_s > self._silence_s:
-            counts = self._source.counts
-            counts.silences += 1
-            counts.longest_silence_s = max(counts.longest_silence_s, now - self._last_s)
+            self._count_silence(now)
         self._silent, self._last_s = False, now
         corrector, states = self.correctors[packet.group], self.states[packet.group]
-        known = self.accounts[packet.group].add(packet)
+        account = self.accounts[packet.group]
+        restarts = account.counts.restarts
+        known = account.add(packet)
+        if account.counts.restarts > restarts:
+            corrector.restart_time()
         faults = packet.faults
         if known:
             faults = [known | one for one in faults or [0] * len(states)]

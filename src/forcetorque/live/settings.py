@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -175,17 +175,29 @@ def make_run(
     names = [one.sensor.name for one in calibrations]
     if len(set(names)) < len(names):
         raise RecordingError(f"expected one calibration per sensor, got {', '.join(names)}")
+    if settings.rate_hz is not None and not settings.rate_hz > 0.0:
+        raise RecordingError(f"--rate: expected a number above 0, got {settings.rate_hz:g}")
+    if not 0 < settings.ati_port < 1 << 16:
+        raise RecordingError(f"--ati-port: expected a port from 1 to 65535, got {settings.ati_port}")
     stated = {"--input": settings.form, "--replay": settings.replay, "--ati": settings.ati}
     if sum(value is not None for value in stated.values()) != 1:
         got = ", ".join(name for name, value in stated.items() if value is not None) or "none"
         raise RecordingError(
             f"expected one of --input FORM of the lines on standard input, --replay and --ati, got {got}"
         )
+    if settings.replay is None:
+        _refuse(settings, "speed")
+    if settings.ati is None:
+        _refuse(settings, "ati_port", "ati_force", "ati_torque")
+    if settings.offset is not OffsetSource.TRACKED:
+        _refuse(settings, "random_walk", "tracking_noise", "with_temperature", of=f"--offset {settings.offset}")
+    if settings.offset is OffsetSource.FITTED:
+        _refuse(settings, "tare_s", of=f"--offset {settings.offset}")
     if settings.replay is not None:
         _refuse(settings, *_OF_LINES)
         return _replayed(settings, calibrations, clock)
     if settings.ati is not None:
-        _refuse(settings, *_OF_LINES)
+        _refuse(settings, *_OF_LINES, "rate_hz")
         if settings.quantity is HeldQuantity.RAW:
             raise RecordingError("--quantity raw: a box sends wrenches")
         corrector = _only(calibrations, "a box", corrector_options(settings, HeldQuantity.WRENCH))
@@ -202,6 +214,13 @@ def _require_gravity(settings: Settings, gravity: str | None, sensors: int = 1) 
             "--tool-mass: a tool needs --gravity, three columns of a table (--input csv) with gravity in the frame of "
             "the reading; got none"
         )
+    if settings.offset is OffsetSource.FITTED and not settings.take_tool_off:
+        _refuse(settings, "tool_mass_kg", of="--offset fitted without --take-tool-off")
+
+
+def _require_stamps(settings: Settings, there: bool, option: str) -> None:
+    if settings.rate_hz is not None and not there:
+        raise RecordingError(f"--rate: gaps in time need the time of the sender: expected {option} too, got none")
 
 
 def _only(calibrations: Sequence[Calibration], what: str, options: CorrectorOptions) -> Corrector:
@@ -218,7 +237,7 @@ def _box(settings: Settings, clock: Callable[[], float]) -> NetFtSource:
         units = CountUnits.of(settings.ati_force, settings.ati_torque)
     else:
         units = fetch_units(host)
-    return NetFtSource(host, units, clock=clock, port=settings.ati_port, rate_hz=settings.rate_hz)
+    return NetFtSource(host, units, clock=clock, port=settings.ati_port)
 
 
 def _replayed(
@@ -274,6 +293,7 @@ def _lines(
         if form is Input.ROS2_CSV:
             reader = RosCsvLines(frame=settings.frame)
         else:
+            _require_stamps(settings, settings.envelope, "--envelope")
             reader = YarpLines(channels=corrector.channels, envelope=settings.envelope)
     else:
         corrector = Corrector(calibrations, options)
@@ -284,12 +304,14 @@ def _lines(
             gravity = () if settings.gravity is None else tuple(settings.gravity.split(","))
             if len(gravity) not in (0, 3):
                 raise RecordingError(f"--gravity: expected three columns between commas, got {settings.gravity!r}")
+            _require_stamps(settings, settings.stamp is not None, "--stamp")
             reader = CsvLines(
                 sensors=sensors, stamp=_stamp(settings.stamp), sequence=settings.sequence, gravity=gravity
             )
         else:
             _refuse(settings, "channels", "status", "stamp", "sequence", "gravity", "frame")
             _require_gravity(settings, None)
+            _require_stamps(settings, settings.envelope, "--envelope")
             reader = MeasuresLines(sensors=sensors, envelope=settings.envelope)
     return LineSource(descriptor, reader, rate_hz=settings.rate_hz, warn=warn), (corrector,)
 
@@ -298,18 +320,23 @@ _OF_LINES = ("channels", "variables", "status", "index", "stamp", "sequence", "g
 """What is stated of lines alone."""
 
 
-def _refuse(settings: Settings, *names: str) -> None:
-    of = (
+_OPTIONS = {"variables": "variable", "rate_hz": "rate", "tool_mass_kg": "tool-mass"}
+"""Options that are not called as their settings."""
+
+
+def _refuse(settings: Settings, *names: str, of: str | None = None) -> None:
+    of = of or (
         "--replay"
         if settings.replay is not None
         else "--ati"
         if settings.ati is not None
         else f"--input {settings.form}"
     )
+    defaults = {entry.name: entry.default for entry in fields(settings)}
     for name in names:
-        if getattr(settings, name):
-            option = {"variables": "variable"}.get(name, name)
-            raise RecordingError(f"--{option}: not of {of}")
+        value = getattr(settings, name)
+        if value != defaults[name] and value != []:
+            raise RecordingError(f"--{_OPTIONS.get(name, name.replace('_', '-'))}: not of {of}")
 
 
 def _stamp(text: str | None) -> tuple[str, str] | None:
@@ -349,10 +376,15 @@ def _sensor_columns(settings: Settings, calibrations: Sequence[Calibration]) -> 
                 f"sensor {name!r}: expected --channels with {count} columns, in the order of its calibration, got "
                 f"{len(own)}"
             )
-        if settings.form is Input.YARP_MEASURES and not index.get(name, "").isdigit():
+        if settings.form is Input.YARP_MEASURES and not _is_index(index.get(name, "")):
             raise RecordingError(
                 f"sensor {name!r}: expected --index, its index from 0 in the list of force-torque sensors: the order "
                 f"is of the configuration of the device; got {index.get(name)!r}"
+            )
+        if settings.form is Input.YARP_MEASURES and not all(map(_is_index, variables[name])):
+            raise RecordingError(
+                f"sensor {name!r}: expected --variable NAME=INDEX, an index from 0 in the list of temperatures, got "
+                f"{', '.join(variables[name])}"
             )
         sensors.append(
             SensorColumns(
@@ -364,6 +396,10 @@ def _sensor_columns(settings: Settings, calibrations: Sequence[Calibration]) -> 
             )
         )
     return sensors
+
+
+def _is_index(text: str) -> bool:
+    return text.isascii() and text.isdigit() and len(text) < 10
 
 
 def _variables(entries: Sequence[str], calibrations: Sequence[Calibration]) -> Mapping[str, tuple[str, ...]]:

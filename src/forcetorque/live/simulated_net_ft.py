@@ -16,7 +16,7 @@ from forcetorque.live.net_ft import HEADER, RECORD, REQUEST, START
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoxFaults:
-    """Numbers of the packets of a simulated box that meet a fault, counted from 1."""
+    """Packets of a simulated box that meet a fault, counted from 1 over all requests."""
 
     dropped: frozenset[int] = frozenset()
     """Not sent."""
@@ -28,8 +28,6 @@ class BoxFaults:
     """Packet after which it is silent until it is asked again; None for none."""
     silent_s: float = 0.0
     """How long it is silent at least; s."""
-    missed: int = 0
-    """Packets that it counts while it is silent, and does not send."""
 
 
 class SimulatedBox:
@@ -40,7 +38,7 @@ class SimulatedBox:
 
         Args:
             counts: Six counts that all packets hold.
-            packets: Numbers of packets, missed ones among them.
+            packets: Packets in all.
             faults: What goes wrong.
             period_s: Time between packets; s.
         """
@@ -77,21 +75,20 @@ class SimulatedBox:
 
     def _serve(self) -> None:
         client, held = self._client(), None
-        number = 1
+        number, before = 1, 0
         while client is not None and number <= self._packets and not self._stopped.is_set():
             if number in self._faults.delayed:
                 held = number
             elif number not in self._faults.dropped:
-                self._send(number, client)
+                self._send(number - before, client)
                 if number in self._faults.repeated:
-                    self._send(number, client)
+                    self._send(number - before, client)
                 if held is not None:
-                    self._send(held, client)
+                    self._send(held - before, client)
                     held = None
             if number == self._faults.silent_after:
                 time.sleep(self._faults.silent_s)
-                number += self._faults.missed
-                client = self._client()
+                client, before = self._client(), number  # every request has numbers from 1 on
             number += 1
             time.sleep(self._period_s)
         self._stopped.wait()

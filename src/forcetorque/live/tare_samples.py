@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.means import mean_error
 from forcetorque.base.units import NORMAL_95
 
@@ -14,20 +14,28 @@ _FEWEST = 8
 
 
 class TareSamples:
-    """Readings of s sensors less the weights of their tools, over a given time."""
+    """Readings of s sensors less the weights of their tools, of each over a given time from its first on."""
 
-    def __init__(self, seconds: float) -> None:
+    def __init__(self, seconds: float, sensors: int) -> None:
         """Begin.
 
         Args:
             seconds: Time to collect; s.
+            sensors: How many sensors there are.
         """
-        self._seconds, self._from_ns = seconds, 0
-        self._samples: list[FloatArray] = []
-        self._times_s: list[float] = []
-        self._counts: IntArray | None = None
+        self.collecting = np.ones(sensors, dtype=np.bool_)
+        """Which sensors have no bias yet; shape (s,)."""
+        self._seconds = seconds
+        self._samples: list[list[FloatArray]] = [[] for _ in range(sensors)]
+        self._stamps_ns: list[list[int]] = [[] for _ in range(sensors)]
 
-    def add(self, unloaded: FloatArray, stamp_ns: int, usable: BoolArray) -> bool:
+    def restart_time(self) -> None:
+        """Begin again with the sensors that have no bias yet."""
+        for samples, stamps in zip(self._samples, self._stamps_ns, strict=True):
+            samples.clear()
+            stamps.clear()
+
+    def add(self, unloaded: FloatArray, stamp_ns: int, usable: BoolArray) -> list[int]:
         """Take a sample in.
 
         Args:
@@ -36,31 +44,31 @@ class TareSamples:
             usable: Which sensors have no fault; shape (s,).
 
         Returns:
-            Whether the time is over and every sensor has a bias.
+            Indices of the sensors that have a bias from now on.
         """
-        if self._counts is None:
-            self._from_ns, self._counts = stamp_ns, np.zeros(len(usable), dtype=np.int64)
-        seconds = (stamp_ns - self._from_ns) * 1e-9
-        if usable.any() and (not self._times_s or seconds > self._times_s[-1]):
-            self._samples.append(np.where(usable[:, None], unloaded, np.nan))
-            self._times_s.append(seconds)
-            self._counts += usable
-        return seconds >= self._seconds and bool((self._counts >= _FEWEST).all())
+        ended: list[int] = []
+        for k in np.flatnonzero(self.collecting & usable).tolist():
+            stamps = self._stamps_ns[k]
+            if stamps and stamp_ns <= stamps[-1]:
+                continue
+            self._samples[k].append(unloaded[k].copy())
+            stamps.append(stamp_ns)
+            if (stamp_ns - stamps[0]) * 1e-9 >= self._seconds and len(stamps) >= _FEWEST:
+                self.collecting[k] = False
+                ended.append(k)
+        return ended
 
-    def bias(self) -> tuple[FloatArray, FloatArray]:
-        """Give the means over the time.
+    def bias(self, sensor: int) -> tuple[FloatArray, FloatArray]:
+        """Give the mean of a sensor over the time.
+
+        Args:
+            sensor: Its index.
 
         Returns:
-            Biases, shape (s, 6), N, N m, and their variances, by noise that is white and slow: half of a 95 % interval
+            Bias, shape (6,), N, N m, and its variance, by noise that is white and slow: half of a 95 % interval
             over 1.96, squared.
         """
-        samples, times = np.array(self._samples), np.array(self._times_s)
-        bias, variance = np.zeros((2, *samples.shape[1:]))
-        for k in range(samples.shape[1]):
-            there = np.isfinite(samples[:, k]).all(axis=1)
-            own = samples[there, k]
-            bias[k] = own.mean(axis=0)
-            half = mean_error(own, times[there]).half_width
-            spread = own.std(axis=0)
-            variance[k] = (np.where(np.isfinite(half), half, NORMAL_95 * spread) / NORMAL_95) ** 2
-        return bias, variance
+        samples, stamps = np.array(self._samples[sensor]), np.array(self._stamps_ns[sensor])
+        half = mean_error(samples, (stamps - stamps[0]) * 1e-9).half_width
+        spread = samples.std(axis=0)
+        return samples.mean(axis=0), (np.where(np.isfinite(half), half, NORMAL_95 * spread) / NORMAL_95) ** 2

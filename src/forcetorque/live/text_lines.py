@@ -65,8 +65,18 @@ def stamp_of(text: str, unit: str) -> int:
         Nanoseconds.
 
     Raises:
-        FormatError: If it is no finite number.
+        FormatError: If it is no number, or has no place in 64 bits.
     """
+    return _within_64_bits(_nanoseconds(text, unit), f"{text} {unit}")
+
+
+def _within_64_bits(stamp_ns: int, text: str) -> int:
+    if not -(1 << 63) <= stamp_ns < 1 << 63:
+        raise FormatError(f"expected a time within 292 years of 1970, got {quoted(text)}")
+    return stamp_ns
+
+
+def _nanoseconds(text: str, unit: str) -> int:
     factor = STAMP_UNITS[unit]
     whole, point, fraction = text.partition(".")
     try:
@@ -231,7 +241,8 @@ class MeasuresLines:
         variables = np.full((len(self.sensors), max(len(sensor.variables) for sensor in self.sensors)), math.nan)
         faults = [0] * len(self.sensors)
         for k, sensor in enumerate(self.sensors):
-            if sensor.index < len(wrenches):
+            if wrenches:
+                _require_index(sensor.name, sensor.index, len(wrenches))
                 numbers, stamp = wrenches[sensor.index]
                 if len(numbers) != 6:
                     raise FormatError(f"sensor {sensor.name!r}: expected six numbers, got {len(numbers)}")
@@ -239,9 +250,15 @@ class MeasuresLines:
                 faults[k] = int(Status.REPEATED) if self._board_stamps.get(sensor.name) == stamp else 0
                 self._board_stamps[sensor.name] = stamp
             for place, index in enumerate(sensor.variables):
-                if int(index) < len(temperatures):
+                if temperatures:
+                    _require_index(sensor.name, int(index), len(temperatures))
                     variables[k, place] = temperatures[int(index)][0][0]
         return Packet(values=values, variables=variables, stamp_ns=stamp_ns, sequence=sequence, faults=faults)
+
+
+def _require_index(sensor: str, index: int, count: int) -> None:
+    if index >= count:
+        raise FormatError(f"sensor {sensor!r}: index {index}, the list has {count}")
 
 
 def _sensors_in(lists: Bottle, kind: MeasuresList) -> list[tuple[list[float], float]]:
@@ -288,4 +305,5 @@ class RosCsvLines:
         if self.frame is not None and cells[2].strip() != self.frame:
             raise FormatError(f"frame: expected {self.frame!r}, got {quoted(cells[2])}")
         stamp_ns = stamp_of(cells[0].strip(), "s") + stamp_of(cells[1].strip(), "ns")
+        _within_64_bits(stamp_ns, f"{cells[0]},{cells[1]}")
         return Packet(values=np.array([[_number(cell) for cell in cells[3:]]]), stamp_ns=stamp_ns)
