@@ -14,7 +14,6 @@ from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.rerun_file import _plots
 from forcetorque.viewer.scene_builder import BuiltScene
 from forcetorque.viewer.viewer_log import POSES_HZ, ViewerLog, composed, viewer_log
 
@@ -132,7 +131,7 @@ def test_names_never_meet(built: BuiltScene) -> None:
 
 def test_errors_have_plots_of_their_own_in_rerun(log: ViewerLog) -> None:
     """Every wrench is in one plot, and none with errors has another wrench."""
-    plots = dict(_plots(log))
+    plots = dict(log.plots())
     shown = [wrench.name for wrenches in plots.values() for wrench in wrenches]
     assert sorted(shown) == sorted(wrench.name for wrench in log.wrenches)
     errors = {title for title, wrenches in plots.items() if any(wrench.kind == "error" for wrench in wrenches)}
