@@ -107,6 +107,7 @@ function joined(a: Summary, b: Summary): Summary {
 /** Columns of a scene, each made when it is first asked for. */
 export class Columns {
   private readonly known = new Map<string, Column>();
+  private mask: Uint8Array | null = null;
 
   constructor(private readonly data: SceneData) {}
 
@@ -117,13 +118,16 @@ export class Columns {
     );
   }
 
-  /** Component or norm of measured minus expected; null where nothing is expected of the sensor. */
+  /** Component or norm of measured minus expected, absent in ignored intervals; null without an expected wrench. */
   error(sensor: Sensor, series: WrenchSeries, quantity: Quantity, component: Component): Column | null {
     const expected = expectedOf(sensor);
     if (!expected || series === expected) return null;
-    return this.remembered(`error ${series.values.offset} ${quantity} ${component}`, () =>
-      componentOf(this.data.floats(series.values), this.data.floats(expected.values), FIRST[quantity], component),
-    );
+    return this.remembered(`error ${series.values.offset} ${quantity} ${component}`, () => {
+      const [values, less] = [this.data.floats(series.values), this.data.floats(expected.values)];
+      const error = componentOf(values, less, FIRST[quantity], component);
+      const ignored = this.ignored();
+      return (sample) => (ignored[sample] ? NaN : error(sample));
+    });
   }
 
   /** Half the width of the 95 % band of a series; of the norm, the root of the sum of squares; null if unknown. */
@@ -134,6 +138,16 @@ export class Columns {
       const norm = componentOf(this.data.floats(deviation), null, FIRST[quantity], component);
       return (sample) => DEVIATIONS_95 * norm(sample);
     });
+  }
+
+  /** 1 at every sample whose instant lies in an interval that is ignored, else 0. */
+  private ignored(): Uint8Array {
+    if (this.mask) return this.mask;
+    const { data } = this;
+    this.mask = new Uint8Array(data.samples);
+    for (const { use, start_s, end_s } of data.scene.intervals)
+      if (use === "ignore") this.mask.fill(1, data.firstAt(start_s), data.firstAt(end_s));
+    return this.mask;
   }
 
   private remembered(key: string, make: () => (sample: number) => number): Column {

@@ -27,7 +27,7 @@ export class StatisticsPanel implements Drawable {
     const tables = (sensor?.wrenches ?? [])
       .filter((series) => series.role === "measured" && !hidden.has(series.name))
       .flatMap((series) => (sensor ? this.table(sensor, series) : []));
-    const none = el("p", { class: "absent" }, "No wrench is expected in this window.");
+    const none = el("p", { class: "absent" }, "No error in this window: no wrench is expected, or its samples are ignored.");
     this.root.replaceChildren(...(tables.length > 0 ? tables : [none]));
   }
 
