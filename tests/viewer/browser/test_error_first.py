@@ -190,6 +190,22 @@ def test_an_address_shows_the_same_again(page: Page, visit: Visit, arm: Arm, sam
     assert other.get_by_label("Torque", exact=True).is_checked(), "what is not known changes nothing"
 
 
+def test_an_address_shows_the_same_in_a_page_that_shows_something_else(page: Page, arm: Arm) -> None:
+    """Time in view, hidden series and the enlarged panel that an address does not name are those of a new page."""
+    window = f"{arm.time_s[310]:.4f},{arm.time_s[470]:.4f}"
+    page.evaluate(f"location.hash = 'sample=400&window={window}&hide=logged&large=times'")
+    box = page.get_by_role("checkbox", name="logged", exact=True)
+    wait_until(page, lambda: _window(page) == pytest.approx((arm.time_s[310], arm.time_s[470]), abs=1e-3))
+    assert not box.is_checked()
+    larger = page.get_by_role("button", name="Enlarge time plots")
+    assert larger.get_attribute("aria-pressed") == "true"
+    page.evaluate("location.hash = 'sample=321'")
+    wait_until(page, lambda: page.evaluate("window.ft.sample()") == 321)
+    assert _window(page) == pytest.approx((arm.time_s[0], arm.time_s[-1]))
+    assert box.is_checked()
+    assert larger.get_attribute("aria-pressed") == "false"
+
+
 def test_the_time_in_view_filters_the_cloud(page: Page, arm: Arm) -> None:
     """Points of other samples are gone, those that are left stay where they were."""
     before = page.evaluate("window.ft.planePoint(0, 1, 425)")
