@@ -102,6 +102,19 @@ def test_statistics_are_those_of_the_window(page: Page, arm: Arm, sample: Callab
     assert sample() == 310 + int(norms[310:].argmax())
 
 
+def test_the_norm_is_summed_up_by_use_where_both_are_in_view(page: Page, arm: Arm) -> None:
+    """What a calibration was fitted to has a row, and so has what it has not seen."""
+    table = page.get_by_role("region", name="Error in view").get_by_role("table").nth(1)
+    norms = np.linalg.norm(_error(arm, BOTH[1])[:, :3], axis=1)
+    norms[WALL] = np.nan
+    for use, rows in (("calibration", slice(30, 290)), ("validation", VALIDATION)):
+        row = table.get_by_role("row").filter(has_text=f"|f| {use}")
+        cells = np.array(row.get_by_role("cell").all_text_contents(), dtype=float)
+        part = norms[rows]
+        wanted = [np.sqrt(np.nanmean(part**2)), np.nanmean(part), np.nanmax(part)]
+        np.testing.assert_allclose(cells, wanted, atol=0.0051)
+
+
 def test_worst_sample_and_next_event_have_keys(page: Page, arm: Arm, sample: Callable[[], int]) -> None:
     """The worst one is that of the first calibration in the validation data; events come in the order of time.
 
