@@ -40,7 +40,7 @@ def test_phases_samples_and_a_figure(feet: Path, run: Run) -> None:
     ("words", "message"),
     [
         (("--touch", "20N", "--release", "50N"), "cross"),
-        (("--touch", "50"), "expected newtons such as 50N, or a share of body weight as 15%, got '50'"),
+        (("--touch", "50"), "--touch: force: expected newtons such as 50N, or a share of body weight as 15%, got '50'"),
         (("--touch", "5000N"), "no support phase found: expected a foot that bears 5e+03 N"),
         (("-o", "samples.txt"), "expected a name that ends in .parquet or .csv"),
     ],

@@ -197,13 +197,18 @@ def test_what_torques_do_not_tell_is_refused(tmp_path: Path, change: dict[str, o
 
 
 def test_what_a_log_lacks_is_named(tmp_path: Path, run: Run) -> None:
-    """The declared load; external torques; a wrench beside other outputs."""
+    """The declared load; external torques; a wrench beside other outputs, before any is given."""
     log = write_table(tmp_path / "log.csv", held(6).states())
     assert "payload_kg, mass of setLoad" in run("payload", log).error()
     given = ("payload", log, "--recording", "payload_kg=0")
     assert "expected a form without the bias of a sensor, ur" in run(*given, "--to", "mc-rtc", "-o", "x").error()
     save = run(*given, "--save-experiment", tmp_path / "x.toml").error()
     assert "expected a log with a wrench, got joint torques" in save
+    view = run(*given, "--view", tmp_path / "x.html")
+    remedy = "leave --view out, or log O_F_ext_hat_K and O_T_EE too"
+    message = f"--view {tmp_path / 'x.html'}: expected a log with a wrench, got joint torques: {log}; {remedy}"
+    assert message in view.error()
+    assert view.out == ""
     states = [{key: state[key] for key in ("time", "tau_J", "O_T_EE", "q")} for state in held(6).states()]
     bare = write_states(tmp_path / "bare", [json.loads(json.dumps(state)) for state in states])
     assert "or q and tau_ext_hat_filtered" in run("payload", bare, "--recording", "payload_kg=0").error()

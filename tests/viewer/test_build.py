@@ -243,6 +243,15 @@ def test_an_unknown_sensor_is_refused_with_the_known_ones(intact: Path) -> None:
         _view(intact / PARQUET, sensors=["arm_fz"])
 
 
+def test_series_have_the_names_of_files_without_folders(intact: Path) -> None:
+    """But for as many as tell them apart, from each other and from what is read otherwise."""
+    experiment = load_experiment(intact / PARQUET)
+    files = ["/tmp/x/march/prior", "/tmp/x/may/fitted.json"]
+    (sensor,) = build_scene(experiment, dict.fromkeys(files, _fitted(experiment, regularisation=0.0))).scene.sensors
+    names = [series.name for series in sensor.wrenches]
+    assert names == ["expected", "prior", "march/prior", "may/fitted.json"]
+
+
 def test_a_calibration_of_another_sensor_is_refused(intact: Path) -> None:
     """What may not be applied is not drawn."""
     experiment = load_experiment(intact / PARQUET)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -11,7 +13,17 @@ from hypothesis.extra.numpy import arrays
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.viewer.arrays import read_array
-from forcetorque.viewer.packing import LEAST_STEPS, NOISE_SHARE, POSE_STEP, RESOLUTION, ROWS, pack, packed, unpack
+from forcetorque.viewer.packing import (
+    LEAST_STEPS,
+    NOISE_SHARE,
+    POSE_STEP,
+    RESOLUTION,
+    ROWS,
+    _has_outliers,
+    pack,
+    packed,
+    unpack,
+)
 from forcetorque.viewer.scene_builder import BuiltScene
 
 SAMPLES = 2 * ROWS + 123
@@ -39,13 +51,38 @@ def test_values_come_back_to_a_part_of_their_noise_or_range(noise: float) -> Non
     assert (back[:, 2] == 0.0).all()
 
 
-def test_a_jump_costs_precision_in_its_block_alone() -> None:
+def test_a_jump_costs_precision_in_its_block_alone_at_a_fixed_step() -> None:
     """Differences have 16 bits: a block with a larger one has a larger step, of at most 1/32766 of the jump."""
     values = _signals(0.0)[:, :1]
     values[100] += 1e5
     back = unpack(pack(values, 1e-5), (SAMPLES, 1))
     np.testing.assert_allclose(back[:ROWS], values[:ROWS], rtol=0, atol=2e5 / 32766)
     np.testing.assert_allclose(back[ROWS:], values[ROWS:], rtol=0, atol=0.51e-5)
+
+
+def test_one_damaged_sample_leaves_all_others_as_they_are(built: BuiltScene) -> None:
+    """At 1e6 N it would set the step of its column, and all others would read 0."""
+    series = built.scene.sensors[0].wrenches[-1].values
+    values = read_array(built.block, series).copy()
+    values[len(values) // 2, 2] = 1e6
+    data = values.tobytes()
+    block = built.block[: series.offset] + data + built.block[series.offset + len(data) :]
+    small = packed(replace(built, block=block))
+    back = read_array(small.block, small.scene.sensors[0].wrenches[-1].values)
+    np.testing.assert_array_equal(back, values)
+
+
+@pytest.mark.parametrize("samples", [300, SAMPLES])
+def test_outliers_are_a_few_samples_far_from_all_others(samples: int) -> None:
+    """In any column of a series of any length; a constant, an absent one and noise have none."""
+    values = np.random.default_rng(3).normal(size=(samples, 3))
+    values[:, 1], values[:, 2] = 5.0, np.nan
+    assert not _has_outliers(values)
+    assert not _has_outliers(values[:, 2:])
+    for column in (0, 1):
+        damaged = values.copy()
+        damaged[200, column] = 1e6
+        assert _has_outliers(damaged)
 
 
 @given(arrays(np.float32, (50, 2), elements=st.floats(-1e6, 1e6, width=32) | st.just(np.nan)))

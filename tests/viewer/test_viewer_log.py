@@ -77,6 +77,22 @@ def test_wrenches_are_those_of_the_scene(built: BuiltScene, log: ViewerLog) -> N
     assert {"arm_ft", "world"} <= {expected.frame, log.world}
 
 
+def test_ignored_intervals_have_no_error(built: BuiltScene) -> None:
+    """The end of an interval is not in it; wrenches stay, and so do errors elsewhere."""
+    held, seconds = built.scene.intervals[0], read_array(built.block, built.scene.time_s)
+    before = {wrench.name: wrench.values for wrench in viewer_log(built).wrenches}
+    first = int(np.flatnonzero(np.isfinite(before["arm_ft/prior/error"]).all(axis=1))[0]) + 5
+    assert np.isfinite(before["arm_ft/prior/error"][first : first + 10]).any()
+    span = replace(held, use="ignore", start_s=float(seconds[first]), end_s=float(seconds[first + 10]))
+    ignoring = replace(built, scene=replace(built.scene, intervals=(held, span)))
+    values = {wrench.name: wrench.values for wrench in viewer_log(ignoring).wrenches}
+    for name, then in values.items():
+        expected = before[name].copy()
+        if name.endswith("/error"):
+            expected[first : first + 10] = np.nan
+        np.testing.assert_array_equal(then, expected)
+
+
 def test_stamps_come_back_to_the_nanosecond(built: BuiltScene, log: ViewerLog) -> None:
     """Seconds of the scene are differences of stamps."""
     seconds = read_array(built.block, built.scene.time_s)

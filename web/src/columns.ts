@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quantities over time that are plotted: components and norms of wrenches, of their errors, and of the band around them.
 
+import type { Use } from "./marks";
 import { FIRST, type Quantity, type SceneData } from "./scene_data";
 import type { Sensor, WrenchSeries } from "./scene_types";
 
@@ -107,6 +108,7 @@ function joined(a: Summary, b: Summary): Summary {
 /** Columns of a scene, each made when it is first asked for. */
 export class Columns {
   private readonly known = new Map<string, Column>();
+  private readonly masks = new Map<Use, Uint8Array>();
 
   constructor(private readonly data: SceneData) {}
 
@@ -117,13 +119,16 @@ export class Columns {
     );
   }
 
-  /** Component or norm of measured minus expected; null where nothing is expected of the sensor. */
+  /** Component or norm of measured minus expected, absent in ignored intervals; null without an expected wrench. */
   error(sensor: Sensor, series: WrenchSeries, quantity: Quantity, component: Component): Column | null {
     const expected = expectedOf(sensor);
     if (!expected || series === expected) return null;
-    return this.remembered(`error ${series.values.offset} ${quantity} ${component}`, () =>
-      componentOf(this.data.floats(series.values), this.data.floats(expected.values), FIRST[quantity], component),
-    );
+    return this.remembered(`error ${series.values.offset} ${quantity} ${component}`, () => {
+      const [values, less] = [this.data.floats(series.values), this.data.floats(expected.values)];
+      const error = componentOf(values, less, FIRST[quantity], component);
+      const ignored = this.inUse("ignore");
+      return (sample) => (ignored[sample] ? NaN : error(sample));
+    });
   }
 
   /** Half the width of the 95 % band of a series; of the norm, the root of the sum of squares; null if unknown. */
@@ -134,6 +139,24 @@ export class Columns {
       const norm = componentOf(this.data.floats(deviation), null, FIRST[quantity], component);
       return (sample) => DEVIATIONS_95 * norm(sample);
     });
+  }
+
+  /** Part of an error that lies in intervals of a use; absent elsewhere. */
+  partOf(error: Column, use: Use): Column {
+    const inUse = this.inUse(use);
+    return error.beside(use, (sample) => (inUse[sample] ? error.at(sample) : NaN));
+  }
+
+  /** 1 at every sample whose instant lies in an interval of a use, else 0. */
+  private inUse(wanted: Use): Uint8Array {
+    const known = this.masks.get(wanted);
+    if (known) return known;
+    const { data } = this;
+    const mask = new Uint8Array(data.samples);
+    for (const { use, start_s, end_s } of data.scene.intervals)
+      if (use === wanted) mask.fill(1, data.firstAt(start_s), data.firstAt(end_s));
+    this.masks.set(wanted, mask);
+    return mask;
   }
 
   private remembered(key: string, make: () => (sample: number) => number): Column {

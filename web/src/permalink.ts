@@ -61,6 +61,7 @@ export function keepAddress(data: SceneData, store: Store): void {
   addEventListener("hashchange", () => {
     if (location.hash === known) return;
     known = location.hash;
-    store.set({ ...fromFragment(data, known), playing: false });
+    // what an address does not name is as in a page that it opens
+    store.set({ window: data.span, hidden: new Set(), large: null, ...fromFragment(data, known), playing: false });
   });
 }

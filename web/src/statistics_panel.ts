@@ -27,7 +27,7 @@ export class StatisticsPanel implements Drawable {
     const tables = (sensor?.wrenches ?? [])
       .filter((series) => series.role === "measured" && !hidden.has(series.name))
       .flatMap((series) => (sensor ? this.table(sensor, series) : []));
-    const none = el("p", { class: "absent" }, "No wrench is expected in this window.");
+    const none = el("p", { class: "absent" }, "No error in this window: no wrench is expected, or its samples are ignored.");
     this.root.replaceChildren(...(tables.length > 0 ? tables : [none]));
   }
 
@@ -44,6 +44,14 @@ export class StatisticsPanel implements Drawable {
       const name = k === 3 ? `|${letter}|` : `${letter}${"xyz"[k] ?? ""}`;
       return el("tr", {}, el("th", { scope: "row" }, name), ...this.cells(column, first, end));
     });
+    const norm = columns[3];
+    const uses = (["calibration", "validation"] as const).flatMap((use) => {
+      const part = norm && this.data.columns.partOf(norm, use);
+      return part && part.summary(first, end).count > 0 ? [{ use, part }] : [];
+    });
+    if (uses.length > 1)
+      for (const { use, part } of uses)
+        rows.push(el("tr", {}, el("th", { scope: "row" }, `|${letter}| ${use}`), ...this.cells(part, first, end)));
     const head = ["", "rms", "mean", "largest"].map((text) => el("th", { scope: "col" }, text));
     return [
       el(

@@ -56,7 +56,7 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
 
         files = _declared(view, given)
         # estimates of many recordings let one go after the other
-        with kept_experiments(keep=name != "estimate" or len(files) == 1) as known:
+        with kept_experiments(f"--view {view}", keep=name != "estimate" or len(files) == 1) as known:
             result = command(**given)
         if result is not None:
             _write(name, files, given, result, known)
@@ -112,9 +112,7 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any]) -> Bu
     from forcetorque.viewer.contacts import ContactOptions
     from forcetorque.viewer.scene_builder import build_scene, scene_of
 
-    if not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
-        if known is None:
-            raise ExperimentError(f"--view: expected a wrench to show, got joint torques alone: {path}")
+    if known is not None and not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
         return build_scene(known, {})
     experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     sensors: Sequence[str] | None = given.get("sensor")

@@ -13,24 +13,32 @@ if TYPE_CHECKING:
     from forcetorque.experiment.experiment import Experiment
 
 _KEPT: ContextVar[dict[Path, Experiment] | None] = ContextVar("forcetorque_kept_experiments", default=None)
+_ASKED_BY: ContextVar[str] = ContextVar("forcetorque_experiments_asked_by", default="")
 
 
 @contextmanager
-def kept_experiments(*, keep: bool = True) -> Iterator[Mapping[Path, Experiment]]:
+def kept_experiments(asked_by: str, *, keep: bool = True) -> Iterator[Mapping[Path, Experiment]]:
     """Keep every experiment that is read in the body, so that its log need not be read again.
 
     Args:
+        asked_by: Option that needs them, with its value, for messages.
         keep: Whether to; a command that reads more recordings than memory holds keeps none.
 
     Yields:
         Experiments by their file, or by the log that one was made of; empty until they are read.
     """
     experiments: dict[Path, Experiment] = {}
-    token = _KEPT.set(experiments if keep else None)
+    token, option = _KEPT.set(experiments if keep else None), _ASKED_BY.set(asked_by)
     try:
         yield experiments
     finally:
         _KEPT.reset(token)
+        _ASKED_BY.reset(option)
+
+
+def experiments_asked_by() -> str:
+    """Option that needs an experiment of every file, with its value; empty if none does."""
+    return _ASKED_BY.get()
 
 
 def keep_experiment(path: Path, experiment: Experiment) -> Experiment:

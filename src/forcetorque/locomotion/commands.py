@@ -88,16 +88,21 @@ def balance(
     from forcetorque.experiment.calibrations_under_test import named
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.experiment import Experiment
+    from forcetorque.experiment.input_files import stated_in
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.standing import balance
     from forcetorque.locomotion.standing.support_phases import ForceLimit
 
+    def limit(option: str, text: str) -> ForceLimit:
+        with stated_in(option):
+            return ForceLimit.of(text)
+
     options = BalanceOptions(
-        touch=ForceLimit.of(touch),
-        release=ForceLimit.of(release),
+        touch=limit("--touch", touch),
+        release=limit("--release", release),
         dwell_s=dwell_s,
-        least_load=None if least_load is None else ForceLimit.of(least_load),
+        least_load=None if least_load is None else limit("--least-load", least_load),
         height_band_m=height_band_m,
         plane=PlaneTolerance() if plane is None else plane,
     )

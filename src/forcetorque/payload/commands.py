@@ -272,9 +272,15 @@ def _refuse_without_log(logs: Sequence[Path], specified: Mapping[str, object], s
 def _refuse_beside_torques(
     experiments: Sequence[Path], torques: Collection[Path], save_experiment: Path | None, to: LoadFormat | None
 ) -> None:
+    from forcetorque.experiment.kept_experiments import experiments_asked_by
     from forcetorque.payload.robot_files.arms import ARMS
 
     first = next(iter(torques))
+    if option := experiments_asked_by():
+        raise ForceTorqueError(
+            f"{option}: expected a log with a wrench, got joint torques: {first}; leave --view out, or log "
+            "O_F_ext_hat_K and O_T_EE too"
+        )
     others = [path for path in experiments if path not in torques]
     if others:
         raise ForceTorqueError(f"{first}: expected logs of joint torques alone beside it, got {others[0]}")

@@ -40,10 +40,16 @@ POSE_STEP = 5e-7
 """Step of joint positions and of the pose of the root; rad, m, or a component of a quaternion."""
 _ABSENT, _LARGEST = 65535, 32767
 _LEVEL = 4
+_OUTLYING = 100.0
+"""Range of a column from which on it has outliers, as a multiple of the range without its outermost samples."""
+_OUTERMOST = 0.1
+"""Share of the samples at each end of that range that are the outermost, at least one; %."""
 
 
 def packed(built: BuiltScene) -> BuiltScene:
     """Pack the arrays of a scene that have a row for each sample; all others stay as they are.
+
+    So does an array with outliers: one damaged sample would set the step of its column, and hide all others.
 
     Args:
         built: A scene whose arrays are not packed.
@@ -62,7 +68,7 @@ def packed(built: BuiltScene) -> BuiltScene:
             return known[key]
         values = read_array(built.block, reference)
         over_time = reference.dtype == "float32" and len(values) == built.scene.samples and values.ndim == 2
-        if over_time and values.size:
+        if over_time and values.size and not _has_outliers(values):
             poses = reference in (built.scene.positions, built.scene.root)
             data = pack(values, POSE_STEP if poses else None)
             moved_to = replace(reference, offset=size, packed_bytes=len(data))
@@ -77,6 +83,17 @@ def packed(built: BuiltScene) -> BuiltScene:
 
     scene: Scene = _with_references(built.scene, moved)
     return replace(built, scene=scene, block=b"".join(parts))
+
+
+def _has_outliers(values: npt.NDArray[Any]) -> bool:
+    """Whether a few samples span far more than all others of their column."""
+    table = np.where(np.isfinite(values), values, np.nan).astype(np.float64)
+    table = table[:, ~np.isnan(table).all(axis=0)]
+    if not table.size:
+        return False
+    low = np.nanpercentile(table, _OUTERMOST, axis=0, method="higher")
+    high = np.nanpercentile(table, 100.0 - _OUTERMOST, axis=0, method="lower")
+    return bool((np.nanmax(table, axis=0) - np.nanmin(table, axis=0) > _OUTLYING * (high - low)).any())
 
 
 def _with_references(node: Any, moved: Any) -> Any:

@@ -22,6 +22,7 @@ from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, MovingSupport, Support
+from forcetorque.results.table import short_names
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support
@@ -37,6 +38,8 @@ _SPHERE_SAMPLES = 50_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""
 _COVARIANCES = 20_000
 """Covariances that are held at once."""
+EXPECTED = "expected"
+"""Name of the series that the model expects."""
 LOGGED = "logged"
 """Name of the series of a stream that holds wrenches."""
 
@@ -77,7 +80,7 @@ def scene_sensor(
     by_candidate = _spheres(experiment, sensor, calibrations, draft)
     series = []
     if np.isfinite(expected).any():
-        series.append(_series("expected", draft.block, expected, sphere=_weight(by_candidate)))
+        series.append(_series(EXPECTED, draft.block, expected, sphere=_weight(by_candidate)))
     for reading in readings:
         values = _values(experiment, sensor, reading.correction, posture.stamp_ns, draft)
         offset = reading.correction.model.offset if reading.candidate == PRIOR else np.zeros(6)
@@ -114,9 +117,10 @@ def _readings(
         readings.append(_Reading(name=name, candidate=PRIOR, correction=correction))
     elif not calibrations:
         draft.notes.append(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
+    shown = short_names((EXPECTED, LOGGED, PRIOR, *calibrations))  # none gets the name of another series
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
-        readings.append(_Reading(name=name, candidate=name, correction=Correction.of(name, calibration)))
+        readings.append(_Reading(name=shown[name], candidate=name, correction=Correction.of(name, calibration)))
     return readings
 
 

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import Joint, Robot, Scene
@@ -48,7 +48,7 @@ class LoggedWrench:
     values: FloatArray
     """Shape (n, 6); N, N m; NaN where there is none."""
     kind: Literal["expected", "measured", "error", "contact"]
-    """Error: measured minus expected."""
+    """Error: measured minus expected, in no interval of use `ignore`."""
 
     @property
     def known(self) -> IntArray:
@@ -177,7 +177,7 @@ def _at_most(rate_hz: float, stamp_ns: IntArray) -> IntArray:
 
 
 def _wrenches(scene: Scene, block: bytes, frames: _FrameNames) -> Iterator[LoggedWrench]:
-    topics = set[str]()
+    topics, ignored = set[str](), _ignored(scene, read_array(block, scene.time_s))
     for sensor in scene.sensors:
         if sensor.acting is None:  # what is left of the equation of a part, which no sensor reads
             continue
@@ -190,12 +190,21 @@ def _wrenches(scene: Scene, block: bytes, frames: _FrameNames) -> Iterator[Logge
             if series.role == "expected":
                 expected = values
             elif expected is not None:
-                error = values - expected
+                error = np.where(ignored[:, None], np.nan, values - expected)
                 yield LoggedWrench(name=f"{place}/error", frame=frames.sensors[sensor.name], values=error, kind="error")
     for contact in scene.contacts:
         values = read_array(block, contact.values).astype(np.float64)
         name = _unique(f"{_topic(contact.name)}/contact", topics)
         yield LoggedWrench(name=name, frame=frames.contacts[contact.name], values=values, kind="contact")
+
+
+def _ignored(scene: Scene, seconds: FloatArray) -> BoolArray:
+    """Whether an instant lies in an interval that is ignored; shape (n,)."""
+    ignored = np.zeros(len(seconds), dtype=bool)
+    for interval in scene.intervals:
+        if interval.use == "ignore":
+            ignored |= (seconds >= interval.start_s) & (seconds < interval.end_s)
+    return ignored
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
