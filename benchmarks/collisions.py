@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contacts found by `robot collisions` on simulated limbs: pushes noticed by their size, and false alarms per hour.
 
-Robots, sensors and families of errors are those of `benchmarks.model_errors`. A limb of the hanging biped moves at
-random for three minutes; the first minute is stated as free of contact, and in the other two something pushes the last
-link of the limb every 6 s for 0.4 s: at one of its places within 0.1 m of its centre of mass, in a random direction,
-with a force of the stated sizes in turn. The same recording without pushes gives the false alarms. A push is noticed
-where a contact overlaps it by some of its time; the link is right where it is named, alone or among others.
+Robots, sensors and families of errors are those of `benchmarks.model_errors`, without its delays, quadratic terms and
+contacts. A limb of the hanging biped moves at random for three minutes; the first minute is stated as free of contact,
+and in the other two something pushes a link of the limb every 6 s for 0.4 s: within 2 cm of its centre of mass along
+each axis, in a random direction, with a force of the stated sizes in turn. The same recording without pushes gives the
+false alarms. A push is noticed where a contact overlaps it by some of its time; the link is right where it is named,
+alone or among others. The planted wrenches take the equation of the links that places the contacts too; tests of
+`tests/collisions` plant them from the poses of links alone.
 """
 
 from __future__ import annotations
@@ -36,13 +38,11 @@ from benchmarks.model_errors import (
 )
 from forcetorque.base.arrays import FloatArray
 from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.location import equation_at
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.storage import write_recording
-from forcetorque.robot.mechanics.samples import robot_motion_at
-from forcetorque.robot.mechanics.sub_model_equations import joints_of_part, part_equations
-from forcetorque.robot.tree import build_tree, sub_models
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
@@ -76,24 +76,9 @@ class Case:
 
 
 def _wrenches(run: SensorRun, at_ns: Sequence[int], rng: np.random.Generator) -> tuple[list[FloatArray], list[str]]:
-    """Wrenches of unit forces on the last link of a limb, as the sensor reads them, and the link of each."""
-    experiment, interval = run.experiment, run.experiment.recording.intervals[0]
-    support = interval.support
-    if support is None:
-        raise ValueError("expected a support")
-    tree = build_tree(experiment.model_on(support), support.frame)
-    part = next(part for part in sub_models(tree, [run.sensor.name]) if part.sensor == run.sensor.name)
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        joints_of_part(tree, part),
-        run.stream,
-        np.array(at_ns),
-        processing=experiment.processing,
-    )
-    equation = next(part_equations(tree, [part], joints, root))
-    heavy = [index for index in part.bodies if tree.bodies[index].inertia.mass > 0.0]
+    """Wrenches of unit forces on links of a limb, as the sensor reads them, and the link of each."""
+    tree, equation = equation_at(run, run.experiment.recording.intervals[0], np.array(at_ns))
+    heavy = [index for index in equation.part.bodies if tree.bodies[index].inertia.mass > 0.0]
     wrenches, links = [], []
     for number in range(len(at_ns)):
         index = int(rng.choice(heavy))

@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.experiment.sensor_run import SensorRun
@@ -50,18 +50,16 @@ class Location:
     """Point of the line that is nearest to the axis, in the frame of the link; shape (3,); m."""
 
 
-def locate(run: SensorRun, interval: Interval, at_ns: int, excess: FloatArray, covariance: FloatArray) -> Location:
-    """Find out where something touches the robot beyond a sensor.
+def equation_at(run: SensorRun, interval: Interval, at_ns: IntArray) -> tuple[BodyTree, PartEquation]:
+    """Give the equation of the links beyond a sensor at instants.
 
     Args:
         run: The sensor.
-        interval: Interval of the instant.
-        at_ns: The instant; ns.
-        excess: What the sensor reads too much; shape (6,); N, N m.
-        covariance: Its covariance; shape (6, 6).
+        interval: Interval of the instants.
+        at_ns: The instants; shape (n,); ns.
 
     Returns:
-        Wrench, line and link.
+        The robot, rooted at the support frame, and the equation.
 
     Raises:
         ExperimentError: If the interval has no support, or no link lies beyond the sensor.
@@ -80,10 +78,29 @@ def locate(run: SensorRun, interval: Interval, at_ns: int, excess: FloatArray, c
         support,
         joints_of_part(tree, part),
         run.stream,
-        np.array([at_ns]),
+        at_ns,
         processing=experiment.processing,
     )
-    equation = next(part_equations(tree, [part], joints, root))
+    return tree, next(part_equations(tree, [part], joints, root))
+
+
+def locate(run: SensorRun, interval: Interval, at_ns: int, excess: FloatArray, covariance: FloatArray) -> Location:
+    """Find out where something touches the robot beyond a sensor.
+
+    Args:
+        run: The sensor.
+        interval: Interval of the instant.
+        at_ns: The instant; ns.
+        excess: What the sensor reads too much; shape (6,); N, N m.
+        covariance: Its covariance; shape (6, 6).
+
+    Returns:
+        Wrench, line and link.
+
+    Raises:
+        ExperimentError: If the interval has no support, or no link lies beyond the sensor.
+    """
+    tree, equation = equation_at(run, interval, np.array([at_ns]))
     # the sensor and what touches carry the bodies together
     on_robot = -equation.transmission[0, 0]
     wrench, spread = on_robot @ excess, on_robot @ covariance @ on_robot.T
