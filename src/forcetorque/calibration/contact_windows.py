@@ -163,7 +163,7 @@ def _residual(data: DataSet, means: WindowMeans, fit: GenerativeFit) -> tuple[Fl
     model = replace(fit.model, offset=fit.offsets[session])
     with_variables = data.variables.shape[1] > 0
     reference = data.reference if data.flattening is None else data.reference + FLATTENED * data.flattening
-    error = model.wrench(data.raw, data.variables if with_variables else None) - reference
+    error = model.wrench(data.raw, data.variables if with_variables else None) - model.expected_reading(reference)
     window = _window_of_samples(data)
     starts = np.flatnonzero(np.diff(window, prepend=-1))
     counts = np.diff(starts, append=len(window))

@@ -174,6 +174,7 @@ def assumptions_of(recording: CampaignRecording) -> Assumptions:
     options = recording.options
     return Assumptions(
         full_scale=channel_full_scale(recording),
+        load_full_scale=None if recording.sensor.measured.all() else recording.sensor.full_scale,
         accuracy=options.accuracy,
         repeatability=options.repeatability,
         mount=options.tolerance.mount_of(recording.sensor.name),
@@ -217,6 +218,7 @@ def moments_of(
         prior=sensor.prior,
         prior_source=sensor.prior_source,
         full_scale=channel_full_scale(recording),
+        load_full_scale=None if sensor.measured.all() else sensor.full_scale,
         accuracy=options.accuracy,
         repeatability=options.repeatability,
         mount_rotation_rad=mount.rotation_rad,

@@ -78,9 +78,9 @@ def mount_doubts(campaign: Campaign, intervals: Sequence[CampaignInterval]) -> t
 
 
 def _estimate(campaign: Campaign, intervals: Sequence[CampaignInterval]) -> MountEstimate | None:
-    """The mount by means of the samples; None without a prior."""
+    """The mount by means of the samples; None without a prior of six components."""
     prior = campaign.sensor.prior
-    if prior is None:
+    if prior is None or not campaign.sensor.measured.all():
         return None
     measured, expected, group = [], [], []
     for number, interval in enumerate(intervals):

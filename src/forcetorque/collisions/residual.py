@@ -134,6 +134,7 @@ def _large(vectors: FloatArray) -> float:
 
 def _of_load(run: SensorRun, matrix: FloatArray) -> FloatArray:
     """What an error of one standard deviation of every coefficient of the matrix adds per load; shape (6, 6, 36)."""
+    run.sensor.require_six_components("a search for collisions")
     assumptions = assumptions_of(CampaignRecording.of(run))
     scaled = matrix * assumptions.full_scale
     size = SENSOR.expected * np.sqrt((scaled**2).mean(axis=1))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
@@ -11,6 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import joined_times
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
     PriorComparison,
     fewest_independent,
@@ -41,6 +42,7 @@ from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import (
+    COMPONENTS,
     VAGUE_WORDS,
     Shown,
     ShownWrench,
@@ -49,6 +51,7 @@ from forcetorque.results.table import (
     short_names,
     table_of,
     with_first_column,
+    without_columns,
     without_vague,
 )
 
@@ -83,11 +86,21 @@ def error_tables(
         RMSE per axis with norms; and mean errors per axis of the same candidates, where the offset is not that of the
         evaluated samples themselves, which leaves none, with what tells how much the errors are worth.
     """
-    yield _named(without_vague(table_of(rows, caption, leave_out={"bias", *_WORTH})), recordings)
+    unmeasured = _unmeasured_headings(rows[0].components)
+    errors = without_columns(table_of(rows, caption, leave_out={"bias", *_WORTH}), unmeasured)
+    yield _named(without_vague(errors), recordings)
     kept = [k for k, row in enumerate(rows) if row.offset is not Offset.JUDGED_MEAN]
     names = None if recordings is None else [recordings[k] for k in kept]
     shown = table_of([rows[k] for k in kept], "mean error, by its own offset", leave_out=_VARYING)
-    yield _named(shown, names)
+    yield _named(without_columns(shown, unmeasured), names)
+
+
+def _unmeasured_headings(components: Collection[str]) -> frozenset[str]:
+    """Headings of what a sensor does not measure."""
+    headings = [heading for heading in COMPONENTS if heading.partition(",")[0] not in components]
+    for part, heading in zip(FORCE_AND_MOMENT, ("force, N", "moment, N m"), strict=True):
+        headings += [heading] if not set(WRENCH_COMPONENTS[part]) & set(components) else []
+    return frozenset(headings)
 
 
 def smoothing_text(run: SensorRun) -> str:
@@ -145,6 +158,8 @@ class CalibrationErrors(EvaluatedRow):
     that is larger."""
     load_Nm: float
     """The same of the moment."""
+    components: tuple[str, ...] = WRENCH_COMPONENTS
+    """Components that the sensor measures; errors of others are 0."""
 
     @property
     def hardly_moved(self) -> bool:
@@ -268,16 +283,18 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
     several = len(wrenches) > 1
     first = next(iter(wrenches.values()))
     reference = np.concatenate([judged.reference for judged in wrenches.values()]) if several else first.reference
+    load = np.concatenate([judged.load for judged in wrenches.values()]) if several else first.load
     time_s = joined_times([judged.time_s for judged in wrenches.values()]) if several else first.time_s
     for measured in zip(*(judged.with_either_offset() for judged in wrenches.values()), strict=True):
         candidate, offset, wrench = measured[0]
         if several:
             wrench = np.concatenate([wrench for _, _, wrench in measured])
-        verdicts.append(_errors(campaign, candidate, offset, wrench, reference, time_s, calibrations))
+        verdicts.append(_errors(campaign, candidate, offset, (wrench, reference, load), time_s, calibrations))
         if len(campaign.runs) == 1:
             continue
         for (candidate, offset, wrench), (recording, judged) in zip(measured, wrenches.items(), strict=True):
-            row = _errors(campaign, candidate, offset, wrench, judged.reference, judged.time_s, calibrations)
+            compared = wrench, judged.reference, judged.load
+            row = _errors(campaign, candidate, offset, compared, judged.time_s, calibrations)
             recordings.append(RecordingErrors(recording=recording, **dict(row)))
     return Evaluation(
         experiment="; ".join(campaign.recordings),
@@ -308,13 +325,14 @@ def _errors(
     campaign: Campaign,
     candidate: CalibrationUnderTest,
     offset: Offset,
-    wrench: FloatArray,
-    reference: FloatArray,
+    compared: tuple[FloatArray, FloatArray, FloatArray],
     time_s: FloatArray,
     calibrations: Mapping[str, Calibration],
 ) -> CalibrationErrors:
+    """Errors of readings beside what is expected of them and the loads; shape (n, 6) each."""
+    wrench, reference, load = compared
     errors = wrench_errors(wrench, reference, time_s)
-    (moved_N, load_N), (moved_Nm, load_Nm) = validation_excitation(reference, calibrations.values())
+    (moved_N, load_N), (moved_Nm, load_Nm) = validation_excitation(load, calibrations.values())
     return CalibrationErrors(
         sensor=campaign.sensor.name,
         serial=campaign.sensor.serial,
@@ -339,4 +357,5 @@ def _errors(
         excitation_Nm=moved_Nm,
         load_N=load_N,
         load_Nm=load_Nm,
+        components=tuple(np.array(WRENCH_COMPONENTS)[campaign.sensor.measured].tolist()),
     )

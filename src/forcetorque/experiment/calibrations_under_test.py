@@ -297,8 +297,10 @@ class EvaluatedWrenches:
 
     time_s: FloatArray
     """Instants since the start of the recording; shape (n,); s."""
-    reference: FloatArray
+    load: FloatArray
     """What mechanics demands, in the sensor's frame and direction; shape (n, 6); N, N m."""
+    reference: FloatArray
+    """The same with zeros for components that the sensor does not measure; shape (n, 6); N, N m."""
     measured: tuple[tuple[str, FloatArray], ...]
     """Name of every candidate, and what it measures with the offset of the fitted data; shape (n, 6); N, N m.
 

@@ -20,7 +20,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import known_names
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, one_for_each, word_or_table
-from forcetorque.base.wrench import MeasureDirection
+from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection
 from forcetorque.experiment.calibration.artefact import GENERATIVE
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, OffsetStrategy
@@ -30,6 +30,9 @@ from forcetorque.robot.mechanics.samples import Processing
 from forcetorque.robot.model import SensorFrame
 
 _AXES = 6
+
+Component = Literal["fx", "fy", "fz", "tx", "ty", "tz"]
+"""A component of a wrench."""
 
 
 def _of_six_axes(values: Any) -> Any:
@@ -132,11 +135,14 @@ class Sensor(Table):
     """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
     of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
     calibrated reading then takes the place of counts."""
+    components: Annotated[tuple[Component, ...], Field(min_length=1)] | None = None
+    """Components that the sensor measures, such as `["fz"]` of a load cell; all six if left out."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
     full_scale: FullScale | None = None
     """Full scale of fx, fy, fz, tx, ty, tz, or one number for all; N, N m; needed with the prior `identity`, which says
-    nothing of sizes."""
+    nothing of sizes, and with `components`: the largest loads, by which the cross-talk of those that are not measured
+    is sized."""
     measurement_noise: SixPositive | None = None
     """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
     measurement_offset_sd: SixPositive | None = None
@@ -174,6 +180,20 @@ class Sensor(Table):
                 "direction_missing",
                 "a sensor without a URDF tag needs measure_direction, child_to_parent or parent_to_child; "
                 "it is never guessed",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _fewer_components_are_complete(self) -> Sensor:
+        if self.components is None:
+            return self
+        if list(self.components) != [name for name in WRENCH_COMPONENTS if name in self.components]:
+            raise PydanticCustomError("component_order", "components: expected each once, in the order fx to tz")
+        if len(self.components) < _AXES and (self.full_scale is None or self.prior is None):
+            raise PydanticCustomError(
+                "components_rules",
+                "fewer than six components need prior, and full_scale of all six: loads that are not measured disturb "
+                "those that are in proportion to it",
             )
         return self
 

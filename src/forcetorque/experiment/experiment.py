@@ -8,8 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
 
-from forcetorque.base.arrays import FloatArray
+import numpy as np
+
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
@@ -121,6 +124,34 @@ class ExperimentSensor:
     """Linear variables that may be fitted with the matrix."""
     mount_is_unknown: bool = False
     """Whether its mount is to be estimated."""
+    measured: BoolArray = field(default_factory=lambda: np.ones(6, dtype=np.bool_))
+    """Which components of a wrench it measures; shape (6,)."""
+
+    def require_six_components(self, what: str) -> None:
+        """Refuse a sensor that measures fewer components than something needs.
+
+        Args:
+            what: What needs all six, as the subject of a message.
+
+        Raises:
+            ExperimentError: If it measures fewer.
+        """
+        if not self.measured.all():
+            names = ", ".join(name for name, own in zip(WRENCH_COMPONENTS, self.measured, strict=True) if own)
+            raise ExperimentError(
+                f"sensor {self.name!r}: {what} expects a sensor of six components, this one measures {names}"
+            )
+
+    def expected_reading(self, load: FloatArray) -> FloatArray:
+        """Give what a sensor without error reads.
+
+        Args:
+            load: Wrenches; shape (..., 6); N, N m.
+
+        Returns:
+            The same, with zeros for components that it does not measure.
+        """
+        return np.where(self.measured, load, 0.0)
 
     def variable(self, name: str) -> SensorVariable:
         """Find a linear variable of the sensor.

@@ -363,7 +363,7 @@ def _offset(
             f"interval {interval.label!r}: expected at least {FEWEST} samples to tell an offset, got {count}"
         )
     expected = samples.samples.reference[chosen]
-    lacking = expected - samples.readings.at(chosen).wrench(correction.bare)
+    lacking = run.sensor.expected_reading(expected) - samples.readings.at(chosen).wrench(correction.bare)
     time_s = seconds_since(samples.samples.stamp_ns[chosen], run.experiment.recording.start_ns)
     force = expected[:, :3]
     return SensorOffset(
@@ -409,6 +409,7 @@ def corrections_of(
     (policy,) = offset_policies([offset])
     corrections = {}
     for sensor in experiment.sensors:
+        sensor.require_six_components("what the sensors of a robot give together")
         run = SensorRun(experiment, sensor)
         calibrated = sensor.name in chosen
         correction = run.read_by(*chosen[sensor.name]) if calibrated else without_calibration(run, policy)

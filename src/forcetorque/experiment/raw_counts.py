@@ -145,9 +145,9 @@ def full_scale_of(sensor: ExperimentSensor, accuracy: FloatArray | None, *, chan
     if sensor.prior_source != "identity":
         return np.full(channels, sensor.limit_counts)
     if sensor.full_scale is not None:
-        return sensor.full_scale
+        return sensor.full_scale[sensor.measured]
     if accuracy is not None and (accuracy > 0.0).all():
-        return accuracy / ACCURACY_SHARE
+        return (accuracy / ACCURACY_SHARE)[sensor.measured]
     raise ExperimentError(
         f'sensor {sensor.name!r}: expected full_scale with the prior "identity", which says nothing of sizes: six '
         "numbers in its [[sensor]], N and N m, as its data sheet has them; or accuracy of [calibration]"

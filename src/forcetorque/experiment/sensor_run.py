@@ -338,7 +338,8 @@ class SensorRun:
         # the mean over all samples at once: its last bits depend on how it is summed
         wrench = np.concatenate([part.samples.reading.values for part in parts])
         wrench = wrench if bare.of_wrench else wrench @ bare.model.matrix.T
-        offset = mean_offset(np.concatenate([part.samples.reference for part in parts]) - wrench)
+        reference = np.concatenate([part.samples.reference for part in parts])
+        offset = mean_offset(self.sensor.expected_reading(reference) - wrench)
         labels = ", ".join(repr(part.interval.label) for part in parts)
         return bare.with_offset(offset, f"over {labels} ({len(wrench)} samples)")
 
@@ -409,9 +410,11 @@ class SensorRun:
             require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, self.channels))
         stamps = np.concatenate([part.samples.stamp_ns for part in parts])
         ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
+        load = np.concatenate([part.samples.reference for part in parts])
         return EvaluatedWrenches(
             time_s=seconds_since(stamps, self.experiment.recording.start_ns),
-            reference=np.concatenate([part.samples.reference for part in parts]),
+            load=load,
+            reference=self.sensor.expected_reading(load),
             measured=tuple((candidate.name, self.read(spans, candidate.correction)) for candidate in candidates),
             intervals=tuple(
                 (part.interval.label, slice(start, end))

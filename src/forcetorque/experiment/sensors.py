@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment import file as schema
-from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, measured_components
 from forcetorque.experiment.core_tables import PriorTable, Sensor, Variable
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.input_files import Inputs, stated_in
@@ -59,7 +60,7 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | No
     if given is not None:
         return SpecifiedPrior(matrix=given, source="given as an array")
     if entry.prior == IDENTITY:
-        return SpecifiedPrior(matrix=np.eye(6), source=IDENTITY)
+        return SpecifiedPrior(matrix=np.eye(6)[:, measured_by(entry)], source=IDENTITY)
     specified = entry.prior if isinstance(entry.prior, PriorTable) else PriorTable(path=Path(entry.prior))
     with stated_in(where):
         _require_serial(serial_number_in_name(specified.path), entry, specified.path)
@@ -75,6 +76,39 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | No
         # counts that a board's channel can have say its full scale; volts that a card may see do not
         full_scale=file.full_scale if maker else None,
     )
+
+
+def measured_by(entry: Sensor) -> BoolArray:
+    """Tell which components of a wrench a sensor measures.
+
+    Args:
+        entry: The sensor.
+
+    Returns:
+        Whether it measures each; shape (6,).
+    """
+    return np.isin(WRENCH_COMPONENTS, WRENCH_COMPONENTS if entry.components is None else entry.components)
+
+
+def _require_components(where: str, entry: Sensor, prior: SpecifiedPrior | None, quantity: str, channels: int) -> None:
+    """Refuse a matrix, or channels, of other components than those that are stated."""
+    measured = measured_by(entry)
+    if quantity == "raw" and prior is not None and prior.source == IDENTITY and channels != measured.sum():
+        raise ExperimentError(
+            f'{where}: expected a channel for each of {measured.sum()} components with the prior "identity", got '
+            f"{channels}; name the components that are logged as components"
+        )
+    if prior is not None and (wrong := measured_components(prior.matrix) != measured).any():
+        names = ", ".join(np.array(WRENCH_COMPONENTS)[wrong])
+        raise ExperimentError(
+            f"{where}: expected a prior whose rows are zero just where components names none, got otherwise for "
+            f"{names}; write components for the rows that are not zero"
+        )
+    if quantity == "wrench" and not measured.all():
+        raise ExperimentError(
+            f"{where}: expected all six components of a stream of wrenches, got components of {int(measured.sum())}; "
+            'log the columns that are measured as raw, with the prior "identity" where they are in N and N m'
+        )
 
 
 def full_scale_of(entry: Sensor, prior: SpecifiedPrior | None) -> FloatArray | None:
@@ -203,6 +237,7 @@ def _sensor(
             f"got {len(entry.amplifier_gain)}"
         )
     prior = read_prior(where, entry, inputs)
+    _require_components(where, entry, prior, present[0], channels)
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
         serial=entry.serial,
@@ -217,6 +252,7 @@ def _sensor(
         amplifier_gain=entry.amplifier_gain,
         allowed_gains=entry.allowed_gains,
         mount_is_unknown=entry.mount == "unknown",
+        measured=measured_by(entry),
         variables=tuple(
             _variable(f"{where}: variable[{k}]", variable, entry, recording)
             for k, variable in enumerate(entry.variable)

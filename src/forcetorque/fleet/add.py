@@ -218,6 +218,7 @@ def _refuse_other_robot(
     there: Sequence[RecordFile],
     options: AddOptions,
 ) -> None:
+    sensor.require_six_components("a dataset")
     robot = options.robot or experiment.model.name
     other = next((one.robot for one in there if one.robot != robot), None)
     if other is not None:

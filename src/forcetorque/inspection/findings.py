@@ -243,11 +243,15 @@ def _causes(
     try:
         whole = None if whole_log is None else _samples(run, whole_log, correction)
         comparison = compared(run, correction, whole=whole)
-        diagnosis = None if comparison is None else diagnosed(comparison)
+        diagnosis = None if comparison is None or not run.sensor.measured.all() else diagnosed(comparison)
     except ForceTorqueError:
         return (), None  # the comparison of every interval names the reason
     if comparison is None:
         return (), None
+    if not run.sensor.measured.all():
+        text = "sense, gravity, joints, columns, units, mount and delay are not tested: that takes six components"
+        untested = Finding(stream=run.sensor.stream, kind="not_compared", message=text, count=0)
+        return (untested, *_implausible(run, comparison)), None
     if diagnosis is None:
         text = (
             "sense, gravity, joints, columns, units, mount and delay are not tested: the expected wrench stays the "
@@ -328,7 +332,7 @@ def _against_model(
 ) -> tuple[Finding, ...]:
     """Findings over an interval, beside a fault that turns or scales the wrench alike at every instant."""
     part = _samples(run, interval, correction)
-    stamps, expected = part.samples.stamp_ns, part.samples.reference
+    stamps, expected = part.samples.stamp_ns, run.sensor.expected_reading(part.samples.reference)
     in_use = _in_use(run.experiment, stamps)
     if not in_use.any():
         return ()

@@ -12,7 +12,7 @@ from forcetorque.base.errors import FitError, RecordingError, known_names
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
-from forcetorque.experiment.calibration.sensor_model import secondary_matrix
+from forcetorque.experiment.calibration.sensor_model import measured_components, secondary_matrix
 from forcetorque.live.choices import HeldQuantity
 
 
@@ -55,8 +55,11 @@ def sensor_terms(
 
     Raises:
         RecordingError: If the calibration has no such session.
-        FitError: If samples are wrenches, and there is no prior that can be inverted.
+        FitError: If samples are wrenches, and there is no prior that can be inverted, or the sensor measures fewer than
+            six components.
     """
+    if not measured_components(calibration.matrix).all():
+        raise FitError(f"calibration of {calibration.sensor.name!r}: expected one of a sensor of six components")
     names = [entry.name for entry in calibration.sessions]
     if session is not None and session not in names:
         raise RecordingError(

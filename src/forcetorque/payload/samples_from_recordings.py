@@ -53,6 +53,7 @@ def weighing_readings(
     Raises:
         ExperimentError: If there are raw counts and no prior.
     """
+    sensor.require_six_components("the weighing of a load")
     stream = experiment.recording.stream(sensor.stream)
     inside = interval.holds(stream.stamp_ns) & ~sample_quality(experiment, sensor).unusable
     for other in experiment.recording.intervals:

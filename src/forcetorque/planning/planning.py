@@ -235,6 +235,7 @@ def _excess(case: LoadCase, error: PredictedError) -> float:
 def _assumed(run: SensorRun, calibration: Calibration | None) -> tuple[FloatArray, Assumptions]:
     """The matrix before any recording, that of the calibration without one, and what is known beside it."""
     sensor, options = run.sensor, run.experiment.fit_options
+    sensor.require_six_components("a plan")
     matrix, scale = sensor.prior, sensor.full_scale
     if matrix is None and calibration is not None:
         matrix = calibration.matrix

@@ -308,6 +308,21 @@ VAGUE_WORDS: Final = "±?: too few independent data for an interval"
 _WITH_ERROR: Final = re.compile(r"([0-9.]+) ±([0-9.]+|inf)")
 
 
+def without_columns(table: Table, headings: Collection[str]) -> Table:
+    """Leave columns out of a table.
+
+    Args:
+        table: The table.
+        headings: Their headings.
+
+    Returns:
+        The other columns.
+    """
+    kept = [k for k, heading in enumerate(table.headings) if heading not in headings]
+    rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
+    return replace(table, headings=tuple(table.headings[k] for k in kept), rows=rows)
+
+
 def without_vague(table: Table) -> Table:
     """Put a mark where half of the interval of an error is larger than the error, which is never below zero.
 

@@ -222,6 +222,7 @@ def _recordings(
     from forcetorque.inspection.plausibility.checks import examine
 
     sensor = data.sensor
+    sensor.require_six_components("a study of estimation types")
     doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
     return [
         moments_of(

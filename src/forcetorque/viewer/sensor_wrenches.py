@@ -80,7 +80,7 @@ def scene_sensor(
     by_candidate = _spheres(experiment, sensor, calibrations, draft)
     series = []
     if np.isfinite(expected).any():
-        series.append(_series(EXPECTED, draft.block, expected, sphere=_weight(by_candidate)))
+        series.append(_series(EXPECTED, draft.block, sensor.expected_reading(expected), sphere=_weight(by_candidate)))
     for reading in readings:
         values = _values(experiment, sensor, reading.correction, posture.stamp_ns, draft)
         offset = reading.correction.model.offset if reading.candidate == PRIOR else np.zeros(6)

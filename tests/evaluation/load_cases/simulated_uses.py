@@ -141,7 +141,7 @@ def _evidence(fit: GenerativeFit, judged: list[DataSet]) -> Evidence:
             ValidationSegment(
                 session=data.session,
                 time_s=data.time_s,
-                measured=fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))),
+                error=fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))) - data.reference,
                 reference=data.reference,
             )
             for data in judged

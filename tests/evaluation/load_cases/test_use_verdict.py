@@ -316,7 +316,9 @@ def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned
         reference[:, 0] = 40.0 * (k + 1) + sway * np.sin(time)
         error = 0.01 * rng.normal(size=(300, 6)) + [offset, 0.0, 0.0, 0.0, 0.0, 0.0]
         measured = (reference[:, [1, 0, 2, 3, 4, 5]] if turned else reference) + error
-        stretches.append(ValidationSegment(session=session, time_s=time, measured=measured, reference=reference))
+        stretches.append(
+            ValidationSegment(session=session, time_s=time, error=measured - reference, reference=reference)
+        )
     return evidence(stretches)
 
 

@@ -70,6 +70,7 @@ def _compared(
     raw = np.concatenate([part.raw for part in parts])
     reference = np.concatenate([part.unflattened(FLATTENED).reference for part in parts])
     variables = np.concatenate([part.variables for part in parts])
+    reference = model.expected_reading(reference)
     error = reference - model.wrench(raw, variables if variables.shape[1] else None)
     left = error - ones @ np.linalg.lstsq(ones, error, rcond=None)[0]
     design = np.hstack([raw - raw.mean(axis=0), ones])

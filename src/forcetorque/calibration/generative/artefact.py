@@ -42,7 +42,7 @@ from forcetorque.experiment.calibration.quadratic_correction import (
     quadratic_terms,
     steepness,
 )
-from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, require_same_sensor
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
@@ -79,7 +79,7 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
     elapsed = np.concatenate([one.time_s for one in means]) - fit.session_time_s[member]
     drift = 0.0 if fit.drifts is None else fit.drifts[member] * elapsed[:, None]
     reading = np.concatenate([_linear(model, one) for one in means]) + offsets[member] + drift
-    error = correction.corrected(reading) - loads
+    error = correction.corrected(reading) - model.expected_reading(loads)
     residual = np.sqrt(np.average(error**2, axis=0, weights=weight))
     return replace(fit, model=model, offsets=offsets, residual=residual)
 
@@ -361,7 +361,7 @@ def _sessions(
 def _prior_offset(intervals: Sequence[IntervalMoments], session: str, prior: FloatArray) -> FloatArray:
     """Offset that the samples of a session give with the prior matrix."""
     moments = pooled(interval.moments for interval in intervals if interval.session == session)
-    return moments.reference_mean - prior @ moments.raw_mean
+    return np.where(measured_components(prior), moments.reference_mean, 0.0) - prior @ moments.raw_mean
 
 
 def _variable(

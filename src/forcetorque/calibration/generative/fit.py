@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError
 from forcetorque.experiment.calibration.moments import TermColumns, WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
-from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
 
 
 def _frame_changes() -> FloatArray:
@@ -329,8 +329,16 @@ class SolvedRows:
             return to_wrench @ self.matrix, to_wrench
         response = rows.from_load * unit[:, None] + change
         precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
-        weighed = precision * response
-        matrix = np.asarray(np.linalg.solve(response.T @ weighed, weighed.T), dtype=np.float64)
+        measured = measured_components(self.matrix)
+        own = response[:, measured]
+        weighed: FloatArray = precision * own
+        if self.assumptions.load_full_scale is not None:
+            # loads in other components disturb the channels as noise does
+            disturbed = response[:, ~measured] * self.assumptions.load_full_scale[~measured]
+            noise_covariance = np.diag(1.0 / precision[:, 0]) + disturbed @ disturbed.T
+            weighed = np.asarray(np.linalg.solve(noise_covariance, own), dtype=np.float64)
+        matrix = np.zeros((LOADS, len(response)))
+        matrix[measured] = np.linalg.solve(own.T @ weighed, weighed.T)
         return matrix, matrix
 
     def _before(self, unit: FloatArray) -> FloatArray:
@@ -426,8 +434,9 @@ def fit_generative(
     values = read_only(
         np.concatenate([s.variables for s in ordered]), name="variables", shape=(len(raw), len(variables))
     )
-    if raw.shape[1] < LOADS:
-        raise FitError(f"expected at least six channels, which six load directions need, got {raw.shape[1]}")
+    components = LOADS if prior is None else int(measured_components(prior).sum())
+    if raw.shape[1] < components:
+        raise FitError(f"expected at least {components} channels, one for each component, got {raw.shape[1]}")
     if prior is None:
         require_rank(wrench, [len(stretch) for stretch in ordered])
     matrix = _rough(raw, wrench) if prior is None else read_only(prior, name="prior", shape=(6, raw.shape[1]))
@@ -516,7 +525,7 @@ def _fit(
         coefficients=-(to_wrench @ mean[:, LOADS : LOADS + v]),
         reference_values=centre,
     )
-    error = raw @ matrix.T + moved @ model.coefficients.T - wrench
+    error = raw @ matrix.T + moved @ model.coefficients.T - model.expected_reading(wrench)
     return GenerativeFit(
         model=model,
         offsets=offsets,

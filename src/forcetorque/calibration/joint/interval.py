@@ -231,6 +231,7 @@ def required_prior(sensor: ExperimentSensor) -> FloatArray:
     Raises:
         ExperimentError: If it has none.
     """
+    sensor.require_six_components("a joint calibration")
     if sensor.prior is None:
         raise ExperimentError(
             f"sensor {sensor.name!r}: expected a prior matrix, which a joint calibration changes; state the matrix of "

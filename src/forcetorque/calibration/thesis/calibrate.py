@@ -268,6 +268,7 @@ def thesis_calibration(
     from forcetorque.inspection.plausibility.checks import examine
 
     sensor, variables = campaign.sensor, campaign.sensor.variables if kind.with_variables else ()
+    sensor.require_six_components(f"estimation type {kind.name}")
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.linear.name for variable in variables])
     data_sets = [interval.data_set for interval in intervals]
     # where the prior is kept there is no matrix to spoil, and a limb at rest tells the offset

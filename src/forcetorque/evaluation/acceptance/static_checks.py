@@ -164,6 +164,7 @@ def check(
 def _correction(run: SensorRun, calibration: tuple[str, Calibration] | None) -> Correction:
     """Read the counts by the matrix that is checked; logged wrenches go through the counts that they came from."""
     sensor = run.sensor
+    sensor.require_six_components("acceptance")
     if calibration is not None:
         run.require_fit(*calibration)
         return Correction.of(*calibration)
@@ -196,7 +197,7 @@ def _offsets(run: SensorRun, correction: Correction, use: Use) -> Iterator[Inter
         yield IntervalOffset(
             label=data.interval.label,
             samples=len(wrench),
-            offset=(data.samples.reference - wrench).mean(axis=0),
+            offset=(run.sensor.expected_reading(data.samples.reference) - wrench).mean(axis=0),
             temperature_degC=float(data.readings.variables[known[0]].mean()) if known else None,
         )
 

@@ -56,7 +56,7 @@ def use_figure(verdicts: Sequence[LoadCaseVerdict], names: Mapping[str, str]) ->
         names: What to show by name of a calibration.
 
     Returns:
-        The figure: a row per calibration and load case; force on the left, moment on the right.
+        The figure: a row per calibration and load case; force on the left, moment on the right, as far as measured.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -65,8 +65,9 @@ def use_figure(verdicts: Sequence[LoadCaseVerdict], names: Mapping[str, str]) ->
     if not verdicts or not all(verdict.errors for verdict in verdicts):
         raise ShapeError("uses: expected at least one verdict, each with predicted errors")
     figure = new_figure(_FRAME_INCHES + _ROW_INCHES * len(verdicts))
-    panels = figure.subplots(1, 2, squeeze=False, sharey=True)[0]
-    for k, (panel, quantity) in enumerate(zip(panels, ("force", "moment"), strict=True)):
+    quantities = [row.quantity for row in verdicts[0].errors]
+    panels = figure.subplots(1, len(quantities), squeeze=False, sharey=True)[0]
+    for k, (panel, quantity) in enumerate(zip(panels, quantities, strict=True)):
         rows = [verdict.errors[k] for verdict in verdicts]
         _set_axis(panel, rows)
         for place, row in enumerate(rows):

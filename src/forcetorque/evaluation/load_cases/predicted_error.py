@@ -2,9 +2,10 @@
 """Predicted error of a sensor at a load case by its posterior: before the calibration and after.
 
 The error of a reading under a load w is linear in the unknowns u of the posterior: `T (u - mean of u) x` after, with
-x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. Its mean square
-over the loads is `d S d^T` for every component, d a row of the unknowns and S the mean of x x^T: draws of u
-give its distribution exactly.
+x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. What a sensor reads
+of components that it does not measure is added: nothing corrects it. The mean square of the error over the loads is
+`d S d^T` for every component, d a row of the unknowns and S the mean of x x^T: draws of u give its distribution
+exactly.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.sensor_model import measured_components
 
 CONFIDENCE: Final = 0.95
 """Probability with which force and moment errors are both at most the upper ends that are stated.
@@ -110,6 +112,7 @@ def predict_from_posterior(posterior: Posterior, case: LoadCase) -> PredictedErr
         FitError: If the posterior has not the variables of the load case.
     """
     unknowns = posterior.to_wrench @ _draws(posterior)
+    unknowns[..., :6] += posterior.cross_talk
     return _error(unknowns, posterior, posterior.to_wrench, load_second_moment(posterior, case))
 
 
@@ -134,7 +137,7 @@ def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | 
     to_wrench = np.eye(6) if posterior.space == "wrench" else calibration.prior.matrix
     unknowns = to_wrench @ (posterior.mean + _draws(posterior))
     if posterior.space == "channel":
-        unknowns[..., :6] -= np.eye(6)
+        unknowns[..., :6] -= np.diag(measured_components(to_wrench))
     if case.offset is LoadCaseOffset.FITTED:
         unknowns[..., _offset_place(posterior)] += calibration.prior.offset
     return _error(unknowns, posterior, to_wrench, load_second_moment(posterior, case))

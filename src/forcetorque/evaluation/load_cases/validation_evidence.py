@@ -62,8 +62,8 @@ class ValidationSegment:
     """Name of the session."""
     time_s: FloatArray
     """Instants, not falling; shape (n,); s."""
-    measured: FloatArray
-    """What was measured; shape (n, 6); N, N m."""
+    error: FloatArray
+    """Measured minus expected reading; shape (n, 6); N, N m."""
     reference: FloatArray
     """Expected wrenches; shape (n, 6); N, N m."""
 
@@ -91,7 +91,7 @@ class SecondMeans:
         Returns:
             Their means.
         """
-        columns = np.hstack([segment.measured - segment.reference, segment.reference])
+        columns = np.hstack([segment.error, segment.reference])
         time_s, means, _ = means_over(segment.time_s, columns)
         return cls(session=segment.session, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
 
@@ -182,8 +182,8 @@ def evidence_by_calibration(campaign: Campaign, calibrations: Mapping[str, Calib
                     ValidationSegment(
                         session=session,
                         time_s=judged.time_s[samples],
-                        measured=measured[name][samples],
-                        reference=judged.reference[samples],
+                        error=(measured[name] - judged.reference)[samples],
+                        reference=judged.load[samples],
                     )
                 )
     return {name: evidence(parts) for name, parts in stretches.items() if parts}
@@ -474,6 +474,8 @@ def _compared(
         ("moment", "N m", MOMENT, comparison.moment),
     )
     for quantity, unit, axes, ratio in quantities:
+        if not (new[:, axes].any() or old[:, axes].any()):  # the sensor does not measure it
+            continue
         low, high = known_interval(ratio)
         mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
         yield PriorComparison(

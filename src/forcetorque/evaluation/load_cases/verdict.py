@@ -39,6 +39,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
 from forcetorque.evaluation.section import LoadCaseOffset, LoadCaseTable
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
@@ -285,11 +286,23 @@ class LoadCaseAssessment:
         """
         self.case, self.calibration, self.measured = case, calibration, measured
         self.worse = worse
+        components = measured_components(calibration.matrix)
+        self.quantities = [one for one in _QUANTITIES if components[one[2]].any()]
         self.posterior: Posterior | None = calibration.posterior
         self.after: PredictedError | None = None
         self.before: PredictedError | None = None
         if self.posterior is not None:
             self.after, self.before = predict(calibration, case), predict_prior(calibration, case)
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """Allowed errors by quantity; N, N m; infinite where it is not evaluated."""
+        return {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
+
+    @property
+    def loads(self) -> dict[str, float]:
+        """Size of the loads by quantity; N, N m."""
+        return {"force": self.case.force_N, "moment": self.case.moment_Nm}
 
     @property
     def within(self) -> float | None:
@@ -315,13 +328,12 @@ class LoadCaseAssessment:
 
     def _worse(self) -> Iterator[Reason]:
         """Where validation data find a quantity with a limit worse than with the prior, by more than a trifle."""
-        limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
         for row in self.worse:
             text = (
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
                 f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
             )
-            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
+            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(self.limits[row.quantity]):
                 yield Reason(against=None, text=text)
             else:
                 yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
@@ -352,7 +364,8 @@ class LoadCaseAssessment:
     def _predicted_words(self) -> str:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
         parts, prior = [], []
-        for (quantity, unit, _), allowed in zip(_QUANTITIES, self.case.requirement, strict=True):
+        for quantity, unit, _ in self.quantities:
+            allowed = self.limits[quantity]
             size: ErrorMagnitude = getattr(self.after, quantity)
             limit = "" if np.isinf(allowed) else f" ({amount(allowed, unit)} allowed)"
             parts.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
@@ -369,14 +382,14 @@ class LoadCaseAssessment:
         """
         if self.after is None:
             return
-        loads = (self.case.force_N, self.case.moment_Nm)
-        for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
+        for quantity, unit, _ in self.quantities:
+            allowed = self.limits[quantity]
             after: ErrorMagnitude = getattr(self.after, quantity)
             before: ErrorMagnitude | None = None if self.before is None else getattr(self.before, quantity)
             yield LoadCaseError(
                 quantity=quantity,
                 unit=unit,
-                load=load,
+                load=self.loads[quantity],
                 before=None if before is None else before.typical,
                 before_at_least=None if before is None else before.at_least,
                 before_at_most=None if before is None else before.at_most,
@@ -413,12 +426,12 @@ class LoadCaseAssessment:
         )
         # a share of loads that hardly moved is no limit that an error can contradict
         limits_error = static is None or self.case.name != RECORDED
-        loads = (self.case.force_N, self.case.moment_Nm)
         expected = self._expected_there()
-        for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
+        for quantity, unit, _ in self.quantities:
+            allowed = self.limits[quantity]
             error: MeasuredError = getattr(self.measured, quantity)
             if limits_error:
-                yield from self._constant(error, quantity, unit, allowed, load)
+                yield from self._constant(error, quantity, unit, allowed, self.loads[quantity])
             rest = f"on data that were not fitted its {quantity} error is {amount(error.rest, unit)} (RMS)"
             if error.rest_at_least > allowed and limits_error:
                 text = f"{rest} without the constant part, {amount(allowed, unit)} allowed"

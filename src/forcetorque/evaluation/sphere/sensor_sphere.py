@@ -371,6 +371,7 @@ def _corrections(
     run: SensorRun, calibrations: Mapping[str, Calibration]
 ) -> list[tuple[str, Correction, Calibration | None]]:
     """Ways to read a sensor by name, the prior first and with no offset removed: the centre is what is looked for."""
+    run.sensor.require_six_components("the sphere of the weight")
     if run.sensor.prior is None and not calibrations:
         raise ExperimentError("raw counts become forces by a calibration or a prior matrix")
     prior = [] if run.sensor.prior is None else [(PRIOR, Correction.without_offset(run.sensor), None)]

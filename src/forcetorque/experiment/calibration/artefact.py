@@ -26,7 +26,7 @@ from forcetorque.experiment.calibration.model_error import ModelError
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
 from forcetorque.experiment.calibration.quadratic_correction import LinearityTest, NonlinearTrial, QuadraticCorrection
-from forcetorque.experiment.calibration.sensor_model import WrenchModel, secondary_matrix
+from forcetorque.experiment.calibration.sensor_model import WrenchModel, measured_components, secondary_matrix
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
@@ -305,9 +305,9 @@ class Calibration(StoredTable):
         """Give the matrix that corrects a stream made with the prior (5.20), for the linear part of the reading.
 
         Returns:
-            `C C_prior^-1`; shape (6, 6); None where there is no prior or it has not six channels.
+            `C C_prior^-1`; shape (6, 6); None where there is no prior or it has not six channels and components.
         """
-        if self.prior is None or self.matrix.shape != (6, 6):
+        if self.prior is None or self.matrix.shape != (6, 6) or not measured_components(self.matrix).all():
             return None
         return secondary_matrix(self.matrix, self.prior.matrix)
 

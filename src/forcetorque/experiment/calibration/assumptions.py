@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.calibration.model_error import MountTolerance
-from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, measured_components
 
 ACCURACY_SHARE: Final = 1e-3
 """Accuracy of the reference where nobody states it, as a share of the full scale."""
@@ -120,6 +120,11 @@ class Assumptions(ArrayRecord):
     """Share of its response by which the sensor differs from one motion to the next; only widens the covariance."""
     mount: MountTolerance = MountTolerance()
     """How far the frame of the sensor may be from that of the robot model, where the model may be wrong."""
+    load_full_scale: FloatArray | None = field(default=None, metadata=array(6))
+    """Largest loads of a sensor that measures fewer than six components; shape (6,); N, N m.
+
+    One in a component that is not measured may move a channel as far as one in a component that is.
+    """
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -212,7 +217,10 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) ->
     size = np.sqrt((scaled**2).mean(axis=1))
     accuracy = assumptions.reference_accuracy(matrix)
     spread = sensor_root(response)
-    if channels == LOADS and in_wrench:
+    if assumptions.load_full_scale is not None:
+        disturbances = np.diag(~measured_components(matrix) / assumptions.load_full_scale)
+        spread = sensor_root(np.vstack([response, disturbances]))
+    if channels == LOADS and in_wrench and size.all():
         return Rows(
             space="wrench",
             unit=size,
@@ -225,7 +233,8 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) ->
             accuracy=accuracy / size,
         )
     _, strengths, directions = np.linalg.svd(response, full_matrices=False)
-    readings: FloatArray = np.sqrt(LOADS / channels) * strengths[:, None] * directions
+    readings = np.zeros((LOADS, LOADS))
+    readings[: len(strengths)] = np.sqrt(LOADS / channels) * strengths[:, None] * directions
     squares = np.einsum("ji,iab->jab", response**2, FRAME_ROOTS @ FRAME_ROOTS)
     return Rows(
         space="channel",

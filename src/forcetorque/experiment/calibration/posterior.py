@@ -119,6 +119,18 @@ class Posterior(StoredTable):
     """Errors of the robot model; None where it was taken as exact."""
 
     @property
+    def cross_talk(self) -> FloatArray:
+        """What the sensor reads of loads in components that it does not measure, which nothing corrects.
+
+        Returns:
+            Reading per load; shape (6, 6); zeros for a sensor of six components.
+        """
+        measured = self.to_wrench.any(axis=1)
+        if measured.all():
+            return np.zeros((LOADS, LOADS))
+        return np.where(measured, 0.0, self.to_wrench @ self.mean[:, :LOADS])
+
+    @property
     def model_covariance(self) -> FloatArray | None:
         """Part of the covariance that would go if the robot model were known exactly; None where it was taken as exact.
 
@@ -137,7 +149,7 @@ class Posterior(StoredTable):
                 wrenches are changes of load.
 
         Returns:
-            Covariance of measured minus true wrench; shape (..., 6, 6).
+            Mean product of measured minus true wrench, in components that are measured; shape (..., 6, 6).
 
         Raises:
             ShapeError: If the shapes are not these, or there is no such session.
@@ -156,7 +168,9 @@ class Posterior(StoredTable):
             if session not in self.sessions:
                 raise ShapeError(f"no session is called {session!r}; {known_names(session, self.sessions)}")
             design[..., 6 + v + self.sessions.index(session)] = 1.0
-        return self._in_wrench(np.einsum("...j,ijk,...k->...i", design, self.covariance, design))
+        covariance = self._in_wrench(np.einsum("...j,ijk,...k->...i", design, self.covariance, design))
+        disturbed = load @ self.cross_talk.T
+        return covariance + disturbed[..., :, None] * disturbed[..., None, :]
 
     def prior_error_covariance(self, wrench: Any) -> FloatArray | None:
         """Predict the covariance of the error that the prior matrix makes of changes of load, before any data.
@@ -195,7 +209,8 @@ class Posterior(StoredTable):
         if before is None:
             return None
         after = self.learnt_error_covariance(np.eye(6))
-        ratios = np.einsum("kii->ki", after) / np.einsum("kii->ki", before)
+        measured = self.to_wrench.any(axis=1)
+        ratios = np.einsum("kii->ki", after)[:, measured] / np.einsum("kii->ki", before)[:, measured]
         return 1.0 - np.sqrt(ratios.mean(axis=1))
 
     def matrix_error(self, matrix: FloatArray) -> FloatArray:

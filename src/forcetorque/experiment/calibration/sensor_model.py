@@ -77,6 +77,17 @@ class WrenchModel(ArrayRecord):
     quadratic: QuadraticCorrection | None = None
     """What is taken off the wrench that these give; None for a linear sensor."""
 
+    def expected_reading(self, load: FloatArray) -> FloatArray:
+        """Give what the model would read without error.
+
+        Args:
+            load: Wrenches; shape (..., 6); N, N m.
+
+        Returns:
+            The same, with zeros for components that the sensor does not measure.
+        """
+        return np.where(measured_components(self.matrix), load, 0.0)
+
     def wrench(self, raw: Any, variables: Any = None) -> FloatArray:
         """Turn readings into wrenches.
 
@@ -143,6 +154,18 @@ class WrenchModel(ArrayRecord):
             coefficients=coefficients,
             reference_values=np.zeros(variables),
         )
+
+
+def measured_components(matrix: FloatArray) -> BoolArray:
+    """Tell which components of a wrench a sensor measures: rows of its matrix that are not zero.
+
+    Args:
+        matrix: Calibration matrix; shape (6, c); N/count, N m/count.
+
+    Returns:
+        Whether it measures each; shape (6,).
+    """
+    return (matrix != 0.0).any(axis=1)
 
 
 _WORST_CONDITION = 1e12

@@ -259,6 +259,8 @@ class RecordingMoments(StoredTable):
     """File that it came from."""
     full_scale: _Vector
     """Full scale of every channel; counts, or N and N m where a wrench stands for counts."""
+    load_full_scale: _Wrench | None = None
+    """Largest loads of a sensor of fewer than six components; N, N m; None for one of six."""
     accuracy: _Wrench | None
     """Accuracy of the reference; N, N m; None for 1e-3 of full scale."""
     repeatability: float
@@ -289,6 +291,7 @@ class RecordingMoments(StoredTable):
         """What is known beside data and prior."""
         return Assumptions(
             full_scale=self.full_scale,
+            load_full_scale=self.load_full_scale,
             accuracy=self.accuracy,
             repeatability=self.repeatability,
             mount=MountTolerance(rotation_rad=self.mount_rotation_rad, shift_m=self.mount_shift_m),
@@ -358,6 +361,7 @@ def _compared(recording: RecordingMoments) -> dict[str, Any]:
         "mounting (frame, direction)": f"{sensor.frame}, {sensor.measure_direction.value}",
         "prior matrix": None if recording.prior is None else recording.prior.tolist(),
         "full scale": recording.full_scale.tolist(),
+        "full scale of loads": None if recording.load_full_scale is None else recording.load_full_scale.tolist(),
         "accuracy": None if recording.accuracy is None else recording.accuracy.tolist(),
         "repeatability": recording.repeatability,
         "tolerance of the mount (rotation, shift)": [recording.mount_rotation_rad, recording.mount_shift_m],

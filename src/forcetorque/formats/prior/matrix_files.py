@@ -125,7 +125,7 @@ def _rows(text: str) -> FloatArray | None:
     if len(lines) != 6:
         return None
     cells = [line.replace(",", " ").replace(";", " ").split() for line in lines]
-    if len({len(row) for row in cells}) != 1 or not 1 < len(cells[0]) <= _MOST_CHANNELS:
+    if len({len(row) for row in cells}) != 1 or not 1 <= len(cells[0]) <= _MOST_CHANNELS:
         return None
     try:
         rows = np.array([[float(cell) for cell in row] for row in cells])

@@ -91,7 +91,7 @@ def _disturbed(run: SensorRun) -> list[tuple[int, int]]:
     spans: list[tuple[int, int]] = []
     for interval in over_the_whole_log(run.experiment, supported):
         part = run.interval_samples(interval, variables=correction.variables, smoothed=False)
-        stamps, expected = part.samples.stamp_ns, part.samples.reference
+        stamps, expected = part.samples.stamp_ns, run.sensor.expected_reading(part.samples.reference)
         measured = part.readings.wrench(correction)
         block = (stamps - stamps[0]) // round(_BLOCK_S * 1e9)
         at_level = _at_one_level(block, measured - expected, expected)

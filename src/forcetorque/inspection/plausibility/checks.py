@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
-from forcetorque.experiment.calibration.sensor_model import is_invertible
+from forcetorque.experiment.calibration.sensor_model import is_invertible, measured_components
 from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
 from forcetorque.inspection.plausibility.reversed_sense_and_gain import (
     axis_doubts,
@@ -54,7 +54,8 @@ def examine(
             way round or by a factor that no sensor has, in all or in its moments.
         ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
     """
-    if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
+    measures_all = prior is None or bool(measured_components(np.asarray(prior)).all())
+    if prior is not None and np.shape(prior) == (6, 6) and measures_all and not is_invertible(prior):
         raise FitError("the prior matrix is singular, so no matrix corrects what it made")
     filled = [data for data in data_sets if len(data.raw)]
     if not filled:
@@ -74,7 +75,8 @@ def examine(
     doubts = [*span_doubts(movement, setup, has_prior=prior is not None)]
     if prior is not None:
         require_same_sign(movement, prior, setup)
-        require_moment_unit(movement, setup)
+        if measures_all:
+            require_moment_unit(movement, setup)
         doubts += [*scale_doubts(movement, prior, setup), *axis_doubts(movement, prior, setup)]
     return (*doubts, *delay_doubts(usable, prior))
 

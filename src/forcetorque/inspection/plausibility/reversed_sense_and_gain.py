@@ -12,6 +12,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.moments import DataSet, Moments
+from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
 
 _SPREAD = np.repeat([0.1, 0.2], 3)
@@ -35,7 +36,8 @@ class Gains(ArrayRecord):
     components: FloatArray = field(metadata=array(6))
     """Gain of each component; shape (6,)."""
     deviations: FloatArray = field(metadata=array(6))
-    """Standard deviation of each; infinite where the reference does not move; shape (6,)."""
+    """Standard deviation of each; infinite where the reference does not move or the sensor does not measure it; shape
+    (6,)."""
 
     @property
     def overall(self) -> float:
@@ -79,7 +81,10 @@ def gains_of(movement: Movement, prior: FloatArray) -> Gains:
     size = np.where(movement.size > 0.0, movement.size, movement.size.max())  # a component may never be loaded
     noise = np.maximum(noise, np.maximum(_ROUNDING * size, np.finfo(float).tiny))
     scale = _SPREAD * np.sqrt((prior**2).mean(axis=1))
-    fits = [_gain(reading[:, i], reference[:, i], scale[i] * counts, noise[i]) for i in range(6)]
+    fits = [
+        _gain(reading[:, i], reference[:, i], scale[i] * counts, noise[i]) if measured else (1.0, float("inf"))
+        for i, measured in enumerate(measured_components(prior))
+    ]
     return Gains(components=np.array([gain for gain, _ in fits]), deviations=np.array([spread for _, spread in fits]))
 
 

@@ -307,6 +307,7 @@ def readers_of(
         offsets: dict[str, SensorOffset] = {}
         by_prior: list[str] = []
         for sensor in experiment.sensors:
+            sensor.require_six_components("the net force of all contacts")
             run = SensorRun(experiment, sensor)
             if sensor.name in chosen:
                 correction = run.read_by(*chosen[sensor.name])
