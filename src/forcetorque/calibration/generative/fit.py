@@ -330,13 +330,13 @@ class SolvedRows:
         response = rows.from_load * unit[:, None] + change
         precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
         measured = measured_components(self.matrix)
-        own = response[:, measured]
+        own: FloatArray = response[:, measured]
         weighed: FloatArray = precision * own
         if self.assumptions.load_full_scale is not None:
             # loads in other components disturb the channels as noise does
             disturbed = response[:, ~measured] * self.assumptions.load_full_scale[~measured]
-            noise_covariance = np.diag(1.0 / precision[:, 0]) + disturbed @ disturbed.T
-            weighed = np.asarray(np.linalg.solve(noise_covariance, own), dtype=np.float64)
+            covariance = np.diag(1.0 / precision[:, 0]) + disturbed @ disturbed.T
+            weighed = np.asarray(np.linalg.solve(covariance, own), dtype=np.float64)
         matrix = np.zeros((LOADS, len(response)))
         matrix[measured] = np.linalg.solve(own.T @ weighed, weighed.T)
         return matrix, matrix
