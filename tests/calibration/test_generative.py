@@ -284,7 +284,7 @@ def test_without_a_prior_a_direction_that_is_hardly_loaded_is_named() -> None:
 def test_five_channels_are_refused() -> None:
     """Six directions of load need six channels."""
     data = read_by(anyhow(), response=np.linalg.inv(MOUNTED)[:5])
-    with pytest.raises(FitError, match="at least six channels.*got 5"):
+    with pytest.raises(FitError, match="at least 6 channels.*got 5"):
         fit_generative([data], None, assumptions(channels=5))
 
 

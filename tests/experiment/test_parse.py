@@ -248,7 +248,8 @@ TABLES = {
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),
     "[[sensor]]": (
         r"sensor\[0\]",
-        "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, measurement_noise, "
+        "allowed_gains, amplifier_gain, components, frame, full_scale, joint, limit_counts, measure_direction, "
+        "measurement_noise, "
         "measurement_offset_sd, mount, name, prior, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
