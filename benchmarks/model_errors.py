@@ -4,9 +4,9 @@
 The biped hangs by its pelvis and moves a limb; the experiment file names the nominal URDF, gravity along -z and a prior
 matrix, and nothing of an error. A family is one kind of error; all families of a seed share sensor, motion and noise.
 The prior is wrong in every family: each coefficient of the true matrix differs by 2 % of the root mean square of its
-row (3 % and 6 % in "coefficients 3 %" and "6 %"), some 9 N and 0.13 N m of a push of 50 N. In "dense 2 %" it reads w as `(1 + E) w`
-instead, the coefficients of E having a root mean square of 2 % with moments over 0.07 m: an error without the structure
-of the sensor. In "turned alone" it is right but for the frame. "together" has small errors of many kinds.
+row (or as the name of the family has it), some 9 N and 0.13 N m of a push of 50 N. In "dense 2 %" it reads w as
+`(1 + E) w` instead, the coefficients of E having a root mean square of 2 % with moments over 0.07 m: an error without
+the structure of the sensor. In "turned alone" it is right but for the frame. "together" has small errors of many kinds.
 Link masses and joint zeros are normal with the stated deviation, for all links and joints; the turn and shift of
 a frame, the tilt of the base, and the delay of the sensor's stamps are exactly what is stated, in random directions. A
 contact is 3 s long, of constant direction, and comes once in a recording of `grid` and of `tz`. Pushes and their truth
