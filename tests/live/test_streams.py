@@ -239,6 +239,24 @@ def test_jitter_loses_nothing(clock: float) -> None:
     assert account.counts.lost == 2
 
 
+@pytest.mark.parametrize("clock", [0.95, 0.98, 0.99, 1.01, 1.02, 1.04])
+def test_the_rate_is_that_of_the_stamps(clock: float) -> None:
+    """A sender that is slower or faster than stated, with a jitter of a twentieth, loses what it did not send."""
+    rng, account, missing = np.random.default_rng(11), PacketAccount(100.0), {150, 151, 900, 1500}
+    for k in range(2000):
+        if k not in missing:
+            account.add(Packet(values=RAW, stamp_ns=round(clock * k * 1e7 + rng.normal(0.0, 5e5))))
+    assert account.counts.lost == len(missing)
+
+
+def test_a_sender_at_half_the_stated_rate_loses_half() -> None:
+    """The rate is not followed as far as that."""
+    account = PacketAccount(100.0)
+    for k in range(1000):
+        account.add(Packet(values=RAW, stamp_ns=k * 20_000_000))
+    assert account.counts.lost == 999
+
+
 def test_a_gap_of_millions_takes_no_memory() -> None:
     """Of a long gap only the last numbers may still come late."""
     account = PacketAccount()
