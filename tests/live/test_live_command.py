@@ -17,6 +17,8 @@ import pytest
 
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.formats.ros.bag import opened_bag
+from forcetorque.formats.ros.wrench_message import read_wrench
 from tests.app.outcome import Run
 from tests.scenes.calibrations import make_calibration
 from tests.scenes.experiments import PARQUET
@@ -57,6 +59,17 @@ def test_lines_and_account_may_be_json(fitted: Path, run: Run, monkeypatch: pyte
     )
     assert json.loads(outcome.out.splitlines()[0])["sensor"] == "arm_ft"
     assert json.loads(outcome.err)["packets"]["lost"] == 0
+
+
+def test_a_recording_becomes_a_bag(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a wrench for every sample, in the frame that is called as the sensor."""
+    pytest.importorskip("rosbags")
+    monkeypatch.chdir(fitted)
+    assert run("live", "arm.json", "--replay", PARQUET, "--speed", 0, "-o", "live.mcap", "--lines", "none").code == 0
+    with opened_bag(Path("live.mcap")) as bag:
+        messages = [bytes(data) for _, part in bag.messages("/arm_ft/wrench") for data in part]
+    assert len(messages) == 1200
+    assert read_wrench(messages[0])[1] == "arm_ft"
 
 
 def test_what_cannot_be_done_is_refused(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,9 +17,11 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.base.output_file import is_replaceable
+from forcetorque.formats.ros.wrench_message import read_wrench
 from forcetorque.live import outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.mcap_output import mcap_file
 from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, parquet_file
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.result import LiveRun
@@ -385,6 +387,26 @@ def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.Mon
         raise FormatError("broken")
     assert [path.name for path in tmp_path.iterdir()] == ["live.parquet"]
     assert is_replaceable(file)  # the same command may run again
+
+
+def test_a_file_of_ros_holds_wrenches_without_faults(tmp_path: Path) -> None:
+    """Read back as a bag; the status says where samples are left out; a wrench that is held is kept."""
+    pytest.importorskip("rosbags")
+    from forcetorque.formats.ros.bag import opened_bag
+
+    rows = [CorrectedRow(10**9 + k, "leg", tuple(np.arange(12.0) + k), 2 if k in (3, 4) else 0) for k in range(6)]
+    for with_faults in (False, True):
+        file = tmp_path / f"live_{with_faults}.mcap"
+        with mcap_file(file, {"leg": "leg_frame"}, with_faults=with_faults) as output:
+            for row in rows:
+                output.write(row)
+        with opened_bag(file) as bag:
+            messages = {topic: [data for _, part in bag.messages(topic) for data in part] for topic in bag.types}
+        wrenches = [read_wrench(bytes(data)) for data in messages["/leg/wrench"]]
+        expected = [row for row in rows if with_faults or not row.status]
+        assert wrenches == [(row.stamp_ns, "leg_frame", row.values[:6]) for row in expected]
+        assert read_wrench(bytes(messages["/leg/half_width_95"][0]))[2] == rows[0].values[6:]
+        assert [bytes(data)[8:-1].decode() for data in messages["/leg/status"]] == ["ok", "saturated", "ok"]
 
 
 def test_datagrams_go_to_this_machine_only() -> None:

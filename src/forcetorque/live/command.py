@@ -131,7 +131,7 @@ def live(
     silence: Annotated[float, typer.Option("--silence", help="Time without a packet that is counted, s.")] = 2.0,
     lines: Annotated[Lines, typer.Option("--lines", help="Form of the lines on standard output.")] = Lines.CSV,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="Parquet file of all corrected samples.")
+        Path | None, typer.Option("--output", "-o", help="File of all corrected samples: .parquet, or .mcap for ROS 2.")
     ] = None,
     udp: Annotated[
         str | None, typer.Option("--udp", help="Loopback address of a UDP server of PlotJuggler, as 127.0.0.1:9870.")
@@ -155,7 +155,9 @@ def live(
     import signal
     import time
 
+    from forcetorque.live.mcap_output import mcap_file
     from forcetorque.live.outputs import (
+        MCAP,
         CsvOutput,
         JsonLinesOutput,
         UdpOutput,
@@ -193,7 +195,10 @@ def live(
             datagrams = UdpOutput(udp)
             stack.callback(datagrams.close)
             outputs.append(datagrams)
-        if output is not None:
+        if output is not None and output.suffix == MCAP:
+            frames = {one.sensor.name: frame or one.sensor.name for one in read.values()}
+            outputs.append(stack.enter_context(mcap_file(output, frames, with_faults=policy is FaultPolicy.HOLD)))
+        elif output is not None:
             outputs.append(stack.enter_context(parquet_file(output)))
         shown = Watch(
             sys.stderr, clock=clock, period_s=0.2 if sys.stderr.isatty() else 1.0, in_place=sys.stderr.isatty()
