@@ -11,7 +11,7 @@ from typing import Any
 
 from forcetorque.formats.ros.mcap_writer import mcap_writer, typestore
 from forcetorque.formats.ros.messages import WRENCH_TYPE
-from forcetorque.formats.ros.wrench_message import WrenchEncoder
+from forcetorque.formats.ros.wrench_message import encoder_of
 from forcetorque.live.outputs import CorrectedRow
 from forcetorque.live.sample_status import FAULTS, status_text
 
@@ -27,11 +27,11 @@ class McapOutput:
         Args:
             writer: Writer of rosbags.
             types: Types of messages of ROS 2.
-            frames: Frame of the header by sensor.
+            frames: Frame of the header by sensor, as it is when a sample is written.
             with_faults: Whether samples with a fault have a wrench too.
         """
         self._writer, self._types, self._with_faults = writer, types, with_faults
-        self._encoders = {sensor: WrenchEncoder(frame) for sensor, frame in frames.items()}
+        self._frames = frames
         self._topics = {
             (sensor, name): writer.add_connection(f"/{sensor}/{name}", kind, typestore=types)
             for sensor in frames
@@ -42,7 +42,7 @@ class McapOutput:
     def write(self, row: CorrectedRow) -> None:
         """Write messages, as of `Output`."""
         if self._with_faults or not row.status & FAULTS:
-            encoder = self._encoders[row.sensor]
+            encoder = encoder_of(self._frames[row.sensor])
             for name, values in (("wrench", row.values[:6]), ("half_width_95", row.values[6:])):
                 if not math.isnan(values[0]):
                     message = encoder.encode(row.stamp_ns, values)
@@ -63,7 +63,7 @@ def mcap_file(path: Path, frames: Mapping[str, str], *, with_faults: bool) -> It
 
     Args:
         path: File to write or to replace.
-        frames: Frame of the header by sensor.
+        frames: Frame of the header by sensor, as it is when a sample is written.
         with_faults: Whether samples with a fault have a wrench too.
 
     Yields:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
+from functools import lru_cache
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.ros.messages import Cursor, joint_state, wrench_stamped
@@ -46,6 +47,19 @@ class WrenchEncoder:
         if not 0 <= seconds < 1 << 31:
             raise FormatError(f"stamp: expected seconds from 0 to 2^31 for a message of ROS 2, got {seconds}")
         return b"".join((self._head, _STAMP.pack(seconds, nanoseconds), self._frame, _WRENCH.pack(*values)))
+
+
+@lru_cache(maxsize=256)
+def encoder_of(frame: str) -> WrenchEncoder:
+    """Give the encoder of a frame.
+
+    Args:
+        frame: Frame of the header.
+
+    Returns:
+        The encoder, made once.
+    """
+    return WrenchEncoder(frame)
 
 
 def read_wrench(data: bytes) -> tuple[int, str, tuple[float, ...]]:
