@@ -156,6 +156,20 @@ def live(
         str | None, typer.Option("--udp", help="Loopback address of a UDP server of PlotJuggler, as 127.0.0.1:9870.")
     ] = None,
     watch: Annotated[bool, typer.Option("--watch", help="Show the state on standard error, in place.")] = False,
+    check: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--check",
+            help="Compare with a program that is given a file, PROGRAM=FILE: wholebodydynamics, gravity-filter, ur, "
+            "franka or kuka.",
+        ),
+    ] = None,
+    sensor_pose: Annotated[
+        tuple[float, float, float, float, float, float] | None,
+        typer.Option(
+            "--sensor-pose", help="Pose x y z (m) roll pitch yaw (rad) of the sensor in the flange, for an arm."
+        ),
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: Annotated[
@@ -184,6 +198,7 @@ def live(
         parquet_file,
         refuse_other_names,
     )
+    from forcetorque.live.program_check import program_checks
     from forcetorque.live.ros_topics import RosOutput, RosSource
     from forcetorque.live.run import LiveLoop
     from forcetorque.live.settings import read_settings
@@ -214,6 +229,7 @@ def live(
         source, correctors = make_run(
             settings, tuple(read.values()), descriptor=_STANDARD_INPUT, warn=log.warning, ros=ros
         )
+        checks = program_checks(check or [], correctors, sensor_pose=sensor_pose)
         names = [one.sensor.name for one in read.values()]
         frames = source.frames if isinstance(source, RosSource) else {name: frame or name for name in names}
         outputs: list[Output] = []
@@ -241,6 +257,7 @@ def live(
             clock=clock,
             silence_s=silence,
             warn=log.warning,
+            checks=checks,
             **({"show": shown.show} if watch else {}),
         )
         # to be terminated ends a run as Ctrl-C does: with its file and its account

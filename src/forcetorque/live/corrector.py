@@ -120,6 +120,11 @@ class Corrector:
         return np.zeros(len(self._terms), dtype=np.bool_) if self._tare is None else self._tare.collecting.copy()
 
     @property
+    def weight(self) -> FloatArray:
+        """What the tool adds to the last reading; shape (s, 6); N, N m; overwritten by the next sample."""
+        return self._weight
+
+    @property
     def variables(self) -> tuple[tuple[str, ...], ...]:
         """Names of the variables of every sensor, in the order in which `correct` takes them."""
         return tuple(term.variables for term in self._terms)
