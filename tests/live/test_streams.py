@@ -7,6 +7,7 @@ import json
 import os
 import socket
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Any
@@ -401,6 +402,8 @@ def test_a_file_of_ros_holds_wrenches_without_faults(tmp_path: Path) -> None:
         with mcap_file(file, {"leg": "leg_frame"}, with_faults=with_faults) as output:
             for row in rows:
                 output.write(row)
+            output.write(replace(rows[0], stamp_ns=-1))
+        assert output.lost == 1
         with opened_bag(file) as bag:
             messages = {topic: [data for _, part in bag.messages(topic) for data in part] for topic in bag.types}
         wrenches = [read_wrench(bytes(data)) for data in messages["/leg/wrench"]]

@@ -188,7 +188,7 @@ def live(
     import signal
     import time
 
-    from forcetorque.live.mcap_output import mcap_file
+    from forcetorque.live.mcap_output import McapOutput, mcap_file
     from forcetorque.live.outputs import (
         MCAP,
         CsvOutput,
@@ -236,15 +236,18 @@ def live(
         if ros is not None:
             sent = ros_topics(settings, names)[1]
             outputs.append(RosOutput(ros, sent, frames, domain=domain, with_faults=policy is FaultPolicy.HOLD))
-        datagrams = None
+        losing: list[UdpOutput | McapOutput] = []
         if lines is not Lines.NONE:
             outputs.append(CsvOutput(sys.stdout) if lines is Lines.CSV else JsonLinesOutput(sys.stdout))
         if udp is not None:
             datagrams = UdpOutput(udp)
             stack.callback(datagrams.close)
             outputs.append(datagrams)
+            losing.append(datagrams)
         if output is not None and output.suffix == MCAP:
-            outputs.append(stack.enter_context(mcap_file(output, frames, with_faults=policy is FaultPolicy.HOLD)))
+            bag = stack.enter_context(mcap_file(output, frames, with_faults=policy is FaultPolicy.HOLD))
+            outputs.append(bag)
+            losing.append(bag)
         elif output is not None:
             outputs.append(stack.enter_context(parquet_file(output)))
         shown = Watch(
@@ -265,7 +268,7 @@ def live(
         ended_by = loop.run()
         if watch:
             shown.show(loop, at_once=True)
-    result = loop.result(ended_by, 0 if datagrams is None else datagrams.lost)
+    result = loop.result(ended_by, sum(one.lost for one in losing))
     if output is not None:
         result = result.model_copy(update={"output_file": str(output)})
     with redirect_stdout(sys.stderr):  # standard output is for lines

@@ -11,7 +11,7 @@ from typing import Any
 
 from forcetorque.formats.ros.mcap_writer import mcap_writer, typestore
 from forcetorque.formats.ros.messages import WRENCH_TYPE
-from forcetorque.formats.ros.wrench_message import encoder_of
+from forcetorque.formats.ros.wrench_message import encoder_of, has_time_for
 from forcetorque.live.outputs import CorrectedRow
 from forcetorque.live.sample_status import FAULTS, status_text
 
@@ -38,9 +38,14 @@ class McapOutput:
             for name, kind in (("wrench", WRENCH_TYPE), ("half_width_95", WRENCH_TYPE), ("status", _TEXT_TYPE))
         }
         self._statuses: dict[str, int] = {}
+        self.lost = 0
+        """Samples whose stamp a message does not hold."""
 
     def write(self, row: CorrectedRow) -> None:
         """Write messages, as of `Output`."""
+        if not has_time_for(row.stamp_ns):
+            self.lost += 1
+            return
         if self._with_faults or not row.status & FAULTS:
             encoder = encoder_of(self._frames[row.sensor])
             for name, values in (("wrench", row.values[:6]), ("half_width_95", row.values[6:])):

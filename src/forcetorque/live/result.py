@@ -78,8 +78,8 @@ class LivePackets(Row):
     """Times that nothing came for longer than the limit."""
     longest_silence_s: Annotated[float, Shown("longest silence", "s", digits=1)]
     """Longest time without a packet; s."""
-    unsent: Annotated[int, Shown("datagrams not taken")]
-    """Datagrams of `--udp` that could not be sent."""
+    unsent: Annotated[int, Shown("samples not taken")]
+    """Samples that an output did not take: datagrams of `--udp`, and stamps before 1970 or after 2038 of a bag."""
 
 
 class LiveCheck(Row):
@@ -171,7 +171,7 @@ class LiveRun(Result):
             "frozen": row.frozen,
             "device errors": row.device_errors,
             "refused": row.refused,
-            "datagrams not taken": packets.unsent,
+            "not taken by an output": packets.unsent,
         }
         if counts := ", ".join(f"{count} {name}" for name, count in named.items() if count):
             yield f"{counts}."

@@ -150,7 +150,7 @@ class LiveLoop:
 
         Args:
             ended_by: Why it ended.
-            unsent: Datagrams that could not be sent.
+            unsent: Samples that an output did not take.
 
         Returns:
             The account.

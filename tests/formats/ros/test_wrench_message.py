@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.ros.mcap_writer import typestore
@@ -59,5 +61,21 @@ def test_what_is_no_message_is_refused() -> None:
         read_wrench(encoded[:-1])
     with pytest.raises(FormatError, match="little-endian"):
         read_wrench(b"\x00\x00" + encoded[2:])
+    with pytest.raises(FormatError, match="nanoseconds below"):
+        read_wrench(encoded[:7] + b"\xff" + encoded[8:])
     with pytest.raises(FormatError, match="seconds from 0"):
         WrenchEncoder("wrist").encode(-1, WRENCH)
+
+
+@given(st.data())
+def test_damaged_messages_are_refused_or_read(data: st.DataObject) -> None:
+    """Whatever bytes are changed, cut off or added: our error, or a message."""
+    message = bytearray(WrenchEncoder("wrist").encode(STAMP_NS, WRENCH))
+    for _ in range(data.draw(st.integers(1, 6))):
+        message[data.draw(st.integers(0, len(message) - 1))] = data.draw(st.integers(0, 255))
+    cut = bytes(message[: data.draw(st.integers(0, len(message)))]) + data.draw(st.binary(max_size=8))
+    for read in (read_wrench, read_positions):
+        try:
+            read(cut)
+        except FormatError:
+            continue

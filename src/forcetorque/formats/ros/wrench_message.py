@@ -11,8 +11,22 @@ from forcetorque.base.errors import FormatError
 from forcetorque.formats.ros.messages import Cursor, joint_state, wrench_stamped
 
 _NANO = 1_000_000_000
+_END_S = 1 << 31
+"""Seconds that a message no longer holds."""
 _STAMP = struct.Struct("<II")
 _WRENCH = struct.Struct("<6d")
+
+
+def has_time_for(stamp_ns: int) -> bool:
+    """Tell whether a message holds a stamp.
+
+    Args:
+        stamp_ns: The stamp; ns since 1970.
+
+    Returns:
+        Whether it is from 1970 to 2038.
+    """
+    return 0 <= stamp_ns < _END_S * _NANO
 
 
 class WrenchEncoder:
@@ -44,7 +58,7 @@ class WrenchEncoder:
             FormatError: If the stamp is before 1970 or after 2038, which the seconds of a message do not hold.
         """
         seconds, nanoseconds = divmod(stamp_ns, _NANO)
-        if not 0 <= seconds < 1 << 31:
+        if not has_time_for(stamp_ns):
             raise FormatError(f"stamp: expected seconds from 0 to 2^31 for a message of ROS 2, got {seconds}")
         return b"".join((self._head, _STAMP.pack(seconds, nanoseconds), self._frame, _WRENCH.pack(*values)))
 
@@ -92,4 +106,8 @@ def read_positions(data: bytes) -> tuple[int, tuple[str, ...], tuple[float, ...]
 
 def _stamp_ns(data: bytes, place: int) -> int:
     seconds, nanoseconds = _STAMP.unpack_from(data, place)
+    if seconds >= _END_S or nanoseconds >= _NANO:
+        raise FormatError(
+            f"stamp: expected seconds from 0 to 2^31 and nanoseconds below 10^9, got {seconds}, {nanoseconds}"
+        )
     return int(seconds * _NANO + nanoseconds)
