@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.base.errors import FormatError, RecordingError
+from forcetorque.base.errors import FormatError, MissingExtraError, RecordingError
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import WrenchEncoder, read_wrench
@@ -33,6 +33,7 @@ from forcetorque.live.ros_topics import (
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.settings import Settings
 from forcetorque.live.stated_source import make_run
+from forcetorque.live.zenoh_session import zenoh_session
 from forcetorque.simulation.robots import ARM_URDF
 from tests.scenes.calibrations import FACTORY, make_calibration
 
@@ -228,6 +229,13 @@ def test_a_frame_must_be_a_link() -> None:
     )  # fmt: skip
     with pytest.raises(RecordingError, match="--frame nowhere: expected a link"):
         make_run(settings, [make_calibration()], descriptor=0, warn=lambda _: None, ros=Loopback())
+
+
+def test_without_zenoh_its_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As the line that installs it."""
+    monkeypatch.setitem(sys.modules, "zenoh", None)
+    with pytest.raises(MissingExtraError, match=r"forcetorque\[zenoh\]"), zenoh_session():
+        pass
 
 
 @pytest.mark.long
