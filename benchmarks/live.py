@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Live correction: what a call costs, bias of a tare on a moving arm, a drift that is tracked, an hour of samples.
+"""Live correction: cost of a call, bias of a tare on a moving arm, a drift that is tracked, losses, an hour of samples.
 
 The peer is a plain loop of `matrix @ x + b` over six sensors in the same run; it gives no interval and no status.
 """
@@ -27,7 +27,7 @@ from forcetorque.live.bias_tracking import Tracking
 from forcetorque.live.choices import OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.outputs import parquet_file
-from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.tool import Tool
 from forcetorque.simulation.sensor import y_shaped_matrix
@@ -208,6 +208,30 @@ def one_hour(count: int) -> dict[str, float]:
     }
 
 
+def miscounted_losses(seeds: Iterable[int], *, clock: float, jitter: float) -> tuple[int, int]:
+    """Count losses by time where a sender of 500 Hz, as stated, is off its rate and 1 % of its samples are lost.
+
+    Args:
+        seeds: A run of 5000 samples each.
+        clock: Its period over the stated one.
+        jitter: Standard deviation of its stamps; periods.
+
+    Returns:
+        Largest difference between counted and lost samples of a run, and samples that were lost in all runs.
+    """
+    period_ns, worst, lost = 2e6, 0, 0
+    for seed in seeds:
+        rng, account = np.random.default_rng(seed), PacketAccount(500.0)
+        sent = rng.random(5000) >= 0.01
+        sent[[0, -1]] = True
+        stamps = (clock * np.arange(5000) + rng.normal(0.0, jitter, 5000)) * period_ns
+        for stamp in np.round(stamps[sent]).astype(np.int64).tolist():
+            account.add(Packet(values=np.zeros((1, 6)), stamp_ns=stamp))
+        worst = max(worst, abs(account.counts.lost - int((~sent).sum())))
+        lost += int((~sent).sum())
+    return worst, lost
+
+
 def cost_of_calls(rounds: int) -> tuple[dict[str, list[float]], float]:
     """Time calls for six sensors, one by one, in turn with the peer.
 
@@ -256,6 +280,11 @@ def main() -> None:
         "tares_inside_of_100": tares_of_a_moving_arm(range(100)),
         "drift_error_N": contact.error_N,
         "moved_in_contact_of_5_N_for_60_s_N": contact.moved_in_contact_N,
+        "losses_miscounted": {
+            f"period {clock:g}, jitter {jitter:g}": miscounted_losses(range(21, 31), clock=clock, jitter=jitter)
+            for clock in (0.95, 0.98, 0.99, 1.0, 1.01, 1.02, 1.05)
+            for jitter in (0.05, 0.1, 0.25)
+        },
         "hour": one_hour(36_000 if options.quick else 3_600_000),
     }
     write_result(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from forcetorque.live.compiled_sample import compiled_sample
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.motion import RootMotion
@@ -29,3 +30,4 @@ if __name__ == "__main__":
     candidate_errors(
         np.zeros((1, 6)), np.zeros((1, 6)), np.zeros((1, 6, 6)), np.zeros((1, 6)), evaluator=Evaluator.COMPILED
     )
+    compiled_sample()

@@ -213,6 +213,7 @@ DISTRIBUTIONS = {
     "pydantic_core": "pydantic",
     "rerun": "rerun-sdk",
     "sklearn": "scikit-learn",
+    "zenoh": "eclipse-zenoh",
 }
 """Distribution of an importable name, where they differ."""
 

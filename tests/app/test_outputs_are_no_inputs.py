@@ -28,6 +28,7 @@ INPUT_OPTIONS = {
     "--plan",
     "--population",
     "--replay",
+    "--robot",
     "--resume",
     "--spec",
     "--stream",

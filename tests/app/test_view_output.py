@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment import loading
 from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.viewer.mcap_file import typestore
+from forcetorque.formats.ros.mcap_writer import typestore
 from tests.app.outcome import Run
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.scenes.experiments import PARQUET

@@ -35,7 +35,7 @@ def test_a_part_of_the_bias_is_linear_in_temperature() -> None:
     for k in range(4500):
         warmth = np.array([25.0 + 10.0 * k / 4500])
         noise = rng.normal(0.0, [0.1] * 3 + [0.002] * 3)
-        tracker.add((slope * (warmth - 25.0) + noise)[None], k * STEP_NS, warmth, [True])
+        tracker.add((slope * (warmth - 25.0) + noise)[None], k * STEP_NS, warmth)
     assert not tracker.in_contact.any()
     assert np.abs(tracker.bias[0] - 10.0 * slope).max() < 0.15
     assert np.abs(tracker.coefficient[0] - slope)[:3].max() < 0.1
@@ -46,7 +46,7 @@ def test_a_sensor_without_samples_keeps_its_bias_and_widens() -> None:
     tracker = BiasTracker(Tracking(), np.zeros((2, 6)), np.full((2, 6), 1e-4))
     before = tracker.variance[1].copy()
     for k in range(500):
-        tracker.add(np.full((2, 6), 0.02), k * STEP_NS, None, [True, False])
+        tracker.add(np.full((2, 6), 0.02), k * STEP_NS, None, np.array([True, False]))
     assert tracker.bias[1].tolist() == [0.0] * 6
     assert (tracker.variance[1] > before).all()
     assert tracker.bias[0, 0] > 0.005

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -241,6 +242,33 @@ def test_what_is_missing_is_refused() -> None:
         Corrector(make_calibration(), CorrectorOptions(session="monday"))
     with pytest.raises(RecordingError, match="at least one"):
         Corrector([])
+
+
+def test_a_call_allocates_nothing_that_stays() -> None:
+    """With all that a sample may meet: a tool, a tracked bias, faults that are held."""
+    tool = Tool(mass_kg=0.8, centre_m=np.array([0.01, 0.0, 0.05]))
+    options = CorrectorOptions(offset=OffsetSource.TRACKED, tare_s=0.05, tool=tool, policy=FaultPolicy.HOLD)
+    corrector, gravity, rng = (
+        Corrector(make_calibration(), options),
+        np.array([0.0, 0.0, -9.81]),
+        np.random.default_rng(0),
+    )
+    samples, sizes = RAW + rng.normal(0.0, 1.0, (400, 6)), []
+    samples[300] = np.nan
+    tracemalloc.start()
+    for k, sample in enumerate(samples):
+        corrector.correct(sample, stamp_ns=k * 10 * MS, gravity=gravity)
+        if k in (199, 399):
+            sizes.append(tracemalloc.get_traced_memory()[0])
+    tracemalloc.stop()
+    assert corrector.tracker is not None
+    assert sizes[1] - sizes[0] < 1000  # of an array per sample it would be 20 kB
+
+
+def test_a_time_beyond_64_bits_is_refused() -> None:
+    """By its name."""
+    with pytest.raises(RecordingError, match="64 bits"):
+        Corrector(make_calibration()).correct(RAW, stamp_ns=1 << 63)
 
 
 def test_the_program_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,8 +15,11 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.formats.ros.bag import opened_bag
+from forcetorque.formats.ros.wrench_message import read_wrench
 from tests.app.outcome import Run
 from tests.scenes.calibrations import make_calibration
 from tests.scenes.experiments import PARQUET
@@ -32,7 +35,9 @@ def fitted(arm: Path) -> Path:
 def test_a_recording_is_replayed(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every sample is a line and a row of the file; the account is the answer first, within twelve lines."""
     monkeypatch.chdir(fitted)
-    outcome = run("live", "arm.json", "--replay", PARQUET, "--speed", 0, "-o", "live.parquet", "--watch", columns=80)
+    write_groups("arm.xml", [from_calibration(read_calibration("arm.json"))])
+    replay = ("--replay", PARQUET, "--speed", 0, "--check", "wholebodydynamics=arm.xml")
+    outcome = run("live", "arm.json", *replay, "-o", "live.parquet", "--watch", columns=80)
     assert outcome.code == 0
     rows = list(csv.DictReader(io.StringIO(outcome.out)))
     raw = load_experiment(PARQUET).recording.stream("arm_ft").signal("raw").values
@@ -44,6 +49,7 @@ def test_a_recording_is_replayed(fitted: Path, run: Run, monkeypatch: pytest.Mon
     assert "\x1b" not in watched  # no terminal
     assert account.startswith(" ")
     assert "1200 samples, losses not countable, 0 with faults" in account
+    assert "wholebodydynamics differs by at most" in account
     assert "written: live.parquet" in account
     assert account.count("\n") <= 12
     assert max(map(len, account.splitlines())) <= 80
@@ -57,6 +63,17 @@ def test_lines_and_account_may_be_json(fitted: Path, run: Run, monkeypatch: pyte
     )
     assert json.loads(outcome.out.splitlines()[0])["sensor"] == "arm_ft"
     assert json.loads(outcome.err)["packets"]["lost"] == 0
+
+
+def test_a_recording_becomes_a_bag(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a wrench for every sample, in the frame that is called as the sensor."""
+    pytest.importorskip("rosbags")
+    monkeypatch.chdir(fitted)
+    assert run("live", "arm.json", "--replay", PARQUET, "--speed", 0, "-o", "live.mcap", "--lines", "none").code == 0
+    with opened_bag(Path("live.mcap")) as bag:
+        messages = [bytes(data) for _, part in bag.messages("/arm_ft/wrench") for data in part]
+    assert len(messages) == 1200
+    assert read_wrench(messages[0])[1] == "arm_ft"
 
 
 def test_what_cannot_be_done_is_refused(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

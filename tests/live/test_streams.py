@@ -7,6 +7,7 @@ import json
 import os
 import socket
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Any
@@ -17,16 +18,19 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.base.output_file import is_replaceable
+from forcetorque.formats.ros.wrench_message import read_wrench
 from forcetorque.live import outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.mcap_output import mcap_file
 from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, parquet_file
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.result import LiveRun
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import Status
-from forcetorque.live.settings import Settings, make_run
+from forcetorque.live.settings import Settings
 from forcetorque.live.sources import LONGEST_LINE, LineSource
+from forcetorque.live.stated_source import make_run
 from forcetorque.live.text_lines import LineForm, MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
 from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 
@@ -239,6 +243,24 @@ def test_jitter_loses_nothing(clock: float) -> None:
     assert account.counts.lost == 2
 
 
+@pytest.mark.parametrize("clock", [0.95, 0.98, 0.99, 1.01, 1.02, 1.04])
+def test_the_rate_is_that_of_the_stamps(clock: float) -> None:
+    """A sender that is slower or faster than stated, with a jitter of a twentieth, loses what it did not send."""
+    rng, account, missing = np.random.default_rng(11), PacketAccount(100.0), {150, 151, 900, 1500}
+    for k in range(2000):
+        if k not in missing:
+            account.add(Packet(values=RAW, stamp_ns=round(clock * k * 1e7 + rng.normal(0.0, 5e5))))
+    assert account.counts.lost == len(missing)
+
+
+def test_a_sender_at_half_the_stated_rate_loses_half() -> None:
+    """The rate is not followed as far as that."""
+    account = PacketAccount(100.0)
+    for k in range(1000):
+        account.add(Packet(values=RAW, stamp_ns=k * 20_000_000))
+    assert account.counts.lost == 999
+
+
 def test_a_gap_of_millions_takes_no_memory() -> None:
     """Of a long gap only the last numbers may still come late."""
     account = PacketAccount()
@@ -367,6 +389,28 @@ def test_a_file_is_written_in_row_groups(tmp_path: Path, monkeypatch: pytest.Mon
         raise FormatError("broken")
     assert [path.name for path in tmp_path.iterdir()] == ["live.parquet"]
     assert is_replaceable(file)  # the same command may run again
+
+
+def test_a_file_of_ros_holds_wrenches_without_faults(tmp_path: Path) -> None:
+    """Read back as a bag; the status says where samples are left out; a wrench that is held is kept."""
+    pytest.importorskip("rosbags")
+    from forcetorque.formats.ros.bag import opened_bag
+
+    rows = [CorrectedRow(10**9 + k, "leg", tuple(np.arange(12.0) + k), 2 if k in (3, 4) else 0) for k in range(6)]
+    for with_faults in (False, True):
+        file = tmp_path / f"live_{with_faults}.mcap"
+        with mcap_file(file, {"leg": "leg_frame"}, with_faults=with_faults) as output:
+            for row in rows:
+                output.write(row)
+            output.write(replace(rows[0], stamp_ns=-1))
+        assert output.lost == 1
+        with opened_bag(file) as bag:
+            messages = {topic: [data for _, part in bag.messages(topic) for data in part] for topic in bag.types}
+        wrenches = [read_wrench(bytes(data)) for data in messages["/leg/wrench"]]
+        expected = [row for row in rows if with_faults or not row.status]
+        assert wrenches == [(row.stamp_ns, "leg_frame", row.values[:6]) for row in expected]
+        assert read_wrench(bytes(messages["/leg/half_width_95"][0]))[2] == rows[0].values[6:]
+        assert [bytes(data)[8:-1].decode() for data in messages["/leg/status"]] == ["ok", "saturated", "ok"]
 
 
 def test_datagrams_go_to_this_machine_only() -> None:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 CAPABILITY = Capability(
     page="live.md",
+    needs=("calibration", "payload"),
     commands=("forcetorque.live.command:live",),
 )
 

@@ -131,21 +131,23 @@ class BiasTracker:
         """Let stamps begin anew."""
         self._last_ns = None
 
-    def add(self, unloaded: FloatArray, stamp_ns: int, temperature: FloatArray | None, usable: list[bool]) -> bool:
+    def add(
+        self, unloaded: FloatArray, stamp_ns: int, temperature: FloatArray | None, usable: BoolArray | None = None
+    ) -> bool:
         """Take a sample in.
 
         Args:
             unloaded: Readings less the weight of the tool, without any bias taken off; shape (s, 6); N, N m.
             stamp_ns: Time of the sample; ns.
             temperature: Temperatures; shape (s,); degC; None without.
-            usable: Which sensors have a sample without fault; s of them.
+            usable: Which sensors have a sample without fault; shape (s,); None for all.
 
         Returns:
             Whether a period ended, so that the bias may be another.
         """
         if self._last_ns is None:
             self._last_ns = stamp_ns
-        if all(usable):
+        if usable is None or usable.all():
             self._sum += unloaded
             self._counts += 1
             if temperature is not None:

@@ -69,7 +69,7 @@ def live(
     envelope: Annotated[
         bool, typer.Option("--envelope", help="Lines of yarp begin with number and time of the sender.")
     ] = False,
-    frame: Annotated[str | None, typer.Option("--frame", help="Frame that messages of ros2-csv must be in.")] = None,
+    frame: Annotated[str | None, typer.Option("--frame", help="Frame that messages of ROS 2 must be in.")] = None,
     rate: Annotated[
         float | None, typer.Option("--rate", help="Rate of the sender, Hz, so that gaps in time count as losses.")
     ] = None,
@@ -87,6 +87,25 @@ def live(
     ] = None,
     ati_torque: Annotated[
         str | None, typer.Option("--ati-torque", help="Unit of a count of moment, as '1e-6 N m'.")
+    ] = None,
+    ros2: Annotated[
+        list[str] | None,
+        typer.Option("--ros2", help="Topic of WrenchStamped of each sensor, [SENSOR=]TOPIC, by zenoh as of rmw_zenoh."),
+    ] = None,
+    publish: Annotated[
+        list[str] | None, typer.Option("--publish", help="Topic for corrected WrenchStamped, [SENSOR=]TOPIC.")
+    ] = None,
+    domain: Annotated[int, typer.Option("--domain", help="ROS_DOMAIN_ID.")] = 0,
+    router: Annotated[
+        str, typer.Option("--router", help="Router of zenoh, which rmw_zenohd is.")
+    ] = "tcp/localhost:7447",
+    robot: Annotated[
+        Path | None, typer.Option("--robot", help="URDF by which gravity for a tool follows from joint positions.")
+    ] = None,
+    joints: Annotated[str | None, typer.Option("--joints", help="Topic of JointState of this robot.")] = None,
+    base_gravity: Annotated[
+        str | None,
+        typer.Option("--base-gravity", help="Free fall along the axes of its root link, x,y,z in m/s2: 0,0,-9.81."),
     ] = None,
     offset: Annotated[
         OffsetSource,
@@ -131,19 +150,33 @@ def live(
     silence: Annotated[float, typer.Option("--silence", help="Time without a packet that is counted, s.")] = 2.0,
     lines: Annotated[Lines, typer.Option("--lines", help="Form of the lines on standard output.")] = Lines.CSV,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="Parquet file of all corrected samples.")
+        Path | None, typer.Option("--output", "-o", help="File of all corrected samples: .parquet, or .mcap for ROS 2.")
     ] = None,
     udp: Annotated[
         str | None, typer.Option("--udp", help="Loopback address of a UDP server of PlotJuggler, as 127.0.0.1:9870.")
     ] = None,
     watch: Annotated[bool, typer.Option("--watch", help="Show the state on standard error, in place.")] = False,
+    check: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--check",
+            help="Compare with a program that is given a file, PROGRAM=FILE: wholebodydynamics, gravity-filter, ur, "
+            "franka or kuka.",
+        ),
+    ] = None,
+    sensor_pose: Annotated[
+        tuple[float, float, float, float, float, float] | None,
+        typer.Option(
+            "--sensor-pose", help="Pose x y z (m) roll pitch yaw (rad) of the sensor in the flange, for an arm."
+        ),
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: Annotated[
         Format, typer.Option("--format", help="Form of the account at the end, on standard error.")
     ] = Format.TABLE,
 ) -> None:
-    """Correct wrenches while the robot runs, from lines, recordings or a box.
+    """Correct wrenches while the robot runs, from lines, recordings, a box or topics of ROS 2.
 
     Example: forcetorque live leg.json --input yarp --quantity wrench
 
@@ -155,7 +188,9 @@ def live(
     import signal
     import time
 
+    from forcetorque.live.mcap_output import McapOutput, mcap_file
     from forcetorque.live.outputs import (
+        MCAP,
         CsvOutput,
         JsonLinesOutput,
         UdpOutput,
@@ -163,9 +198,13 @@ def live(
         parquet_file,
         refuse_other_names,
     )
+    from forcetorque.live.program_check import program_checks
+    from forcetorque.live.ros_topics import RosOutput, RosSource
     from forcetorque.live.run import LiveLoop
-    from forcetorque.live.settings import make_run, read_settings
+    from forcetorque.live.settings import read_settings
+    from forcetorque.live.stated_source import make_run, ros_topics
     from forcetorque.live.watch import Watch
+    from forcetorque.live.zenoh_session import zenoh_session
     from forcetorque.results.terminal.reading import read_calibrations
 
     log = start_logging()
@@ -176,7 +215,9 @@ def live(
         "form": form, "quantity": quantity, "channels": channels, "variables": variables, "status": status,
         "index": index, "stamp": stamp, "sequence": sequence, "gravity": gravity, "envelope": envelope,
         "frame": frame, "rate_hz": rate, "replay": replay, "speed": speed, "ati": ati, "ati_port": ati_port,
-        "ati_force": ati_force, "ati_torque": ati_torque, "offset": offset, "session": session, "tare_s": tare_s,
+        "ati_force": ati_force, "ati_torque": ati_torque, "ros2": ros2, "publish": publish, "domain": domain,
+        "router": router, "robot": robot, "joints": joints, "base_gravity": base_gravity, "offset": offset,
+        "session": session, "tare_s": tare_s,
         "tool_mass_kg": tool_mass, "tool_centre_m": tool_centre, "take_tool_off": take_tool_off,
         "random_walk": random_walk, "tracking_noise": tracking_noise, "with_temperature": with_temperature,
         "policy": policy, "limit_counts": limit_counts, "frozen_after_s": frozen_after,
@@ -184,16 +225,30 @@ def live(
     read = read_calibrations(calibrations, None)
     clock = time.monotonic
     with ExitStack() as stack:
-        source, correctors = make_run(settings, tuple(read.values()), descriptor=_STANDARD_INPUT, warn=log.warning)
+        ros = stack.enter_context(zenoh_session(router)) if settings.ros2 else None
+        source, correctors = make_run(
+            settings, tuple(read.values()), descriptor=_STANDARD_INPUT, warn=log.warning, ros=ros
+        )
+        checks = program_checks(check or [], correctors, sensor_pose=sensor_pose)
+        names = [one.sensor.name for one in read.values()]
+        frames = source.frames if isinstance(source, RosSource) else {name: frame or name for name in names}
         outputs: list[Output] = []
-        datagrams = None
+        if ros is not None:
+            sent = ros_topics(settings, names)[1]
+            outputs.append(RosOutput(ros, sent, frames, domain=domain, with_faults=policy is FaultPolicy.HOLD))
+        losing: list[UdpOutput | McapOutput] = []
         if lines is not Lines.NONE:
             outputs.append(CsvOutput(sys.stdout) if lines is Lines.CSV else JsonLinesOutput(sys.stdout))
         if udp is not None:
             datagrams = UdpOutput(udp)
             stack.callback(datagrams.close)
             outputs.append(datagrams)
-        if output is not None:
+            losing.append(datagrams)
+        if output is not None and output.suffix == MCAP:
+            bag = stack.enter_context(mcap_file(output, frames, with_faults=policy is FaultPolicy.HOLD))
+            outputs.append(bag)
+            losing.append(bag)
+        elif output is not None:
             outputs.append(stack.enter_context(parquet_file(output)))
         shown = Watch(
             sys.stderr, clock=clock, period_s=0.2 if sys.stderr.isatty() else 1.0, in_place=sys.stderr.isatty()
@@ -205,6 +260,7 @@ def live(
             clock=clock,
             silence_s=silence,
             warn=log.warning,
+            checks=checks,
             **({"show": shown.show} if watch else {}),
         )
         # to be terminated ends a run as Ctrl-C does: with its file and its account
@@ -212,7 +268,7 @@ def live(
         ended_by = loop.run()
         if watch:
             shown.show(loop, at_once=True)
-    result = loop.result(ended_by, 0 if datagrams is None else datagrams.lost)
+    result = loop.result(ended_by, sum(one.lost for one in losing))
     if output is not None:
         result = result.model_copy(update={"output_file": str(output)})
     with redirect_stdout(sys.stderr):  # standard output is for lines

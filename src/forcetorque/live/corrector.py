@@ -11,11 +11,13 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.compiled import announced
 from forcetorque.base.errors import RecordingError, ShapeError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.live.bias_tracking import BiasTracker, Tracking
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, OffsetSource
+from forcetorque.live.compiled_sample import BEFORE, NEVER, NOW, POLICIES, compiled_sample
 from forcetorque.live.sample_status import FAULTS, Status
 from forcetorque.live.sensor_terms import SensorTerms, sensor_terms
 from forcetorque.live.tare_samples import TareSamples
@@ -96,11 +98,12 @@ class Corrector:
             for one in given
         ]
         self._prepare(self._terms)
+        with announced("compiling the correction of live samples for this machine, once; it takes some seconds"):
+            self._compiled = compiled_sample()
         self._is_plain = not own_offset and not self.options.take_tool_off
         self._result = Corrected(wrench=self._wrench, half_width=self._half_width, status=self._status)
         tool = self.options.tool
         self._per_gravity = [] if tool is None else [tool.per_gravity(one.sensor.measure_direction) for one in given]
-        self.bias, self.bias_variance = np.zeros((2, *self._wrench.shape))
         self.tracker: BiasTracker | None = None
         self._tare: TareSamples | None = None
         if own_offset:
@@ -117,21 +120,24 @@ class Corrector:
         return np.zeros(len(self._terms), dtype=np.bool_) if self._tare is None else self._tare.collecting.copy()
 
     @property
+    def weight(self) -> FloatArray:
+        """What the tool adds to the last reading; shape (s, 6); N, N m; overwritten by the next sample."""
+        return self._weight
+
+    @property
     def variables(self) -> tuple[tuple[str, ...], ...]:
         """Names of the variables of every sensor, in the order in which `correct` takes them."""
         return tuple(term.variables for term in self._terms)
 
     def _prepare(self, terms: Sequence[SensorTerms]) -> None:
         """Allocate; sensors with fewer channels or variables are filled up with zeros."""
-        count = len(terms)
+        count, options = len(terms), self.options
         c, v = (max(term.matrix.shape[1] for term in terms), max(len(term.variables) for term in terms))
-        self._counts = [term.matrix.shape[1] for term in terms]
         # the last column of a sample is 1 and meets the offset
         self._sample = np.zeros((count, c + v + 1))
         self._sample[:, -1] = 1.0
         self._raw, self._values = self._sample[:, :c], self._sample[:, c : c + v]
-        self._matrix, self._reference = np.zeros((count, 6, c + v + 1)), np.zeros((count, v))
-        self._fitted = np.zeros((count, 6))
+        matrix, reference = np.zeros((count, 6, c + v + 1)), np.zeros((count, v))
         # wrench, variables and 1 for the offset, which meet the covariance twice
         d = 6 + v + 1
         self._load = np.zeros((count, d))
@@ -140,32 +146,31 @@ class Corrector:
         covariance = np.zeros((count, 6, d, d))
         for k, term in enumerate(terms):
             own = len(term.variables)
-            self._matrix[k, :, : term.matrix.shape[1]] = term.matrix
-            self._matrix[k, :, c : c + own] = term.coefficients
-            self._matrix[k, :, -1] = self._fitted[k] = term.offset
-            self._reference[k, :own] = term.reference_values
+            matrix[k, :, : term.matrix.shape[1]] = term.matrix
+            matrix[k, :, c : c + own] = term.coefficients
+            matrix[k, :, -1] = term.offset
+            reference[k, :own] = term.reference_values
             used = np.r_[np.arange(6 + own), d - 1]
             covariance[k][:, used[:, None], used] = term.covariance * NORMAL_95**2
         # a tare takes off the errors of matrix and coefficients at its load, so they act on the change since then
-        self._tared, self._at_tare, self._since = np.zeros((3, count, d))
-        self._covariance = covariance.reshape(count, 6 * d, d)
-        self._half_width = np.zeros((count, 6))
-        self._held = np.full((2, count, 6), np.nan)
-        self._status = np.zeros(count, dtype=np.int64)
-        self._half_products, self._size = np.zeros((count, 6, d)), np.zeros((count, c))
+        self._tared, self._at_tare = np.zeros((2, count, d))
+        self._half_width, self._status = np.zeros((count, 6)), np.zeros(count, dtype=np.int64)
         self._unloaded, self._weight = np.zeros((2, count, 6))
-        limit = self.options.limit_counts
-        self._limit = None if limit is None else (1.0 - SATURATION_SHARE) * limit
-        self._reaches = np.zeros((count, c), dtype=bool)
-        # one product gives the sums of channels, to see equal samples, and of variables
-        self._sums, self._ones = np.zeros((count, 2)), np.zeros((self._sample.shape[1], 2))
-        self._ones[:c, 0] = self._ones[c:-1, 1] = 1.0
-        self._last_sums, self._previous = [[math.nan]] * count, np.full((count, c), np.nan)
-        self._same_since: list[int | None] = [None] * count
-        self._stamp_ns: int | None = None
-        # views with a last axis for products of matrix and vector
-        self._columns = (self._sample[..., None], self._wrench[..., None], self._half_width[..., None])
-        self._load_column, self._products_column = self._since[..., None], self._half_products.reshape(count, 6 * d, 1)
+        self.bias, self.bias_variance = np.zeros((2, count, 6))
+        # saturation is of counts, which a wrench does not show
+        to_counts = np.array([term.to_counts for term in terms if term.to_counts is not None]).reshape(-1, 6, 6)
+        counts = np.array([term.matrix.shape[1] for term in terms])
+        limit = math.inf if options.limit_counts is None else (1.0 - SATURATION_SHARE) * options.limit_counts
+        self._clock_ns, self._same_since_ns = np.full(2, NEVER), np.full(count, NEVER)
+        self._read_arguments = (
+            self._sample, reference, matrix, to_counts, counts, limit, 1e9 * options.frozen_after_s, self._clock_ns,
+            np.full((count, c), np.nan), self._same_since_ns, self._load, self._status,
+        )  # fmt: skip
+        self._finish_arguments = (
+            self._load, self.bias, self.bias_variance, self._tared, covariance,
+            self._weight if options.take_tool_off else np.zeros((count, 6)), POLICIES[options.policy],
+            np.full((2, count, 6), np.nan), self._status, self._half_width, np.zeros(d),
+        )  # fmt: skip
         self._quadratic = [(k, term.quadratic) for k, term in enumerate(terms) if term.quadratic is not None]
 
     def tare(self) -> None:
@@ -180,7 +185,7 @@ class Corrector:
 
     def restart_time(self) -> None:
         """Let stamps begin anew, because the sender did."""
-        self._stamp_ns, self._same_since = None, [None] * len(self._same_since)
+        self._clock_ns[BEFORE], self._same_since_ns[:] = NEVER, NEVER
         if self.tracker is not None:
             self.tracker.restart_time()
         if self._tare is not None:
@@ -213,35 +218,28 @@ class Corrector:
             ShapeError: If the shapes are not these.
             RecordingError: If variables, time or gravity are needed and missing.
         """
-        raw, has_variables = self._raw, self._reference.shape[1] > 0
+        has_variables = self._values.shape[1] > 0
         if samples is None or (has_variables and variables is None):
             raise ShapeError(self._expected(samples, variables))
         try:
-            raw[:] = samples
+            self._raw[:] = samples
             if has_variables:
                 self._values[:] = variables
         except (TypeError, ValueError):
             raise ShapeError(self._expected(samples, variables)) from None
-        if has_variables:
-            np.subtract(self._values, self._reference, out=self._values)
-        faulty = self._look(stamp_ns, faults)
-        column, wrench, half_width = self._columns
-        np.matmul(self._matrix, column, out=wrench)
+        try:
+            self._clock_ns[NOW] = NEVER if stamp_ns is None else stamp_ns
+        except OverflowError:
+            raise RecordingError(f"stamp_ns: expected nanoseconds of 64 bits, got {stamp_ns}") from None
+        faulty = self._compiled.read(*self._read_arguments)
+        if faults is not None and any(faults):
+            self._status |= faults
+            faulty = True
         for k, quadratic in self._quadratic:
             self._wrench[k] = quadratic.corrected(self._wrench[k])
         if not self._is_plain:
-            self._offsets(stamp_ns, gravity)
-        if has_variables:
-            self._load[:, 6:-1] = self._values
-        load = self._load_column
-        np.subtract(self._load, self._tared, out=self._since)
-        np.matmul(self._covariance, load, out=self._products_column)
-        np.matmul(self._half_products, load, out=half_width)
-        if not self._is_plain:
-            self._finish()
-        np.sqrt(self._half_width, out=self._half_width)
-        if faulty or self.options.policy is FaultPolicy.HOLD:
-            self._apply_policy()
+            self._offsets(stamp_ns, gravity, faulty)
+        self._compiled.finish(*self._finish_arguments)
         return self._result
 
     def _expected(self, samples: Any, variables: Any) -> str:
@@ -251,67 +249,16 @@ class Corrector:
             f"{np.shape(samples)} and {None if variables is None else np.shape(variables)}"
         )
 
-    def _look(self, stamp_ns: int | None, faults: Sequence[int] | None) -> bool:
-        """Set the status; whether any sensor has a fault."""
-        status, faulty = self._status, False
-        status[:] = 0
-        with np.errstate(invalid="ignore"):  # infinity less infinity
-            sums = np.dot(self._sample, self._ones, out=self._sums).tolist()
-        if not math.isfinite(sum(channels + values for channels, values in sums)):
-            finite = np.isfinite(self._sample)
-            self._sample[~finite] = np.nan  # infinity less infinity would be an error of arithmetic
-            status[~finite.all(axis=1)] |= Status.NOT_FINITE
-            faulty = True
-        if self._limit is not None and self._is_saturated(self._limit):
-            faulty = True
-        if faults is not None and any(faults):
-            status |= faults
-            faulty = True
-        if stamp_ns is not None:
-            faulty = self._look_at_time(sums, stamp_ns) or faulty
-        return faulty
-
-    def _is_saturated(self, limit: float) -> bool:
-        for k, term in enumerate(self._terms):
-            # saturation is of counts, which a wrench does not show
-            counts = self._raw[k, : self._counts[k]] if term.to_counts is None else term.to_counts @ self._raw[k, :6]
-            np.abs(counts, out=self._size[k, : len(counts)])
-        np.greater_equal(self._size, limit, out=self._reaches)
-        if not self._reaches.any():
-            return False
-        self._status[self._reaches.any(axis=1)] |= Status.SATURATED
-        return True
-
-    def _look_at_time(self, sums: list[list[float]], stamp_ns: int) -> bool:
-        before, faulty = self._stamp_ns, False
-        if before is not None and stamp_ns <= before:
-            self._status |= Status.REPEATED if stamp_ns == before else Status.LATE
-            return True
-        for k, (now, last) in enumerate(zip(sums, self._last_sums, strict=True)):
-            if now[0] == last[0] and (self._raw[k] == self._previous[k]).all():
-                since = self._same_since[k]
-                if since is None:
-                    self._same_since[k] = before
-                elif (stamp_ns - since) * 1e-9 > self.options.frozen_after_s:
-                    self._status[k] |= Status.FROZEN
-                    faulty = True
-            else:
-                self._same_since[k] = None
-        self._previous[:] = self._raw
-        self._last_sums, self._stamp_ns = sums, stamp_ns
-        return faulty
-
-    def _offsets(self, stamp_ns: int | None, gravity: Any) -> None:
-        """Take bias and tool off the wrenches by the fitted offsets, and learn the bias."""
+    def _offsets(self, stamp_ns: int | None, gravity: Any, faulty: bool) -> None:
+        """Weigh the tool, and learn the bias."""
         if self.options.tool is not None:
             self._weigh(gravity)
-        usable = (self._status & FAULTS) == 0
-        if self.options.offset is not OffsetSource.FITTED:
-            if stamp_ns is None:
-                raise RecordingError("a tare needs the time of every sample: expected stamp_ns, got none")
-            np.subtract(self._wrench, self._weight, out=self._unloaded)
-            self._learn(stamp_ns, usable)
-        np.subtract(self._wrench, self.bias, out=self._wrench)
+        if self.options.offset is OffsetSource.FITTED:
+            return
+        if stamp_ns is None:
+            raise RecordingError("a tare needs the time of every sample: expected stamp_ns, got none")
+        np.subtract(self._wrench, self._weight, out=self._unloaded)
+        self._learn(stamp_ns, (self._status & FAULTS) == 0 if faulty else None)
 
     def _weigh(self, gravity: Any) -> None:
         if gravity is None:
@@ -323,21 +270,23 @@ class Corrector:
         for k, matrix in enumerate(self._per_gravity):
             self._weight[k] = matrix @ directions.reshape(-1, 3)[k]
 
-    def _learn(self, stamp_ns: int, usable: BoolArray) -> None:
+    def _learn(self, stamp_ns: int, usable: BoolArray | None) -> None:
+        """Add to a tare and to the tracked bias; without `usable` no sensor has a fault."""
         temperature, tracker = self._temperature(), self.tracker
         if self._tare is not None:
             collecting = self.taring
+            usable = np.ones_like(collecting) if usable is None else usable
             self._status[collecting] |= Status.TARING
             self._at_tare[usable, :6], self._at_tare[usable, 6:-1] = self._weight[usable], self._values[usable]
             for k in self._tare.add(self._unloaded, stamp_ns, usable):
                 self._end_tare(k, self._tare, temperature)
             if not self._tare.collecting.any():
                 self._tare = None
-            usable &= ~collecting
+            usable = usable & ~collecting
         if tracker is not None:  # not one that this sample began
-            if tracker.add(self._unloaded, stamp_ns, temperature, usable.tolist()):
+            if tracker.add(self._unloaded, stamp_ns, temperature, usable):
                 self.bias[:], self.bias_variance[:] = tracker.bias, tracker.variance
-            if tracker.in_contact.any():
+            if any(tracker.in_contact.tolist()):
                 self._status[tracker.in_contact] |= Status.CONTACT
 
     def _end_tare(self, k: int, tare: TareSamples, temperature: FloatArray | None) -> None:
@@ -363,20 +312,3 @@ class Corrector:
             )
         places = [names.index("temperature") for names in self.variables]
         return self._values[np.arange(len(places)), places]
-
-    def _finish(self) -> None:
-        """Add the variance of the bias, in squares of half-widths."""
-        if self.options.offset is not OffsetSource.FITTED:
-            self._half_width += NORMAL_95**2 * self.bias_variance
-        np.maximum(self._half_width, 0.0, out=self._half_width)
-        if self.options.take_tool_off:  # not before: the errors of the matrix act on the weight too
-            np.subtract(self._wrench, self._weight, out=self._wrench)
-
-    def _apply_policy(self) -> None:
-        faulty = (self._status & FAULTS) != 0
-        if self.options.policy is FaultPolicy.REFUSE:
-            self._wrench[faulty] = self._half_width[faulty] = np.nan
-        elif self.options.policy is FaultPolicy.HOLD:
-            good = ~faulty
-            self._held[0, good], self._held[1, good] = self._wrench[good], self._half_width[good]
-            self._wrench[faulty], self._half_width[faulty] = self._held[0, faulty], self._held[1, faulty]

@@ -29,6 +29,8 @@ COLUMNS: Final = (
     "status",
 )
 """Columns of lines and files."""
+PARQUET, MCAP = ".parquet", ".mcap"
+"""Ends of names of files."""
 ROW_GROUP: Final = 20_000
 """Rows that are held until they are written to a Parquet file."""
 
@@ -202,16 +204,16 @@ class ParquetOutput:
 
 
 def refuse_other_names(path: Path | None) -> None:
-    """Refuse a file that is not called as a Parquet file.
+    """Refuse a file that is called neither as a Parquet file nor as a bag in MCAP.
 
     Args:
         path: File to write; None for none.
 
     Raises:
-        OutputError: If its name does not end in `.parquet`.
+        OutputError: If its name ends in neither `.parquet` nor `.mcap`.
     """
-    if path is not None and path.suffix != ".parquet":
-        raise OutputError(f"--output {path}: expected a name that ends in .parquet")
+    if path is not None and path.suffix not in (PARQUET, MCAP):
+        raise OutputError(f"--output {path}: expected a name that ends in {PARQUET} or {MCAP}")
 
 
 @contextmanager

@@ -18,6 +18,10 @@ _FARTHEST: Final = 1 << 20
 """Numbers ahead from which on the sender began to count elsewhere."""
 _FOLLOWED: Final = 0.1
 """Share of what a sample is off its period by which the periods move, so that they follow a clock that is off."""
+_LEARNT: Final = 0.0025
+"""The same share by which the period itself moves: a quarter of the square of that above damps it critically."""
+_FARTHEST_RATE: Final = 0.1
+"""Share by which the rate of the sender may be off the stated one."""
 _DOUBTFUL: Final = 2
 """Samples within which one that is too early shows that one before was only late, and nothing lost."""
 
@@ -96,12 +100,12 @@ class PacketAccount:
         """Begin.
 
         Args:
-            rate_hz: Rate of the sender, by which gaps in time are lost samples where packets have no numbers; None for
-                not known.
+            rate_hz: Stated rate of the sender, by which gaps in time are lost samples where packets have no numbers;
+                the period is learnt from the stamps, up to a tenth off it; None for not known.
             modulus: Number at which numbers of packets begin again at 0.
         """
         self.counts = PacketCounts()
-        self._period_ns = None if rate_hz is None else 1e9 / rate_hz
+        self._stated_ns = self._period_ns = None if rate_hz is None else 1e9 / rate_hz
         self._modulus = modulus
         self._highest: int | None = None
         self._stamp_ns: int | None = None
@@ -192,7 +196,7 @@ class PacketAccount:
             self.counts.late += 1
             self.counts.backwards += 1
             return Status.LATE
-        if before is not None and self._period_ns is not None:
+        if before is not None and self._period_ns is not None and self._stated_ns is not None:
             periods = (stamp_ns - before) / self._period_ns + self._behind
             steps = round(periods)
             if steps > 1:
@@ -201,7 +205,13 @@ class PacketAccount:
             elif steps == 1 or not self._is_found():
                 steps = 1
             self._since_gap += 1
-            self._behind = max(-1.0, (1.0 - _FOLLOWED) * (periods - steps))
+            off = max(-1.0, periods - steps)
+            self._behind = (1.0 - _FOLLOWED) * off
+            # of other samples it is not known whether they are late or one is lost
+            learnt = _LEARNT * off if steps == 1 and abs(off) <= 0.5 else 0.0
+            period_ns = self._period_ns * (1.0 + learnt)
+            farthest_ns = _FARTHEST_RATE * self._stated_ns
+            self._period_ns = min(max(period_ns, self._stated_ns - farthest_ns), self._stated_ns + farthest_ns)
         self._stamp_ns, self._old_in_a_row = stamp_ns, 0
         return Status(0)
 

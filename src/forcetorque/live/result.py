@@ -78,8 +78,31 @@ class LivePackets(Row):
     """Times that nothing came for longer than the limit."""
     longest_silence_s: Annotated[float, Shown("longest silence", "s", digits=1)]
     """Longest time without a packet; s."""
-    unsent: Annotated[int, Shown("datagrams not taken")]
-    """Datagrams of `--udp` that could not be sent."""
+    unsent: Annotated[int, Shown("samples not taken")]
+    """Samples that an output did not take: datagrams of `--udp`, and stamps before 1970 or after 2038 of a bag."""
+
+
+class LiveCheck(Row):
+    """A program of a robot on the stream of one sensor."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Name."""
+    program: Annotated[str, Shown("program")]
+    """Program whose arithmetic was done."""
+    file: Annotated[str, Shown("file")]
+    """What it is given."""
+    samples: Annotated[int, Shown("samples")]
+    """Samples that were compared."""
+    force_difference_N: Annotated[FloatOrNull, Shown("force", "N", digits=4, error="force_half_width_95_N")]
+    """Largest difference of a component of the force; N; null without a sample."""
+    force_half_width_95_N: FloatOrNull
+    """Half-width of the 95 % interval of this component at this sample; null without a posterior."""
+    moment_difference_Nm: Annotated[FloatOrNull, Shown("moment", "N m", digits=5, error="moment_half_width_95_Nm")]
+    """Largest difference of a component of the moment; N m."""
+    moment_half_width_95_Nm: FloatOrNull
+    """Half-width of its 95 % interval."""
+    outside: Annotated[int, Shown("outside")]
+    """Samples with a component that differs by more than its interval."""
 
 
 class LiveRun(Result):
@@ -97,6 +120,8 @@ class LiveRun(Result):
     """One per sensor."""
     packets: LivePackets
     """What became of packets."""
+    checks: tuple[LiveCheck, ...] = ()
+    """Programs on the same stream."""
     slowest_s: FloatOrNull
     """Longest time from a packet to its lines; s; null without a packet."""
     output_file: str | None = None
@@ -112,7 +137,16 @@ class LiveRun(Result):
         for row in self.sensors:
             missing = "losses not countable" if lost is None else f"{lost} lost"
             packets = self.packets
-            bad = bool(lost or row.faulty or packets.unreadable or packets.oversized or packets.silences or row.taring)
+            outside = any(check.outside for check in self.checks if check.sensor == row.sensor)
+            bad = bool(
+                outside
+                or lost
+                or row.faulty
+                or packets.unreadable
+                or packets.oversized
+                or packets.silences
+                or row.taring
+            )
             yield Answer(
                 subject=f"{row.sensor} ({row.serial})",
                 verdict=f"{counted(row.samples, 'sample')}, {missing}, {row.faulty} with faults",
@@ -137,7 +171,7 @@ class LiveRun(Result):
             "frozen": row.frozen,
             "device errors": row.device_errors,
             "refused": row.refused,
-            "datagrams not taken": packets.unsent,
+            "not taken by an output": packets.unsent,
         }
         if counts := ", ".join(f"{count} {name}" for name, count in named.items() if count):
             yield f"{counts}."
@@ -151,6 +185,9 @@ class LiveRun(Result):
             )
             drift = "" if row.drift is None else f", {max(abs(row.drift[:3])):.2f} N away from the tare"
             sentences.append(f"Bias of the force: {force} N{drift}.")
+        for check in self.checks:
+            if check.sensor == row.sensor:
+                sentences.append(_difference(check))
         if row.taring:
             sentences.append("Its tare did not end: the offset is that of the calibration.")
         if sentences:
@@ -170,5 +207,20 @@ class LiveRun(Result):
         """
         yield table_of(self.sensors, "samples of sensors, and the last wrench")
         yield table_of((self.packets,), "packets")
+        if self.checks:
+            yield table_of(self.checks, "largest differences to programs, with half of our 95 % interval there")
         slowest = "" if self.slowest_s != self.slowest_s else f", slowest sample {1e3 * self.slowest_s:.1f} ms"
         yield f"ended by {self.ended_by} after {self.duration_s:.1f} s, stamps of the {self.stamps}{slowest}"
+
+
+def _difference(check: LiveCheck) -> str:
+    if not check.samples:
+        return f"{check.program}: no sample was compared."
+    interval = (
+        "" if check.force_half_width_95_N != check.force_half_width_95_N else f" ±{check.force_half_width_95_N:.2g}"
+    )
+    outside = f"; {check.outside} of {counted(check.samples, 'sample')} beyond the interval" if check.outside else ""
+    return (
+        f"{check.program} differs by at most {check.force_difference_N:.2g}{interval} N, "
+        f"{check.moment_difference_Nm:.2g} N m{outside}."
+    )

@@ -16,6 +16,7 @@ from forcetorque.live.choices import FaultPolicy, OffsetSource
 from forcetorque.live.corrector import Corrected, Corrector
 from forcetorque.live.outputs import CorrectedRow, Output
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
+from forcetorque.live.program_check import ProgramCheck
 from forcetorque.live.result import LivePackets, LiveRun, LiveSensor
 from forcetorque.live.sample_status import FAULTS, Status
 from forcetorque.live.sources import Source
@@ -76,6 +77,7 @@ class LiveLoop:
         silence_s: float = SILENCE_S,
         warn: Callable[[str], None] = lambda _: None,
         show: Callable[[LiveLoop], None] = lambda _: None,
+        checks: Sequence[ProgramCheck] = (),
     ) -> None:
         """Prepare.
 
@@ -87,6 +89,7 @@ class LiveLoop:
             silence_s: Time without a packet from which on the source is silent; s.
             warn: Called when it falls silent.
             show: Called after packets, to show the state.
+            checks: Programs that get the same samples.
         """
         self.correctors = tuple(correctors)
         self.accounts = [PacketAccount(source.rate_hz) for _ in correctors]
@@ -94,6 +97,7 @@ class LiveLoop:
             [SensorState(name=one.sensor.name, serial=one.sensor.serial) for one in corrector.calibrations]
             for corrector in correctors
         ]
+        self._checks = tuple(checks)
         self._source, self._outputs, self._clock = source, tuple(outputs), clock
         self._silence_s, self._warn, self._show = silence_s, warn, show
         self._first_s: float | None = None
@@ -146,7 +150,7 @@ class LiveLoop:
 
         Args:
             ended_by: Why it ended.
-            unsent: Datagrams that could not be sent.
+            unsent: Samples that an output did not take.
 
         Returns:
             The account.
@@ -167,6 +171,7 @@ class LiveLoop:
                 lost=counts.lost if counts.countable else None,
                 unsent=unsent,
             ),
+            checks=tuple(check.row() for check in self._checks),
             slowest_s=self._slowest_s,
         )
 
@@ -224,6 +229,9 @@ class LiveLoop:
         corrected = corrector.correct(
             packet.values, variables=packet.variables, stamp_ns=stamp_ns, gravity=packet.gravity, faults=faults
         )
+        for check in self._checks:
+            if check.corrector is corrector:
+                check.add(packet, corrected)
         self._give(corrector, states, corrected, stamp_ns)
         took = self._clock() - now
         self._slowest_s = took if math.isnan(self._slowest_s) else max(self._slowest_s, took)

@@ -22,7 +22,7 @@ class Status(IntFlag):
     LATE = 16
     """The stamp is older than that of an earlier sample."""
     DEVICE = 32
-    """The device reports an error."""
+    """The device reports an error, or the joint positions that a tool needs are missing."""
     TARING = 64
     """A tare is collecting; the offset is still that from before. No fault."""
     CONTACT = 128

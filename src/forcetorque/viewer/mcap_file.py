@@ -15,9 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import MissingExtraError, install_line
-from forcetorque.base.output_file import real_path, temporary_beside
-from forcetorque.base.run_files import refuse_input
+from forcetorque.formats.ros.mcap_writer import mcap_writer, typestore
 from forcetorque.results.figures import COLOURS, REFERENCE_COLOUR
 from forcetorque.viewer.viewer_log import LoggedFrame, ViewerLog
 
@@ -78,43 +76,14 @@ def write_mcap(path: Path, log: ViewerLog) -> int:
         *_arrows(log, types),
         *_events(log, types),
     ]
-    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
-
-    refuse_input(path)
-    target = real_path(path)
-    with temporary_beside(target, folder=True) as folder:
-        writer = Writer(folder / "bag", version=9, storage_plugin=StoragePlugin.MCAP)
-        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
-        with writer:
-            connections = [
-                writer.add_connection(one.topic, one.type, typestore=types, offered_qos_profiles=_quality(one))
-                for one in topics
-            ]
-            for topic, row in _in_time(topics):
-                writer.write(connections[topic], int(topics[topic].stamp_ns[row]), topics[topic].rows[row])
-        file = folder / "bag" / "bag.mcap"
-        size = file.stat().st_size
-        file.replace(target)
-    return size
-
-
-def typestore(path: Path) -> Any:
-    """Give the types of messages of ROS 2.
-
-    Args:
-        path: File that they are needed for.
-
-    Returns:
-        Their store, of rosbags.
-
-    Raises:
-        MissingExtraError: If rosbags is not installed.
-    """
-    try:
-        from rosbags.typesys import Stores, get_typestore
-    except ImportError as error:
-        raise MissingExtraError(f"{path}: MCAP is written by rosbags: {install_line('ros')}") from error
-    return get_typestore(Stores.ROS2_HUMBLE)
+    with mcap_writer(path) as writer:
+        connections = [
+            writer.add_connection(one.topic, one.type, typestore=types, offered_qos_profiles=_quality(one))
+            for one in topics
+        ]
+        for topic, row in _in_time(topics):
+            writer.write(connections[topic], int(topics[topic].stamp_ns[row]), topics[topic].rows[row])
+    return path.stat().st_size
 
 
 def _in_time(topics: Sequence[_Messages]) -> Iterator[tuple[int, int]]:

@@ -41,7 +41,7 @@ def require_writer(path: Path) -> None:
 
         imported_rerun(path)
     elif path.suffix.lower() == MCAP:
-        from forcetorque.viewer.mcap_file import typestore
+        from forcetorque.formats.ros.mcap_writer import typestore
 
         typestore(path)
 

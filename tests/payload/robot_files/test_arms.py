@@ -17,6 +17,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.payload.robot_files.arm_load_files import READABLE_ARMS, read_arm_load
 from forcetorque.payload.robot_files.arms import ARMS
 from forcetorque.payload.robot_files.export import export_load
 from forcetorque.payload.robot_files.flange_load import FlangeLoad, flange_load
@@ -144,6 +145,23 @@ def test_the_load_comes_back(tmp_path: Path, form: LoadFormat) -> None:
     expected = np.diag(np.diag(INERTIA)) if form is LoadFormat.FANUC else INERTIA
     np.testing.assert_allclose(inertia, expected, atol=DIGITS * 0.01)
     assert ("no products of inertia: up to 0.0008 N m" in words) == (form is LoadFormat.FANUC)
+
+
+@pytest.mark.parametrize("form", READABLE_ARMS)
+def test_a_written_load_is_read(tmp_path: Path, form: LoadFormat) -> None:
+    """As the arithmetic of the target has it; another form, a second line and words in place of numbers are refused."""
+    text, _ = _written(tmp_path, LOAD, form)
+    mass, centre, inertia = TARGETS[form](text)
+    load = read_arm_load(tmp_path / "load", form)
+    assert load.mass == mass
+    np.testing.assert_allclose(load.centre_of_mass, centre, rtol=0, atol=1e-15)
+    assert inertia is not None
+    np.testing.assert_allclose(load.inertia, inertia, rtol=0, atol=1e-15)
+    number = "1.25"
+    for broken in (text + text, text.replace(number, "heavy"), text.replace(number, "1e999"), "# nothing\n"):
+        (tmp_path / "load").write_text(broken, encoding="utf-8")
+        with pytest.raises(FormatError, match="expected"):
+            read_arm_load(tmp_path / "load", form)
 
 
 @pytest.mark.parametrize("form", ARMS)

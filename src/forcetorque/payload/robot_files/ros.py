@@ -18,12 +18,15 @@ References:
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.input_file import read_text
+from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.payload.robot_files.yaml_parameters import list_of, number, number_of, numbers, read_plain_yaml, word
@@ -92,6 +95,35 @@ def gravity_filter_text(load: RobotLoad, *, world_frame: str | None) -> str:
             "",
         ]
     )
+
+
+_FILTER = ("mass", "CoG", "gravity_field")
+
+
+def read_gravity_filter(path: Path | str) -> tuple[float, FloatArray, FloatArray]:
+    """Read the tool of a filter of a chain, in the style in which it is written here.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Mass, kg; centre of mass in the sensor's frame, shape (3,), m; field along the axes of the world, (3,), m/s2.
+
+    Raises:
+        FormatError: If it is no chain with one such filter.
+    """
+    text = read_text(Path(path), "parameters of a gravity filter")
+    if text.count("control_filters/GravityCompensationWrench") != 1:
+        raise FormatError(f"{path}: expected one control_filters/GravityCompensationWrench")
+    values: list[list[float]] = []
+    for key, count in zip(_FILTER, (1, 3, 3), strict=True):
+        entries = re.findall(rf"^\s+{key}:\s+\[?(.*?)\]?\s*$", text, re.MULTILINE)
+        words = [word.strip() for word in entries[0].split(",")] if len(entries) == 1 else []
+        if len(words) != count or not all(map(DECIMAL_NUMBER.fullmatch, words)):
+            raise FormatError(f"{path}: {key}: expected it once, with {count} number(s), got {entries}")
+        values.append([float(word) for word in words])
+    (mass,), centre, field = values
+    return mass, np.array(centre), np.array(field)
 
 
 FT_TOOLS_DIRECTION = MeasureDirection.CHILD_TO_PARENT

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Gravity in the frame of a reading, by a robot model and the positions of its joints, as they come."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import RecordingError, known_names
+from forcetorque.robot.dynamics import joints_between, link_pose
+from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import build_tree
+
+
+class JointGravity:
+    """Keeps the positions that came last; joints may come in several messages."""
+
+    def __init__(self, model: RobotModel, frame: str, base_gravity: FloatArray) -> None:
+        """Prepare.
+
+        Args:
+            model: The robot, whose root link does not move.
+            frame: Link whose frame the reading is in.
+            base_gravity: Acceleration of free fall along the axes of the root link; shape (3,); m/s2.
+
+        Raises:
+            RecordingError: If the robot has no such link.
+        """
+        if frame not in model.links:
+            raise RecordingError(
+                f"--frame {frame}: expected a link of {model.name!r}; {known_names(frame, model.links)}"
+            )
+        self.vector = np.full(3, np.nan)
+        """Acceleration of free fall in the frame; shape (3,); m/s2; NaN until all joints on the way have come."""
+        self._tree, self._frame, self._base_gravity = build_tree(model, model.root_link), frame, base_gravity
+        self._positions = dict.fromkeys(joints_between(self._tree, frame), np.nan)
+        self.is_constant = not self._positions
+        """Whether no joint moves the frame."""
+        self._turn()
+
+    def add(self, names: Sequence[str], positions: Sequence[float]) -> bool:
+        """Take positions in.
+
+        Args:
+            names: Joints, in any order; others than those on the way to the frame are left out.
+            positions: Their positions; rad, or m where prismatic; none where the message has none.
+
+        Returns:
+            Whether all joints on the way are known, and one of them came now.
+        """
+        came = {
+            name: value if math.isfinite(value) else math.nan
+            for name, value in zip(names, positions, strict=False)
+            if name in self._positions
+        }
+        if came:
+            self._positions |= came
+            self._turn()
+        return bool(came) and bool(np.isfinite(self.vector).all())
+
+    def _turn(self) -> None:
+        joints = JointMotion.at_rest(tuple(self._positions), np.array([list(self._positions.values())]))
+        self.vector = link_pose(self._tree, joints, self._frame)[0, :3, :3].T @ self._base_gravity
