@@ -272,7 +272,8 @@ def _message(joints: Sequence[str], torques: Mapping[str, FloatArray], truth: Fl
     peaks = {name: np.nanmax(np.abs(torque), axis=0, initial=0.0) for name, torque in torques.items()}
     name = max(peaks, key=lambda name: float(peaks[name].max()))
     joint = int(peaks[name].argmax())
-    return f"Largest torque: {_Nm(float(peaks[name][joint]))} at {shown_name(joints[joint])}, by {shown_name(name)}"
+    source = f", by {shown_name(name)}" if len(peaks) > 1 else ""
+    return f"Largest torque: {_Nm(float(peaks[name][joint]))} at {shown_name(joints[joint])}{source}"
 
 
 def _Nm(value: float) -> str:
