@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import re
 from dataclasses import replace
@@ -70,7 +71,7 @@ def _notes(built: BuiltScene) -> str:
 
 def _arrays(value: object) -> list[dict[str, object]]:
     if isinstance(value, dict):
-        fields = {"offset", "shape", "dtype", "packed_bytes"}
+        fields = {field.name for field in dataclasses.fields(ArrayRef)}
         return [value] if set(value) == fields else [a for v in value.values() for a in _arrays(v)]
     return [array for item in value for array in _arrays(item)] if isinstance(value, list) else []
 

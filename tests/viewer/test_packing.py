@@ -20,10 +20,12 @@ from forcetorque.viewer.packing import (
     RESOLUTION,
     ROWS,
     _has_outliers,
+    _steps,
     pack,
     packed,
     unpack,
 )
+from forcetorque.viewer.scene import ArrayRef
 from forcetorque.viewer.scene_builder import BuiltScene
 
 SAMPLES = 2 * ROWS + 123
@@ -70,6 +72,58 @@ def test_one_damaged_sample_leaves_all_others_as_they_are(built: BuiltScene) -> 
     small = packed(replace(built, block=block))
     back = read_array(small.block, small.scene.sensors[0].wrenches[-1].values)
     np.testing.assert_array_equal(back, values)
+
+
+def _with_calibrated(built: BuiltScene, values: FloatArray) -> BuiltScene:
+    """The scene with one more series of its first sensor."""
+    first = built.scene.sensors[0]
+    place = ArrayRef(offset=len(built.block), shape=values.shape, dtype="float32")
+    series = replace(first.wrenches[-1], name="fitted", calibrated=True, values=place)
+    scene = replace(built.scene, sensors=(replace(first, wrenches=(*first.wrenches, series)),))
+    return replace(built, scene=scene, block=built.block + values.astype("<f4").tobytes())
+
+
+@pytest.mark.parametrize("linear", [True, False])
+def test_a_calibration_is_a_linear_map_of_the_first_series_where_it_is_one(built: BuiltScene, linear: bool) -> None:
+    """With an offset for each power cycle it takes next to no bytes; with a quadratic term it is packed whole."""
+    prior = read_array(built.block, built.scene.sensors[0].wrenches[-1].values).astype(np.float64)
+    assert built.scene.sensors[0].wrenches[-1].role == "measured"
+    coupling = 0.02 * np.random.default_rng(4).normal(size=(6, 6)) * np.divide.outer(_steps(prior), _steps(prior))
+    values = prior @ (np.eye(6) + coupling).T + 3.0
+    values[len(values) // 2 :] += 5.0
+    if not linear:
+        values[:, 2] += 1e-3 * prior[:, 0] ** 2
+    small = packed(_with_calibrated(built, values))
+    base, fitted = (series.values for series in small.scene.sensors[0].wrenches[-2:])
+    back, rest = (
+        unpack(small.block[one.offset : one.offset + (one.packed_bytes or 0)], (len(values), 6))
+        for one in (base, fitted)
+    )
+    assert (fitted.base is not None) is linear
+    if fitted.matrix is not None:
+        assert fitted.base == base
+        rest += back @ np.reshape(fitted.matrix, (6, 6)).T
+        assert (fitted.packed_bytes or 0) < 0.1 * (base.packed_bytes or 0)
+    np.testing.assert_allclose(rest, values, rtol=0, atol=1.5 * _steps(values).max())
+
+
+def test_first_rows_of_blocks_are_known_before_they_are_unpacked() -> None:
+    """From the head of a block alone, with what is absent; the page looks at postures over the log so."""
+    values = _signals(0.1)
+    values[ROWS, 0] = np.nan
+    data = pack(values)
+    back = unpack(data, (SAMPLES, 3))
+    blocks = int(np.frombuffer(data, "<u4", 1, 4)[0])
+    starts = np.frombuffer(data, "<u4", blocks + 1, 8)
+    place = 8 + 4 * (blocks + 1)
+    place += -place % 8
+    steps, first = np.frombuffer(data, "<f8", 3, place), place + 24
+    assert blocks == 3
+    for k in range(blocks):
+        begin, slope = np.frombuffer(data, "<i4", 6, first + starts[k]).reshape(2, 3)
+        exponents, orders = np.frombuffer(data, np.uint8, 6, first + starts[k] + 24).reshape(2, 3)
+        row = np.where(orders % 128 == 2, begin + slope, begin) * steps * 2.0**exponents
+        np.testing.assert_array_equal(np.where(orders >= 128, np.nan, row), back[k * ROWS])
 
 
 @pytest.mark.parametrize("samples", [300, SAMPLES])

@@ -17,6 +17,11 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Make a text for who listens, where others see a colour or a picture. */
+export function spoken(text: string): HTMLElement {
+  return el("span", { class: "spoken" }, text);
+}
+
 /** Make a button that says what it does. */
 export function button(text: string, action: () => void, attributes: Attributes = {}): HTMLButtonElement {
   const element = el("button", { type: "button", ...attributes }, text);

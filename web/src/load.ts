@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene's header and block: inside the page, or fetched in pieces from the server that sent it.
 
+import { blockOfBase64, blockOfBytes, type Block } from "./block";
 import type { Scene } from "./scene_types";
 
 const PIECE_BYTES = 4 * 1024 * 1024;
-const BASE64_PIECE = 4 * 262_144; // a multiple of four characters, which are three bytes
 
 /** How much has come; total is 0 while unknown. */
 export type Progress = (loaded: number, total: number) => void;
@@ -21,26 +21,14 @@ export function readHeader(): Scene {
 }
 
 /** Read the block: base64 in the page, or the file that the page names. */
-export async function readBlock(progress: Progress): Promise<ArrayBuffer> {
+export async function readBlock(progress: Progress): Promise<Block> {
   const element = document.getElementById("data");
   if (!element) throw new Error('the page holds no data: expected a script element with id "data"');
   const url = element.dataset["url"];
-  if (url) return fetchInPieces(url, progress);
-  const block = decodeBase64(element.textContent ?? "");
+  if (url) return blockOfBytes(await fetchInPieces(url, progress));
+  const block = blockOfBase64(element.textContent ?? "");
   element.textContent = "";
   return block;
-}
-
-function decodeBase64(text: string): ArrayBuffer {
-  const base64 = text.trim();
-  const padding = base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0;
-  const bytes = new Uint8Array((base64.length / 4) * 3 - padding);
-  let place = 0;
-  for (let start = 0; start < base64.length; start += BASE64_PIECE) {
-    const piece = atob(base64.slice(start, start + BASE64_PIECE));
-    for (let k = 0; k < piece.length; k++) bytes[place++] = piece.charCodeAt(k);
-  }
-  return bytes.buffer;
 }
 
 async function fetchInPieces(url: string, progress: Progress): Promise<ArrayBuffer> {

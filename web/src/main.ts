@@ -46,7 +46,9 @@ async function start(): Promise<boolean> {
     const block = await readBlock((loaded, total) => {
       if (total > 0) [bar.max, bar.value] = [total, loaded];
     });
+    performance.mark("read");
     build(new SceneData(scene, block));
+    performance.mark("drawn");
     waiting.remove();
     document.documentElement.dataset["ready"] = "true";
     return true;

@@ -3,12 +3,27 @@
 
 import { inflateSync } from "fflate";
 
+import type { Block } from "./block";
+
 const ABSENT = 65_535; // code of NaN
 const WORD = 8; // parts start at a multiple of so many bytes
+const FIRST_ABSENT = 128; // added to the order of a column whose first row is absent
+
+/** What a column of a block starts with: its value and its change before the first row, in steps. */
+interface Head {
+  readonly begin: number;
+  readonly slope: number;
+  readonly step: number;
+  /** Whether differences are of the second order. */
+  readonly twice: boolean;
+  /** Whether the first row is absent. */
+  readonly absent: boolean;
+}
 
 /** An array of rows over time. */
 export class PackedArray {
-  private readonly rowsOfBlock: number;
+  /** Number of rows that are unpacked together; the first of them is known before. */
+  readonly rowsOfBlock: number;
   private readonly starts: Uint32Array;
   private readonly steps: Float64Array;
   private readonly first: number;
@@ -21,23 +36,24 @@ export class PackedArray {
    * @param columns Number of columns.
    */
   constructor(
-    private readonly block: ArrayBuffer,
+    private readonly block: Block,
     offset: number,
     private readonly rows: number,
     private readonly columns: number,
   ) {
-    const [rowsOfBlock = 1, count = 0] = new Uint32Array(block, offset, 2);
+    const [rowsOfBlock = 1, count = 0] = new Uint32Array(block.read(offset, offset + 8).buffer);
     this.rowsOfBlock = rowsOfBlock;
-    this.starts = new Uint32Array(block, offset + 8, count + 1);
+    this.starts = new Uint32Array(block.read(offset + 8, offset + 8 + 4 * (count + 1)).buffer);
     const place = offset + aligned(8 + 4 * (count + 1));
-    this.steps = new Float64Array(block, place, columns);
     this.first = place + 8 * columns;
+    this.steps = new Float64Array(block.read(place, this.first).buffer);
   }
 
   /** Values of a row. */
   row(index: number): Float32Array {
     const k = Math.floor(index / this.rowsOfBlock);
     const at = (index - k * this.rowsOfBlock) * this.columns;
+    if (at === 0 && !this.blocks[k]) return this.firstRow(this.head(k));
     return this.unpacked(k).subarray(at, at + this.columns);
   }
 
@@ -57,18 +73,15 @@ export class PackedArray {
 
   private unpack(k: number): Float32Array {
     const { columns } = this;
-    const [start = 0, end = 0] = [this.starts[k], this.starts[k + 1]];
+    const head = this.head(k);
     const length = Math.min(this.rowsOfBlock, this.rows - k * this.rowsOfBlock);
-    const size = 10 * columns + 2 * columns * length;
-    const bytes = inflateSync(new Uint8Array(this.block, this.first + start, end - start), { out: new Uint8Array(size) });
-    const head = new Int32Array(bytes.buffer, 0, 2 * columns);
+    const packed = this.block.read(this.first + (this.starts[k] ?? 0) + 10 * columns, this.first + (this.starts[k + 1] ?? 0));
+    const bytes = inflateSync(packed, { out: new Uint8Array(2 * columns * length) });
     const values = new Float32Array(columns * length);
-    for (let column = 0; column < columns; column++) {
-      const step = (this.steps[column] ?? 0) * 2 ** (bytes[8 * columns + column] ?? 0);
-      const twice = bytes[9 * columns + column] === 2;
-      let whole = head[column] ?? 0;
-      let slope = head[columns + column] ?? 0;
-      const low = 10 * columns + 2 * column * length;
+    head.forEach(({ begin, slope: before, step, twice }, column) => {
+      let whole = begin;
+      let slope = before;
+      const low = 2 * column * length;
       for (let row = 0; row < length; row++) {
         const code = (bytes[low + row] ?? 0) + 256 * (bytes[low + length + row] ?? 0);
         const change = code === ABSENT ? 0 : (code >> 1) ^ -(code & 1);
@@ -76,8 +89,32 @@ export class PackedArray {
         else whole += change;
         values[row * columns + column] = code === ABSENT ? Number.NaN : whole * step;
       }
-    }
+    });
     return values;
+  }
+
+  /** What each column of a block starts with. */
+  private head(k: number): Head[] {
+    const { columns } = this;
+    const start = this.first + (this.starts[k] ?? 0);
+    const bytes = this.block.read(start, start + 10 * columns);
+    const numbers = new Int32Array(bytes.buffer, 0, 2 * columns);
+    return Array.from({ length: columns }, (_, column) => {
+      const order = bytes[9 * columns + column] ?? 1;
+      return {
+        begin: numbers[column] ?? 0,
+        slope: numbers[columns + column] ?? 0,
+        step: (this.steps[column] ?? 0) * 2 ** (bytes[8 * columns + column] ?? 0),
+        twice: order % FIRST_ABSENT === 2,
+        absent: order >= FIRST_ABSENT,
+      };
+    });
+  }
+
+  private firstRow(head: readonly Head[]): Float32Array {
+    return Float32Array.from(head, ({ begin, slope, step, twice, absent }) =>
+      absent ? Number.NaN : (twice ? begin + slope : begin) * step,
+    );
   }
 }
 

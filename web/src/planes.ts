@@ -50,14 +50,18 @@ export class PlaneView implements Drawable {
 
   /** Where a point is on the canvas; CSS pixels. */
   place(clouds: Clouds, point: ArrayLike<number>): [number, number] {
+    return this.placing(clouds)(point, 0);
+  }
+
+  /** Where points are on the canvas that begin at a place of an array; quick for many of them. */
+  private placing(clouds: Clouds): (points: ArrayLike<number>, at: number) => [number, number] {
     const [i, j] = this.plane;
     const { left, right, top, bottom } = MARGIN;
     const [width, height] = [this.panel.clientWidth - left - right, this.panel.clientHeight - top - bottom];
     const pixels = Math.min(width, height) / (2 * clouds.half); // the same both ways: a sphere stays a circle
-    return [
-      left + width / 2 + ((point[i] ?? Number.NaN) - (clouds.centre[i] ?? 0)) * pixels,
-      top + height / 2 - ((point[j] ?? Number.NaN) - (clouds.centre[j] ?? 0)) * pixels,
-    ];
+    const x = left + width / 2 - (clouds.centre[i] ?? 0) * pixels;
+    const y = top + height / 2 + (clouds.centre[j] ?? 0) * pixels;
+    return (points, at) => [x + (points[at + i] ?? Number.NaN) * pixels, y - (points[at + j] ?? Number.NaN) * pixels];
   }
 
   /** Where a sample of a series is on the screen; CSS pixels. */
@@ -118,10 +122,12 @@ export class PlaneView implements Drawable {
     pen.clip();
     const { selected } = this.store.state;
     const chosen = Uint8Array.from(clouds.samples, (sample) => (isIn(selected, this.data.time[sample] ?? 0) ? 1 : 0));
+    const place = this.placing(clouds);
     for (const cloud of this.visible(clouds)) {
+      const pale = faded(cloud.colour, 0.12);
       for (let k = 0; k + 2 < cloud.points.length; k += 3) {
-        const [x, y] = this.place(clouds, cloud.points.subarray(k, k + 3));
-        pen.fillStyle = selected.length === 0 || chosen[k / 3] ? cloud.colour : faded(cloud.colour, 0.12);
+        const [x, y] = place(cloud.points, k);
+        pen.fillStyle = selected.length === 0 || chosen[k / 3] ? cloud.colour : pale;
         if (Number.isFinite(x + y)) pen.fillRect(x - 0.8, y - 0.8, 1.6, 1.6);
       }
       if (!this.store.state.wireframes) continue;

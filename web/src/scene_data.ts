@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene with its arrays.
 
+import type { Block } from "./block";
 import { Columns } from "./columns";
 import { PackedArray } from "./packed";
 import type { ArrayRef, ContactSeries, Scene, Sensor, WrenchSeries } from "./scene_types";
@@ -19,14 +20,14 @@ type Vector = [number, number, number];
 /** Header and arrays of a scene. */
 export class SceneData {
   readonly time: Float64Array;
-  private readonly unpacked = new Map<number, Float32Array>();
+  private readonly known = new Map<number, Float32Array | Float64Array | Uint32Array>();
   private readonly packed = new Map<number, PackedArray>();
   /** Quantities over time. */
   readonly columns = new Columns(this);
 
   constructor(
     readonly scene: Scene,
-    private readonly block: ArrayBuffer,
+    private readonly block: Block,
   ) {
     this.time = this.doubles(scene.time_s);
   }
@@ -38,19 +39,28 @@ export class SceneData {
 
   /** Values of a float32 array, unpacked when they are first asked for. */
   floats(ref: ArrayRef): Float32Array {
-    if (ref.packed_bytes !== null) {
-      const values = this.unpacked.get(ref.offset) ?? this.rows(ref).all();
-      this.unpacked.set(ref.offset, values);
+    return this.remembered(ref, () => {
+      const values = ref.packed_bytes === null ? new Float32Array(this.bytes(ref, "float32", 4)) : this.rows(ref).all();
+      if (ref.base) addMapped(values, ref, this.floats(ref.base));
       return values;
-    }
-    return new Float32Array(this.block, this.placed(ref, "float32", 4), size(ref));
+    });
   }
 
   /** Values of one row of a float32 array over time, of which no more than a block is unpacked. */
   row(ref: ArrayRef, index: number): Float32Array {
-    if (ref.packed_bytes !== null) return this.rows(ref).row(index);
     const columns = ref.shape[1] ?? 1;
-    return this.floats(ref).subarray(index * columns, (index + 1) * columns);
+    const known = ref.packed_bytes === null ? this.floats(ref) : this.known.get(ref.offset);
+    if (known instanceof Float32Array) return known.subarray(index * columns, (index + 1) * columns);
+    if (!ref.base) return this.rows(ref).row(index);
+    const values = this.rows(ref).row(index).slice();
+    addMapped(values, ref, this.row(ref.base, index));
+    return values;
+  }
+
+  /** First sample of the block of postures that holds a sample: known without unpacking the block. */
+  keySample(sample: number): number {
+    const { positions } = this.scene;
+    return positions.packed_bytes === null ? sample : sample - (sample % this.rows(positions).rowsOfBlock);
   }
 
   private rows(ref: ArrayRef): PackedArray {
@@ -64,12 +74,12 @@ export class SceneData {
 
   /** Values of a float64 array. */
   doubles(ref: ArrayRef): Float64Array {
-    return new Float64Array(this.block, this.placed(ref, "float64", 8), size(ref));
+    return this.remembered(ref, () => new Float64Array(this.bytes(ref, "float64", 8)));
   }
 
   /** Values of a uint32 array. */
   integers(ref: ArrayRef): Uint32Array {
-    return new Uint32Array(this.block, this.placed(ref, "uint32", 4), size(ref));
+    return this.remembered(ref, () => new Uint32Array(this.bytes(ref, "uint32", 4)));
   }
 
   /** Force or moment of a series at a sample; NaN where absent. */
@@ -126,10 +136,18 @@ export class SceneData {
     return [this.time[0] ?? 0, this.time[this.samples - 1] ?? 0];
   }
 
-  private placed(ref: ArrayRef, dtype: ArrayRef["dtype"], bytes: number): number {
+  private remembered<T extends Float32Array | Float64Array | Uint32Array>(ref: ArrayRef, make: () => T): T {
+    if (ref.shape.includes(0)) return make(); // it starts where another array starts
+    const values = (this.known.get(ref.offset) as T | undefined) ?? make();
+    this.known.set(ref.offset, values);
+    return values;
+  }
+
+  private bytes(ref: ArrayRef, dtype: ArrayRef["dtype"], bytes: number): ArrayBuffer {
     if (ref.dtype !== dtype) throw new Error(`expected an array of ${dtype}, got ${ref.dtype}`);
-    this.within(ref.offset + bytes * size(ref));
-    return ref.offset;
+    const end = ref.offset + bytes * ref.shape.reduce((product, length) => product * length, 1);
+    this.within(end);
+    return this.block.read(ref.offset, end).buffer as ArrayBuffer;
   }
 
   private within(end: number): void {
@@ -138,6 +156,14 @@ export class SceneData {
   }
 }
 
-function size(ref: ArrayRef): number {
-  return ref.shape.reduce((product, length) => product * length, 1);
+/** Add to rows of values the matrix of their reference times the rows of another array. */
+function addMapped(values: Float32Array, ref: ArrayRef, base: Float32Array): void {
+  const columns = ref.shape[1] ?? 1;
+  const matrix = ref.matrix ?? [];
+  for (let at = 0; at < values.length; at += columns)
+    for (let i = 0; i < columns; i++) {
+      let sum = values[at + i] ?? 0;
+      for (let j = 0; j < columns; j++) sum += (matrix[columns * i + j] ?? 0) * (base[at + j] ?? 0);
+      values[at + i] = sum;
+    }
 }

@@ -11,6 +11,10 @@ export interface ArrayRef {
   readonly dtype: "float32" | "float64" | "uint32";
   /** Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is. */
   readonly packed_bytes: number | null;
+  /** Array of the same shape (n, c) that `matrix` multiplies, and what is stored is added to; or null. */
+  readonly base: ArrayRef | null;
+  /** Matrix of c columns, row by row: a row of values is `matrix` times the row of `base`, and the stored row. */
+  readonly matrix: readonly number[] | null;
 }
 
 /**

@@ -3,7 +3,7 @@
 
 import { seriesColour } from "./colours";
 import { COMPONENTS, type Column } from "./columns";
-import { button, el } from "./dom";
+import { button, el, spoken } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import { UNIT, type SceneData } from "./scene_data";
 import type { Sensor, WrenchSeries } from "./scene_types";
@@ -52,13 +52,13 @@ export class StatisticsPanel implements Drawable {
     if (uses.length > 1)
       for (const { use, part } of uses)
         rows.push(el("tr", {}, el("th", { scope: "row" }, `|${letter}| ${use}`), ...this.cells(part, first, end)));
-    const head = ["", "rms", "mean", "largest"].map((text) => el("th", { scope: "col" }, text));
+    const head = ["rms", "mean", "largest"].map((text) => el("th", { scope: "col" }, text));
     return [
       el(
         "table",
         { class: "statistics" },
         el("caption", {}, chip, ` ${series.name} [${UNIT[quantity]}], n = ${count}`),
-        el("thead", {}, el("tr", {}, ...head)),
+        el("thead", {}, el("tr", {}, el("th", { scope: "col" }, spoken("component")), ...head)),
         el("tbody", {}, ...rows),
       ),
     ];

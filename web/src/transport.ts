@@ -27,7 +27,7 @@ export function transport(data: SceneData, store: Store, say: (text: string) => 
     if (Number.isFinite(wanted)) store.set({ sample: Math.min(last, Math.max(0, wanted)), playing: false });
     number.value = String(store.state.sample);
   });
-  const time = el("time", { "aria-label": "Time" }); // an output would be read aloud at every step
+  const time = el("time"); // an output would be read aloud at every step
   const play = button("▶ Play", () => togglePlay(data, store), { class: "play" });
   const speeds = SPEEDS.map((s) => [s, `${s}×`] as const);
   const speed = choice("Speed", speeds, "1", (value) => store.set({ speed: Number(value) }));
@@ -50,9 +50,9 @@ export function transport(data: SceneData, store: Store, say: (text: string) => 
     { class: "transport" },
     play,
     speed,
-    button("−1", () => step(data, store, -1), { "aria-label": "One sample back" }),
+    button("−1", () => step(data, store, -1), { "aria-label": "−1: one sample back" }),
     slider,
-    button("+1", () => step(data, store, 1), { "aria-label": "One sample on" }),
+    button("+1", () => step(data, store, 1), { "aria-label": "+1: one sample on" }),
     number,
     time,
     saving(data, store, say),

@@ -2,7 +2,7 @@
 // The numbers of the current sample: wrenches, and the joint configuration.
 
 import { seriesColour } from "./colours";
-import { el } from "./dom";
+import { el, spoken } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import { UNIT, type Quantity, type SceneData } from "./scene_data";
 import type { Sensor } from "./scene_types";
@@ -26,7 +26,7 @@ export class ValuesPanel implements Drawable {
     const { sample, sensor: place, quantity, hidden } = this.store.state;
     const sensor = this.data.sensor(place);
     const letter = quantity === "force" ? "f" : "t";
-    const head = ["", `${letter}x`, `${letter}y`, `${letter}z`, `|${letter}|`];
+    const head = [`${letter}x`, `${letter}y`, `${letter}z`, `|${letter}|`];
     const rows = (sensor?.wrenches ?? [])
       .filter((series) => !hidden.has(series.name))
       .map((series) => {
@@ -34,14 +34,14 @@ export class ValuesPanel implements Drawable {
         const cells = [...vector, Math.hypot(...vector)].map((value) => el("td", {}, shown(value, quantity)));
         const chip = el("span", { class: "chip" });
         chip.style.background = sensor ? seriesColour(sensor, series) : "";
-        return el("tr", {}, el("th", { scope: "row", title: series.name, "aria-label": series.name }, chip), ...cells);
+        return el("tr", {}, el("th", { scope: "row", title: series.name }, chip, spoken(series.name)), ...cells);
       });
     this.root.replaceChildren(
       el(
         "table",
         {},
         el("caption", {}, `${quantity === "force" ? "Force" : "Torque"} [${UNIT[quantity]}]${acts(sensor)}`),
-        el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
+        el("thead", {}, el("tr", {}, el("th", { scope: "col" }, spoken("series")), ...head.map((text) => el("th", { scope: "col" }, text)))),
         el("tbody", {}, ...rows),
       ),
     );

@@ -15,6 +15,7 @@ import typer
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 
 if TYPE_CHECKING:
+    from forcetorque.base.progress import Progress
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.results.result import Result
     from forcetorque.viewer.scene_builder import BuiltScene
@@ -97,14 +98,14 @@ def _write(
 
     log = start_logging()
     for path, file in files.items():
-        built = _scene(path, known.get(path), given)
+        built = _scene(path, known.get(path), given, log.info)
         for note in built.scene.notes:
             log.info("%s", note)
         built = _with_notes(built, tuple(_verdicts(name, result)))
         log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
 
 
-def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any]) -> BuiltScene:
+def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress) -> BuiltScene:
     """What the viewer shows of an experiment, by the options of the command."""
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.payload.load_of_log import is_experiment_file
@@ -113,7 +114,7 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any]) -> Bu
     from forcetorque.viewer.scene_builder import build_scene, scene_of
 
     if known is not None and not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
-        return build_scene(known, {})
+        return build_scene(known, {}, progress=progress)
     experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     sensors: Sequence[str] | None = given.get("sensor")
     return scene_of(
@@ -121,6 +122,7 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any]) -> Bu
         experiment,
         read_calibrations(given.get("calibration"), sensors),
         sensors=sensors,
+        progress=progress,
         contact_options=ContactOptions(
             contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")
         ),

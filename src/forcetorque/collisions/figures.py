@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.results.figures import (
-    REFERENCE_COLOUR,
+    LIMIT_LINE,
+    PAPER,
     ROW_INCHES,
     in_figure_style,
     legend_below,
@@ -16,6 +17,7 @@ from forcetorque.results.figures import (
     new_figure,
     shown_name,
 )
+from forcetorque.results.visual_roles import CONTACT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,8 +26,7 @@ if TYPE_CHECKING:
 
 
 _FORCE: dict[str, Any] = {"color": look(0).colour, "linewidth": 0.8}
-_NOTICED: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5)), "linewidth": 1.0}
-_CONTACT: dict[str, Any] = {"color": look(1).colour, "linewidth": 6.0, "alpha": 0.25}
+_CONTACT: dict[str, Any] = {"color": CONTACT.colour, "linewidth": 6.0, "alpha": 0.25}
 _NAMED = 3
 """Contacts of a sensor that are named, the strongest first, each a line lower."""
 
@@ -49,27 +50,31 @@ def collisions_figure(result: Collisions) -> Figure:
         time_s, force = np.asarray(curve.time_s), np.asarray(curve.force_N)
         gaps = np.flatnonzero(np.diff(time_s) > 1.0) + 1
         panel.plot(np.insert(time_s, gaps, np.nan), np.insert(force, gaps, np.nan), **_FORCE)
-        panel.axhline(sensor.smallest_force_N, **_NOTICED)
+        panel.axhline(sensor.smallest_force_N, **LIMIT_LINE)
         own = [row for row in result.collisions if row.sensor == curve.sensor]
         for row in own:
             panel.axvspan(row.start_s, row.end_s, color=_CONTACT["color"], alpha=0.25, linewidth=0.0)
         for place, row in enumerate(sorted(own, key=lambda row: -row.force_N)[:_NAMED]):
             panel.annotate(
                 f"{row.force_N:.3g} N, {shown_name(row.link)}",
-                (row.start_s, 1.0),
+                (row.end_s, 1.0),
                 xycoords=("data", "axes fraction"),
-                xytext=(2, -12 * (place + 1)),
+                xytext=(3, -12 * (place + 1)),
                 textcoords="offset points",
                 clip_on=True,
+                color=CONTACT.colour,
+                bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.5},
             )
         if own:  # room for the names
             panel.set_ylim(top=1.4 * float(force.max(initial=0.0)))
         panel.set_ylabel("force beyond the model, N")
         panel.set_title(
-            f"{shown_name(curve.sensor)}: {_contacts(len(own))}, noticed from {sensor.smallest_force_N:.2g} N"
+            f"{shown_name(curve.sensor)}: {_contacts(len(own))}, noticed from {sensor.smallest_force_N:.2g} N",
+            loc="left",
+            fontweight="bold",
         )
     panels[-1].set_xlabel("time, s")
-    legend_below(figure, [("force beyond the model", _FORCE), ("noticed from", _NOTICED), ("contact", _CONTACT)])
+    legend_below(figure, [("force beyond the model", _FORCE), ("noticed from", LIMIT_LINE), ("contact", _CONTACT)])
     return figure
 
 

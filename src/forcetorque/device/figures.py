@@ -24,6 +24,7 @@ from forcetorque.results.figures import (
     ROW_INCHES,
     draw_over_time,
     drawable_each,
+    headline,
     in_figure_style,
     instants,
     legend_below,
@@ -72,6 +73,8 @@ def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str,
         panel.set_ylabel(label)
     panels[-1].set_xlabel("time, s")
     figure.align_ylabels()
+    peaks = {name: np.nanmax(np.abs(values), initial=0.0) for name, values in torques.items()}
+    headline(figure, "Largest torques: " + ", ".join(f"{shown_name(n)} {peak:.3g} N m" for n, peak in peaks.items()))
     keys = [(shown_name(name), look(number).key | {"linestyle": "-"}) for number, name in enumerate(positions)]
     legend_below(figure, keys)
     return figure
@@ -206,11 +209,22 @@ def predicted_error_figure(rows: Sequence[DirectionRow]) -> Figure:
             panel.plot(at[known], values[known], linestyle="none", marker=style.marker, color=style.colour)
         panel.set_yscale("log")
         panel.set_ylabel(f"error of {error}")
+        panel.set_title(_least_worst([row for row in rows if row.error == error]), loc="left", fontweight="bold")
     panels[-1].set_xticks(range(6), WRENCH_COMPONENTS)
     panels[-1].set_xlabel("axis that is loaded, by 100 N or 5 N m")
     figure.align_ylabels()
     legend_below(figure, [(shown_name(name), look(k).key | {"linestyle": "none"}) for k, name in enumerate(names)])
     return figure
+
+
+def _least_worst(rows: Sequence[DirectionRow]) -> str:
+    """The motion whose worst axis errs least, of those that determine all axes."""
+    error, _, unit = rows[0].error.partition(", ")
+    worst = {row.motion: max(getattr(row, component) for component in WRENCH_COMPONENTS) for row in rows}
+    best = min(worst, key=worst.__getitem__)
+    if not np.isfinite(worst[best]):
+        return f"No motion determines the {error} of every axis"
+    return f"{shown_name(best)}: least {error} error of the worst axis, {worst[best]:.2g} {unit}"
 
 
 def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:

@@ -23,6 +23,7 @@ from forcetorque.results.figures import (
     draw_over_time,
     drawable,
     drawable_each,
+    headline,
     in_figure_style,
     instants,
     legend_below,
@@ -242,6 +243,7 @@ def torque_figure(
         panel.set_ylabel(f"{shown_name(joint)}, N m")
     figure.align_ylabels()
     panels[-1].set_xlabel("time, s")
+    headline(figure, _message(joints, torques, truth))
     keys = [(_named(name, torque, truth), styles[name].key | {"linestyle": "-"}) for name, torque in torques.items()]
     legend_below(figure, [*keys, *([] if reference is None else [(shown_name(reference[0]), _REFERENCE)])])
     return figure
@@ -259,9 +261,32 @@ def _draw(
     draw_over_time(panel, at, lines[:, 0], style, turn=turn, count=count)
 
 
+def _message(joints: Sequence[str], torques: Mapping[str, FloatArray], truth: FloatArray | None) -> str:
+    """Which estimate errs least; without a reference, the largest torque."""
+    if truth is not None:
+        errors = {name: rmse for name, torque in torques.items() if (rmse := _rmse(torque, truth)) is not None}
+        if not errors:
+            return "No sample has both an estimate and its reference"
+        best = min(errors, key=errors.__getitem__)
+        return f"{shown_name(best)} errs {'least, ' if len(errors) > 1 else ''}by {_Nm(errors[best])} RMSE"
+    peaks = {name: np.nanmax(np.abs(torque), axis=0, initial=0.0) for name, torque in torques.items()}
+    name = max(peaks, key=lambda name: float(peaks[name].max()))
+    joint = int(peaks[name].argmax())
+    source = f", by {shown_name(name)}" if len(peaks) > 1 else ""
+    return f"Largest torque: {_Nm(float(peaks[name][joint]))} at {shown_name(joints[joint])}{source}"
+
+
+def _Nm(value: float) -> str:
+    return f"{value:.3g} N m"
+
+
+def _rmse(torque: FloatArray, truth: FloatArray) -> float | None:
+    errors = (torque - truth)[np.isfinite(torque - truth)]
+    return float(np.sqrt(np.mean(errors**2))) if len(errors) else None
+
+
 def _named(name: str, torque: FloatArray, truth: FloatArray | None) -> str:
     if truth is None:
         return shown_name(name)
-    errors = (torque - truth)[np.isfinite(torque - truth)]
-    known = f"RMSE {np.sqrt(np.mean(errors**2)):.3g} N m" if len(errors) else "no samples"
-    return f"{shown_name(name)}: {known}"
+    rmse = _rmse(torque, truth)
+    return f"{shown_name(name)}: {'no samples' if rmse is None else f'RMSE {_Nm(rmse)}'}"

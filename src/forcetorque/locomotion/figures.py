@@ -270,13 +270,25 @@ def torque_loop_figure(loop: TorqueLoopStudy) -> Figure:
     for k, (_, rows) in enumerate(curves):
         _draw_torque_loop(panels, rows, k)
     names = ("tracking error, N m", "swings on after a push, %", "falls, %")
-    for panel, name in zip(panels, names, strict=True):
+    messages = (
+        f"Tracking error: up to {max(row.tracking_rms_Nm for row in loop.rows):.2g} N m",
+        _from_error_on([(row.force_error_N, row.oscillating) for row in loop.rows], "Swings on"),
+        _from_error_on([(row.force_error_N, row.falls) for row in loop.rows], "Falls"),
+    )
+    for panel, name, message in zip(panels, names, messages, strict=True):
         panel.set_xlabel("force error of the sensors under the weight, N")
         panel.set_ylabel(name)
+        panel.set_title(message, loc="left", fontweight="bold")
     for panel in panels[1:]:
         panel.set_ylim(-3.0, 103.0)
     legend_below(figure, [(shown_name(name), look(k).key) for k, (name, _) in enumerate(curves)])
     return figure
+
+
+def _from_error_on(counts: Sequence[tuple[float, int]], what: str) -> str:
+    """The least error of the sensors at which a run had it."""
+    errors = [error for error, count in counts if count > 0]
+    return f"{what} in no run" if not errors else f"{what} first at {min(errors):.2g} N"
 
 
 def _curves(rows: Sequence[TorqueLoopRow]) -> list[tuple[str, list[TorqueLoopRow]]]:

@@ -11,6 +11,7 @@ from enum import IntEnum
 from typing import Final
 
 from forcetorque.results.table_rendering import shortened, wrapped
+from forcetorque.results.visual_roles import TERMINAL
 
 EXPERIMENT: Final = "{experiment}"
 """Stands in a command for the experiment files that were typed."""
@@ -38,6 +39,14 @@ class Concern(IntEnum):
     BAD = 2
     """Who goes on would be misled."""
 
+
+_COLOURS = {
+    Concern.NONE: TERMINAL["good"],
+    Concern.UNCERTAIN: TERMINAL["caution"],
+    Concern.BAD: TERMINAL["bad"],
+}
+_CAPITALS = re.compile(r"\b[A-Z]{2,}(?:[ -][A-Z]{2,})*\b")
+"""The words of a verdict that are coloured: the first in capitals."""
 
 _WORD = re.compile(r"""(?:'[^']*'|"[^"]*"|\S)+""")
 """A word of a command, in quotes where it holds spaces."""
@@ -77,7 +86,13 @@ class Answer:
 
 
 def answer_text(
-    answers: Sequence[Answer], width: int, experiment: str = "", first: str = "", *, most: int | None = None
+    answers: Sequence[Answer],
+    width: int,
+    experiment: str = "",
+    first: str = "",
+    *,
+    most: int | None = None,
+    coloured: bool = False,
 ) -> str:
     """Write answers for people: a line for each, the worst first, and why and what next for the worst.
 
@@ -87,6 +102,7 @@ def answer_text(
         experiment: What stands for the experiment files in commands; a word for any if empty.
         first: What stands for the first of them.
         most: Lines; what there is no room for of why, is left out, but one line; None for as many as there are.
+        coloured: Whether the words of each verdict that are in capitals have the colour of its concern.
 
     Returns:
         Lines, each with its end; empty without answers.
@@ -96,16 +112,18 @@ def answer_text(
     ordered = sorted(answers, key=lambda answer: -answer.concern)
     names = {EXPERIMENT: experiment or _ANY, FIRST_EXPERIMENT: first or experiment or _ANY}
     why = [line for sentence in ordered[0].why for line in _indented(sentence, width).splitlines()]
-    lines = [line for part in _lines(ordered, width, names, ()) for line in part.splitlines()]
+    lines = [line for part in _lines(ordered, width, names, (), coloured) for line in part.splitlines()]
     if most is not None and len(lines) + len(why) > most:
         why = why[: max(1, most - len(lines))]
         why[-1] = _INDENT + shortened(f"{why[-1]} …", width - len(_INDENT))
-    return "".join(f"{line}\n" for line in _lines(ordered, width, names, why))
+    return "".join(f"{line}\n" for line in _lines(ordered, width, names, why, coloured))
 
 
-def _lines(answers: Sequence[Answer], width: int, names: Mapping[str, str], why: Sequence[str]) -> Iterator[str]:
+def _lines(
+    answers: Sequence[Answer], width: int, names: Mapping[str, str], why: Sequence[str], coloured: bool
+) -> Iterator[str]:
     for answer in answers:
-        yield _headline(answer, width)
+        yield _headline(answer, width, coloured)
         if answer is answers[0]:
             yield from why
     files = dict.fromkeys(file for answer in answers for file in answer.written if file is not None)
@@ -121,12 +139,14 @@ def _lines(answers: Sequence[Answer], width: int, names: Mapping[str, str], why:
         yield _command(f"forcetorque {command}", width)
 
 
-def _headline(answer: Answer, width: int) -> str:
+def _headline(answer: Answer, width: int, coloured: bool) -> str:
     """Subject to the left, verdict to the right; below it where there is no room."""
     gap = width - len(answer.subject) - len(answer.verdict)
-    if gap >= 2:
-        return f"{answer.subject}{' ' * gap}{answer.verdict}"
-    return f"{wrapped(answer.subject, width)}\n{_indented(answer.verdict, width)}"
+    fits = gap >= 2
+    verdict = answer.verdict if fits else _indented(answer.verdict, width)
+    if coloured:
+        verdict = _CAPITALS.sub(rf"\033[1;{_COLOURS[answer.concern]}m\g<0>\033[0m", verdict, count=1)
+    return f"{answer.subject}{' ' * gap}{verdict}" if fits else f"{wrapped(answer.subject, width)}\n{verdict}"
 
 
 def _indented(sentence: str, width: int) -> str:

@@ -69,6 +69,9 @@ LONGEST_NAME = 60
 _LEGEND_ROW_INCHES, _KEY_INCHES = 0.22, 0.82
 """Height of a row of a legend, and width of what stands beside its text; inch."""
 
+_HEADLINE_INCHES, _HEADLINE_POINTS = 0.3, 11.0
+"""Height of the line of a message and size of its letters; inch and points."""
+
 _HUES = COLOURS[: len(CALIBRATIONS)]
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2, 1, 2)), (0, (1, 1)))
@@ -215,6 +218,17 @@ def two_digits(value: float) -> str:
         Such as `0.043`, `1.6` or `324`.
     """
     return f"{value:.0f}" if value >= 100.0 else f"{value:#.2g}".rstrip(".")
+
+
+def headline(figure: Figure, message: str) -> None:
+    """Write what a figure shows above all panels, at the left, and make the figure higher by this line.
+
+    Args:
+        figure: The figure.
+        message: The message, with names as `shown_name` gives them.
+    """
+    figure.set_figheight(figure.get_figheight() + _HEADLINE_INCHES)
+    figure.suptitle(message, x=0.01, horizontalalignment="left", fontsize=_HEADLINE_POINTS, fontweight="bold")
 
 
 def legend_below(

@@ -69,6 +69,8 @@ TONES = {
     "unknown": Role(word="unknown", colour="#4b5560", dark="#aab3be"),
 }
 """Verdicts."""
+TERMINAL = {"good": 32, "caution": 33, "bad": 31}
+"""Colours of verdicts on a terminal: the green, yellow and red of its own palette, by their number (ECMA-48)."""
 
 SURFACES = {
     "ink": ("#1f2430", "#e8ebf0"),

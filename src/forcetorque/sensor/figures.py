@@ -105,13 +105,17 @@ def thermal_figure(sensors: Sequence[SensorThermal]) -> Figure:
     for k, sensor in enumerate(sensors):
         for j, panel in enumerate(panels[2 * k : 2 * k + 2].ravel()):
             _draw_drift(panel, sensor, j)
-        panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
+        name = shown_name(f"{sensor.sensor} ({sensor.serial})")
+        panels[2 * k, 0].set_title(name if sensor.separable_from_time else f"{name}: {_UNKNOWN}", loc="left")
         for panel in panels[2 * k + 1]:
             panel.set_xlabel("temperature, degC")
     dots = [(name, _dots(style) | {"linestyle": "none"}) for _, name, style in _BRANCHES]
     lines = [(f"{name}, fitted", {"color": style.colour, "linestyle": style.dashes}) for _, name, style in _BRANCHES]
     legend_below(figure, [*dots, *lines])
     return figure
+
+
+_UNKNOWN = "not separable from drift in time"
 
 
 def _draw_drift(panel: Axes, sensor: SensorThermal, j: int) -> None:
@@ -127,6 +131,11 @@ def _draw_drift(panel: Axes, sensor: SensorThermal, j: int) -> None:
         line = row.drift_per_degC * (ends - curve.reference_degC) + 0.5 * sign * (row.hysteresis or 0.0)
         panel.plot(ends, line, color=style.colour, linestyle=style.dashes, linewidth=1.4)
     panel.set_ylabel(curve.signals[j])
+    if sensor.separable_from_time:
+        rises = row.drift_per_degC > 0.0  # the label stands where no point is
+        side, place = ("left", 0.03) if rises else ("right", 0.97)
+        drift = f"{row.drift_per_degC:+.2g} {row.unit}/degC"
+        panel.text(place, 0.94, drift, transform=panel.transAxes, ha=side, va="top", fontweight="bold")
 
 
 def _dots(style: Any) -> dict[str, Any]:

@@ -93,7 +93,12 @@ def view(
         require_writer(output)
     calibrations = read_calibrations(files, sensor)
     built = scene_of(
-        path, read_experiment(path, log, Purpose.DISPLAY), calibrations, sensors=sensor, mesh_folders=mesh_dir
+        path,
+        read_experiment(path, log, Purpose.DISPLAY),
+        calibrations,
+        sensors=sensor,
+        mesh_folders=mesh_dir,
+        progress=log.info,
     )
     for note in built.scene.notes:
         log.info("%s", note)

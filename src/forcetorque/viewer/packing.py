@@ -5,26 +5,30 @@ A packed array of n rows and c columns is, little-endian:
 
 - uint32: rows of a block, and number of blocks b; b + 1 uint32: where each block begins, from the first one;
 - c float64: step of each column; every part starts at a multiple of 8;
-- b blocks, each raw DEFLATE of: c int32 values before the first, c int32 differences before the first, c uint8
-  exponents, c uint8 orders, then for every column the low bytes of the differences of its rows and the high bytes.
+- b blocks, each of: c int32 values before the first, c int32 differences before the first, c uint8 exponents, c uint8
+  orders, 128 more where the first row is absent; then raw DEFLATE of, for every column, the low bytes of the
+  differences of its rows and the high bytes. So the first row of a block is known before it is unpacked.
 
 A value is an integer times the step times 2 to the exponent of its block and column, so it is off by half of that at
 most. The integers are sums of the differences, or sums of sums where the order is 2. Differences are zigzag (0, -1, 1,
 -2, ...); 65535 stands for NaN, and the sum goes on as if it were 0. An exponent above 0 keeps differences in 16 bits.
+
+A calibration is a linear map of what the first measured series of its sensor shows, and an offset. Where that holds,
+the map is in the header (`ArrayRef.matrix`), and what is packed is the difference, which is constant.
 """
 
 from __future__ import annotations
 
 import struct
 import zlib
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.viewer.arrays import ALIGNMENT, read_array
+from forcetorque.viewer.arrays import ALIGNMENT, peak, read_array
 from forcetorque.viewer.scene import ArrayRef, Scene
 from forcetorque.viewer.scene_builder import BuiltScene
 
@@ -38,7 +42,18 @@ LEAST_STEPS = 1.0 / 32.0
 """Largest step, as a share of the range, of a column that is nothing but noise."""
 POSE_STEP = 5e-7
 """Step of joint positions and of the pose of the root; rad, m, or a component of a quaternion."""
+BAND_STEP = 2.0**-8
+"""Step of a standard deviation, as a share of the largest of its column: bands are drawn, not read."""
+ARROW_STEP = 2.0**-11
+"""Step of contact wrenches, as a share of the largest of all contacts: they are drawn as arrows alone."""
 _ABSENT, _LARGEST = 65535, 32767
+_FIRST_ABSENT = 128
+_LINEAR, _ALMOST_ALL = 0.1, 0.99
+"""Largest change of what a linear map leaves, in steps, and the share of samples that hold it."""
+_FEWEST = 20
+"""Changes for each column from which a linear map is computed."""
+_AMPLIFIED = 2.0
+"""Largest step that a linear map makes of those of its argument, in steps of the result."""
 _LEVEL = 4
 _OUTLYING = 100.0
 """Range of a column from which on it has outliers, as a multiple of the range without its outermost samples."""
@@ -60,6 +75,7 @@ def packed(built: BuiltScene) -> BuiltScene:
     parts: list[bytes] = []
     size = 0
     known: dict[tuple[int, tuple[int, ...]], ArrayRef] = {}
+    steps, bases = _largest_steps(built), _bases(built.scene)
 
     def moved(reference: ArrayRef) -> ArrayRef:
         nonlocal size
@@ -67,14 +83,20 @@ def packed(built: BuiltScene) -> BuiltScene:
         if key in known:
             return known[key]
         values = read_array(built.block, reference)
+        moved_to = reference
         over_time = reference.dtype == "float32" and len(values) == built.scene.samples and values.ndim == 2
         if over_time and values.size and not _has_outliers(values):
-            poses = reference in (built.scene.positions, built.scene.root)
-            data = pack(values, POSE_STEP if poses else None)
-            moved_to = replace(reference, offset=size, packed_bytes=len(data))
+            base = bases.get(reference.offset)
+            rest = None if base is None else _rest(values, read_array(built.block, base))
+            if base is not None and rest is not None:
+                data = pack(rest.values, rest.step)
+                moved_to = replace(reference, base=moved(base), matrix=tuple(rest.matrix.ravel().tolist()))
+            else:
+                data = pack(values, steps.get(reference.offset))
+            moved_to = replace(moved_to, offset=size, packed_bytes=len(data))
         else:
             data = values.tobytes()
-            moved_to = replace(reference, offset=size)
+            moved_to = replace(moved_to, offset=size)
         data += b"\0" * (-len(data) % ALIGNMENT)
         parts.append(data)
         size += len(data)
@@ -83,6 +105,66 @@ def packed(built: BuiltScene) -> BuiltScene:
 
     scene: Scene = _with_references(built.scene, moved)
     return replace(built, scene=scene, block=b"".join(parts))
+
+
+def _largest_steps(built: BuiltScene) -> dict[int, FloatArray | float]:
+    """Steps of arrays, by their place, that range and noise do not set."""
+    scene, block = built.scene, built.block
+    steps: dict[int, FloatArray | float] = {array.offset: POSE_STEP for array in (scene.positions, scene.root)}
+    for array in (one.deviation for sensor in scene.sensors for one in sensor.wrenches):
+        if array is not None:
+            steps[array.offset] = _some(BAND_STEP * np.nanmax(read_array(block, array), axis=0, initial=0.0))
+    peaks = [peak(read_array(block, contact.values)) for contact in scene.contacts]
+    if peaks:
+        arrow = _some(ARROW_STEP * np.repeat(np.max(peaks, axis=0), 3))
+        steps |= {contact.values.offset: arrow for contact in scene.contacts}
+    return steps
+
+
+def _some(steps: FloatArray) -> FloatArray:
+    """A step where nothing is above 0."""
+    return np.where(steps > 0.0, steps, 1.0)
+
+
+def _bases(scene: Scene) -> dict[int, ArrayRef]:
+    """The first measured series of the sensor, by the place of each calibrated one."""
+    bases: dict[int, ArrayRef] = {}
+    for sensor in scene.sensors:
+        first, *others = [series for series in sensor.wrenches if series.role == "measured"] or [None]
+        if first is not None:
+            bases |= {series.values.offset: first.values for series in others if series is not None}
+    return bases
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Rest:
+    """What a linear map leaves of a series."""
+
+    matrix: FloatArray
+    values: FloatArray
+    step: FloatArray
+
+
+def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
+    """What a linear map of other wrenches leaves; None where it leaves more than constants."""
+    table, other = np.asarray(values, dtype=np.float64), np.asarray(base, dtype=np.float64)
+    present = np.isfinite(table).all(axis=1)
+    changes = np.isfinite(np.diff(other, axis=0)).all(axis=1) & present[1:] & present[:-1]
+    if (
+        np.isfinite(table).any(axis=1) & ~np.isfinite(other).all(axis=1)
+    ).any() or changes.sum() < _FEWEST * table.shape[1]:
+        return None
+    before, after = (np.diff(one, axis=0)[changes] for one in (other, table))
+    matrix = np.linalg.lstsq(before, after, rcond=None)[0].T
+    left = np.abs(after - before @ matrix.T).max(axis=1)
+    same = left <= 10.0 * np.median(left)  # the offset of another power cycle is a jump
+    matrix = np.linalg.lstsq(before[same], after[same], rcond=None)[0].T
+    rest = table - other @ matrix.T
+    step, base_step = (_steps(_filled(one, ~np.isfinite(one))) for one in (table, other))
+    held = (np.abs(np.diff(rest, axis=0)[changes]) < _LINEAR * step).all(axis=1)
+    if held.mean() < _ALMOST_ALL or (np.abs(matrix) @ base_step > _AMPLIFIED * step).any():
+        return None
+    return _Rest(matrix=matrix, values=rest, step=step)
 
 
 def _has_outliers(values: npt.NDArray[Any]) -> bool:
@@ -108,12 +190,12 @@ def _with_references(node: Any, moved: Any) -> Any:
     return node
 
 
-def pack(values: npt.NDArray[Any], step: float | None = None) -> bytes:
+def pack(values: npt.NDArray[Any], step: FloatArray | float | None = None) -> bytes:
     """Pack one array.
 
     Args:
         values: Rows over time, NaN where absent; shape (n, c).
-        step: Largest step of all columns; None for one by range and noise of each.
+        step: Step of all columns, or of each; None for one by range and noise of each.
 
     Returns:
         The packed form, as above.
@@ -122,7 +204,7 @@ def pack(values: npt.NDArray[Any], step: float | None = None) -> bytes:
     columns = table.shape[1]
     absent = ~np.isfinite(table)
     filled = _filled(table, absent)
-    steps = np.full(columns, step) if step is not None else _steps(filled)
+    steps = _steps(filled) if step is None else np.broadcast_to(step, columns)
     blocks = [
         _block(filled[start : start + ROWS], absent[start : start + ROWS], steps)
         for start in range(0, len(table), ROWS)
@@ -151,16 +233,17 @@ def unpack(data: bytes, shape: tuple[int, int]) -> FloatArray:
     first = place + 8 * columns
     values = np.empty(shape)
     for k in range(count):
-        part = zlib.decompress(data[first + starts[k] : first + starts[k + 1]], -15)
+        head = data[first + starts[k] : first + starts[k + 1]]
+        part = zlib.decompress(head[10 * columns :], -15)
         length = min(rows, samples - k * rows)
-        begin, slope = np.frombuffer(part, "<i4", 2 * columns).reshape(2, columns).astype(np.int64)
-        exponents, orders = np.frombuffer(part, np.uint8, 2 * columns, 8 * columns).reshape(2, columns)
-        pieces = np.frombuffer(part, np.uint8, 2 * columns * length, 10 * columns).reshape(columns, 2, length)
+        begin, slope = np.frombuffer(head, "<i4", 2 * columns).reshape(2, columns).astype(np.int64)
+        exponents, orders = np.frombuffer(head, np.uint8, 2 * columns, 8 * columns).reshape(2, columns)
+        pieces = np.frombuffer(part, np.uint8).reshape(columns, 2, length)
         coded = pieces[:, 0].astype(np.int64) + 256 * pieces[:, 1].astype(np.int64)
         differences = np.where(coded == _ABSENT, 0, (coded >> 1) ^ -(coded & 1))
         for column in range(columns):
             change = differences[column]
-            if orders[column] == 2:
+            if orders[column] % _FIRST_ABSENT == 2:
                 change = slope[column] + np.cumsum(change)
             whole = begin[column] + np.cumsum(change)
             whole = np.where(coded[column] == _ABSENT, np.nan, whole)
@@ -214,7 +297,7 @@ def _block(filled: FloatArray, absent: npt.NDArray[np.bool_], steps: FloatArray)
     zigzag = np.where(differences < 0, -2 * differences - 1, 2 * differences)
     coded = np.ascontiguousarray(np.where(absent, _ABSENT, zigzag).T.astype("<u2"))
     pieces = np.stack([(coded & 255).astype(np.uint8), (coded >> 8).astype(np.uint8)], axis=1)
-    payload = np.stack([begin, slope]).astype("<i4").tobytes()
-    payload += exponents.tobytes() + orders.astype(np.uint8).tobytes() + pieces.tobytes()
+    orders = orders + np.where(absent[0], _FIRST_ABSENT, 0)
+    head = np.stack([begin, slope]).astype("<i4").tobytes() + exponents.tobytes() + orders.astype(np.uint8).tobytes()
     deflate = zlib.compressobj(_LEVEL, zlib.DEFLATED, -15)
-    return deflate.compress(payload) + deflate.flush()
+    return head + deflate.compress(pieces.tobytes()) + deflate.flush()

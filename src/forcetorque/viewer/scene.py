@@ -24,6 +24,10 @@ class ArrayRef:
     """Its type."""
     packed_bytes: int | None = None
     """Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is."""
+    base: ArrayRef | None = None
+    """Array of the same shape (n, c) that `matrix` multiplies, and what is stored is added to; or null."""
+    matrix: tuple[float, ...] | None = None
+    """Matrix of c columns, row by row: a row of values is `matrix` times the row of `base`, and the stored row."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,6 +13,7 @@ from typing import Any, Literal, Self
 from pydantic import BaseModel, Field, ValidationError
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.validation_text import first_error
 from forcetorque.experiment.additions import added_to
@@ -40,6 +41,8 @@ from forcetorque.viewer.skin import scene_skin, scene_skin_events
 
 _BESIDE = f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
 _AS_STATED = ContactOptions()
+_POSTURE, _SENSOR, _CONTACTS, _FINDINGS = 16, 5, 15, 15
+"""Shares of the time that a scene takes: before its sensors, for each of them, for contacts, and for findings."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -63,6 +66,7 @@ def build_scene(
     mesh_folders: Sequence[Path] = (),
     provenance: Sequence[str] = (),
     contact_options: ContactOptions = _AS_STATED,
+    progress: Progress = lambda _: None,
 ) -> BuiltScene:
     """Collect everything that the viewer shows of an experiment.
 
@@ -78,6 +82,7 @@ def build_scene(
         mesh_folders: Folders with packages of meshes that are looked at first.
         provenance: Lines to add to the list of inputs.
         contact_options: How contacts are estimated.
+        progress: Called with the time that is left, of a log that takes longer than a few seconds.
 
     Returns:
         The scene.
@@ -100,6 +105,9 @@ def build_scene(
     draft.notes.extend(
         f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names
     )
+    time_left = TimeLeft(
+        progress, f"reading {experiment.name}", _POSTURE + _SENSOR * len(shown) + _CONTACTS + _FINDINGS
+    )
     posture = posture_at(recording, model, clock)
     root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     computed = differentiated(usable)
@@ -108,15 +116,18 @@ def build_scene(
     draft.notes.extend([_BESIDE] if skin_alone else [*posture.notes, *root.notes, *lacking])
     if experiment.processing.smoothing is not None:
         draft.sources.append("the smoothing of the experiment file is not applied to what is shown")
-    series = [
-        scene_sensor(computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, draft)
-        for one in shown
-    ]
+    series = []
+    for number, one in enumerate(shown):
+        time_left.at(_POSTURE + _SENSOR * number)
+        series.append(scene_sensor(computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, draft))
+    time_left.at(_POSTURE + _SENSOR * len(shown))
     contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft, contact_options)
     patches = computed.section(PATCHES)
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
     robot, missing = _robot(experiment, posture, urdf, draft.block, mesh_folders)
+    parts = scene_parts(computed, groups, posture, draft)
+    time_left.at(_POSTURE + _SENSOR * len(shown) + _CONTACTS)
     scene = Scene(
         title=experiment.name,
         samples=len(posture.stamp_ns),
@@ -127,7 +138,7 @@ def build_scene(
         coordinates=posture.names,
         root=draft.block.add(root.values, "float32"),
         robot=robot,
-        sensors=(*series, *scene_parts(computed, groups, posture, draft)),
+        sensors=(*series, *parts),
         contacts=contacts,
         skin=skin,
         skin_events=events,
@@ -212,6 +223,7 @@ def scene_of(
     sensors: Sequence[str] | None = None,
     mesh_folders: Sequence[Path] | None = None,
     contact_options: ContactOptions = _AS_STATED,
+    progress: Progress = lambda _: None,
 ) -> BuiltScene:
     """Build the scene of an experiment.
 
@@ -222,6 +234,7 @@ def scene_of(
         sensors: Sensors to show; all if None.
         mesh_folders: Folders with packages of meshes.
         contact_options: As of `build_scene`.
+        progress: As of `build_scene`.
 
     Returns:
         The scene, which states the hashes of the calibrations.
@@ -240,6 +253,7 @@ def scene_of(
         sensors=sensors,
         mesh_folders=mesh_folders or (),
         contact_options=contact_options,
+        progress=progress,
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
     )
 

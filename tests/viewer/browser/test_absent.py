@@ -45,7 +45,7 @@ def test_nothing_at_all(visit: Visit, tmp_path: Path) -> None:
     scene = replace(bare.scene, robot=robot, sensors=(), contacts=(), intervals=(), findings=())
     page = visit.open(BuiltScene(scene=scene, block=bare.block))
     assert page.get_by_text("No wrenches of this sensor.").is_visible()
-    page.get_by_role("button", name="One sample on").click()
+    page.get_by_role("button", name="one sample on").click()
     assert page.evaluate("window.ft.sample()") == 1
 
 

@@ -26,7 +26,7 @@ def table(page: Page) -> dict[str, list[float]]:
     """Numbers of the current sample by series."""
     rows = page.get_by_role("region", name="Series").get_by_role("row").filter(has=page.get_by_role("cell")).all()
     return {
-        str(row.get_by_role("rowheader").get_attribute("aria-label")): [
+        str(row.get_by_role("rowheader").text_content()): [
             float(cell) for cell in row.get_by_role("cell").all_text_contents()
         ]
         for row in rows

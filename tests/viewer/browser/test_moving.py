@@ -30,7 +30,7 @@ def test_slider_and_number_jump(page: Page, sample: Callable[[], int], arm: Arm)
     number.press("Enter")
     assert sample() == 123
     assert slider.input_value() == "123"
-    assert page.get_by_label("Time", exact=True).text_content() == f"{arm.time_s[123]:.3f} s"
+    assert page.get_by_role("time").text_content() == f"{arm.time_s[123]:.3f} s"
     slider.fill("321")
     assert sample() == 321
     assert number.input_value() == "321"

@@ -6,6 +6,7 @@ from __future__ import annotations
 import codecs
 import csv
 import logging
+import os
 import shlex
 import sys
 from collections.abc import Collection, Sequence
@@ -153,6 +154,7 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         files_text(experiments),
         files_text(experiments[:1]),
         most=None if details or columns < STANDARD_WIDTH else room,
+        coloured=shows_colours(sys.stdout),
     )
     sys.stdout.write(text)
     if details:
@@ -163,6 +165,23 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
     sys.stderr.write(warnings_text(warnings, columns, room - text.count("\n")))
     sys.stderr.flush()
     sys.stdout.write("details: --details\n")
+
+
+def shows_colours(stream: TextIO) -> bool:
+    """Tell whether a stream is a terminal that shows colours.
+
+    Args:
+        stream: The stream.
+
+    Returns:
+        False for a file or a pipe, for a terminal without colours, and where the variable NO_COLOR is not empty.
+
+    References:
+        no-color.org.
+    """
+    without = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    old_console = os.name == "nt" and "WT_SESSION" not in os.environ
+    return stream.isatty() and not without and not old_console
 
 
 def files_text(files: Sequence[Path]) -> str:

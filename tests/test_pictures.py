@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of the documentation are small, each on a page, and what the commands draw today."""
+
+from __future__ import annotations
+
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib", reason="figures need matplotlib")
+
+ROOT = Path(__file__).resolve().parents[1]
+MOST_BYTES = 80_000
+MOST_DIFFERENT = 0.03
+"""Share of pixels that may differ from the stored picture: letters do, by the versions of fonts and matplotlib."""
+NOTICED = 48
+"""Difference of a pixel that counts; of 255."""
+
+
+@pytest.fixture(scope="module")
+def pictures() -> ModuleType:
+    """The script that draws them."""
+    spec = spec_from_file_location("pictures", ROOT / "docs" / "pictures.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _different(one: Path, other: Path) -> float:
+    """Share of pixels that differ; 1 where the sizes do."""
+    from PIL import Image
+
+    first, second = (np.asarray(Image.open(file).convert("RGB"), dtype=np.int16) for file in (one, other))
+    if first.shape != second.shape:
+        return 1.0
+    return float((np.abs(first - second).max(axis=2) > NOTICED).mean())
+
+
+def test_each_is_small_and_on_a_page(pictures: ModuleType) -> None:
+    """With words for who does not see it."""
+    pages = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / "docs").rglob("*.md"))
+    assert len(pictures.PICTURES) >= 5
+    for name in pictures.PICTURES:
+        assert (pictures.IMAGES / f"{name}.png").stat().st_size < MOST_BYTES
+        before, found, _ = pages.partition(f"images/{name}.png)")
+        assert found, f"no page shows {name}.png"
+        assert len(before.rpartition("![")[2].partition("]")[0]) > 20
+
+
+@pytest.mark.long
+def test_each_is_what_its_command_draws(pictures: ModuleType, tmp_path: Path) -> None:
+    """Drawn again, pixel by pixel; two pictures are far more different than is allowed."""
+    pictures.draw(tmp_path)
+    names = list(pictures.PICTURES)
+    different = {name: _different(tmp_path / f"{name}.png", pictures.IMAGES / f"{name}.png") for name in names}
+    assert different == {name: pytest.approx(0.0, abs=MOST_DIFFERENT) for name in names}
+    drawn = tmp_path / "sphere.png"
+    flipped = tmp_path / "flipped.png"
+    from PIL import Image, ImageOps
+
+    ImageOps.mirror(Image.open(drawn).convert("RGB")).save(flipped)
+    assert _different(drawn, flipped) > MOST_DIFFERENT

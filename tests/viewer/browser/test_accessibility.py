@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Axe finds no violation of WCAG 2.2 AA, at any size, by day and by night, with everything open."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from forcetorque.viewer.page import page_of
+from tests.browser import Visit
+from tests.viewer.browser.arm_scene import Arm
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [pytest.mark.browser, pytest.mark.long]
+
+AXE = Path(__file__).resolve().parents[3] / "web/node_modules/axe-core/axe.min.js"
+RUN = """() => axe.run({runOnly: {type: "tag", values:
+    ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}})"""
+OPEN = "document.querySelectorAll('details:not(.keys)').forEach(part => { part.open = true; })"
+FEWEST_RULES = 40
+"""Rules that find something to check on the page."""
+
+
+def _violations(page: Page) -> list[tuple[str, list[str]]]:
+    """Rules that are broken, and by what."""
+    result: dict[str, list[dict[str, Any]]] = page.evaluate(RUN)
+    assert len(result["passes"]) + len(result["violations"]) >= FEWEST_RULES
+    return [(rule["id"], [node["html"] for node in rule["nodes"]]) for rule in result["violations"]]
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("size", [(360, 740), (1280, 720)])
+def test_no_violation(visit: Visit, arm: Arm, size: tuple[int, int], dark: bool) -> None:
+    """As it opens, with all details open, with the keys, and with a panel enlarged; a nameless button is found."""
+    if not AXE.is_file():
+        pytest.skip("axe-core is not installed: run `npm ci` in web")
+    file = visit.folder / "view.html"
+    file.write_bytes(page_of(arm.built))
+    page = visit.blank()
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.emulate_media(color_scheme="dark" if dark else "light")
+    page.goto(file.as_uri())
+    page.evaluate("window.ft.ready")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    assert _violations(page) == []
+    page.evaluate(OPEN)
+    assert _violations(page) == []
+    page.get_by_role("button", name="Enlarge time plots").click()
+    assert _violations(page) == []
+    page.get_by_text("Keys", exact=True).click()
+    assert _violations(page) == []
+    page.evaluate("document.querySelector('header').append(document.createElement('button'))")
+    assert [rule for rule, _ in _violations(page)] == ["button-name"]
