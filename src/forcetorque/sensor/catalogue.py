@@ -125,8 +125,11 @@ class CatalogueSensor(Table):
     """What else is printed, or uncertain."""
 
 
-class _CatalogueFile(Table):
+class CatalogueFile(Table):
+    """A file of sensors."""
+
     sensor: Annotated[tuple[CatalogueSensor, ...], Field(min_length=1)]
+    """Sensors, with different names."""
 
 
 @cache
@@ -154,7 +157,7 @@ def read_catalogue(path: Path | str) -> tuple[CatalogueSensor, ...]:
     Raises:
         FormatError: If a table is not a sensor, or two have one name.
     """
-    sensors = read_toml(path, _CatalogueFile, what="a catalogue of sensors").sensor
+    sensors = read_toml(path, CatalogueFile, what="a catalogue of sensors").sensor
     _require_one_each(sensors, str(path))
     return sensors
 
