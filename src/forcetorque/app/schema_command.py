@@ -17,7 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, load_cases, sensor_catalogue, scenario, fleet_plan, "
+            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, load_cases, "
+            "sensor_catalogue, scenario, fleet_plan, "
             "recording, calibration, joint, moments, taxels or module_frames for a file; a command, with _ for its "
             "space, for its result."
         ),
