@@ -71,7 +71,7 @@ def stimulus_matrix(element: ElasticElement, stimulus: Stimulus) -> FloatArray:
         return element.strain_matrix()
     arms = element.arm_wrenches()
     if stimulus is Stimulus.DEFLECTION:
-        arms = np.linalg.solve(element.beam.stiffness(), arms)
+        arms = np.asarray(np.linalg.solve(element.beam.stiffness(), arms), dtype=np.float64)
     return np.array([arms[place.arm, 1 if place.bending is Bending.IN_PLANE else 2] for place in element.places])
 
 
