@@ -85,8 +85,8 @@ def balance(
 
     Example: forcetorque robot balance standing.toml --touch 50N --release 20N
 
-    Python: `experiment.balance(calibration)`, without a sensor `experiment.balance(by_motion=True)`; of vertical forces alone
-    `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
+    Python: `experiment.balance(calibration)`, without a sensor `experiment.balance(by_motion=True)`; of vertical forces
+    alone `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
 
     Returns:
         Phases, centres of pressure and of mass over all intervals that are not ignored, with every sample in
