@@ -30,6 +30,8 @@ FILES = (
     "device_file",
     "contestants",
     "torque_loop_file",
+    "load_cases",
+    "sensor_catalogue",
     "scenario",
     "fleet_plan",
     "recording",

@@ -22,6 +22,7 @@ from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
 INPUT_OPTIONS = {
     "--browser",
     "--calibration",
+    "--catalogue",
     "--load",
     "--matrices",
     "--mesh-dir",
@@ -82,6 +83,7 @@ WORDS = {
     "study sphere": f"{PARQUET}",
     "study fits": f"{PARQUET}",
     "tare": f"{PARQUET} --interval fit --to ft-tools",
+    "bench sensor": f"{PARQUET}",
     "bench thermal": f"{PARQUET}",
     "robot torque-loop": f"{PARQUET}",
     "view": f"{PARQUET}",

@@ -101,6 +101,7 @@ COMMANDS = _of_experiments() | {
     "tare": ("tare", PARQUET, "--interval", "judge", "-c", "fitted.json"),
     "bench plate": ("bench", "plate", "floor/standing.c3d"),
     "bench fit-plate": ("bench", "fit-plate", "floor/pole.c3d", *POLE),
+    "bench sensor": ("bench", "sensor", "--force", "0,0,500", "--lever", "0,0.01,0"),
     "bench thermal": ("bench", "thermal", "chamber/chamber.toml"),
     "study validate": ("study", "validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from forcetorque.base.errors import FormatError, SensorError
 from forcetorque.sensor.catalogue import (
     CatalogueSensor,
     Technology,
+    catalogue_with,
     find_sensor,
     read_catalogue,
     sensor_catalogue,
-    sensors_with_range,
 )
 
 # Table 1.2 as printed, typed a second time: Fx and Fy, Fz, Tx and Ty, Tz, and the two dimensions in mm
@@ -98,32 +100,6 @@ def test_an_unknown_name_lists_the_known_ones() -> None:
         find_sensor("mini_45")
 
 
-def test_filter_by_range() -> None:
-    """Sensors that cover every wanted load, the narrowest first; a load that is not given does not count."""
-    found = sensors_with_range(fxy=500, fz=900, txy=20, tz=20)
-    # by hand from the table; 75E20A4 and Strain 1 both reach 2000 N along z, so x and y decide
-    assert [sensor.name for sensor in found] == [
-        "Axia80",
-        "mini45",
-        "75E20A4",
-        "FTsense Strain 1",
-        "FS6",
-        "mini58",
-        "AD2.5D",
-        "FTS-Theta",
-    ]
-    assert sensors_with_range(fz=1e5) == ()
-    with_range = [sensor for sensor in sensor_catalogue() if sensor.calibrations]
-    assert set(sensors_with_range()) == set(with_range)
-
-
-def test_filter_by_range_among_some() -> None:
-    """The narrow calibration of the Axia80 is enough for 300 N, so that range is the one that is compared."""
-    some = [find_sensor(name) for name in ("FT300", "30E12A4", "Axia80")]
-    assert [s.name for s in sensors_with_range(fz=300, among=some)] == ["FT300", "Axia80", "30E12A4"]
-    assert [s.name for s in sensors_with_range(fz=350, among=some)] == ["Axia80", "30E12A4"]
-
-
 GOOD = """
 [[sensor]]
 name = "a"
@@ -135,17 +111,49 @@ source = ["c"]
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (GOOD + "weight = 3.0", "weight: expected no such key"),
+        (GOOD + "weight = 3.0", "unknown key 'weight'"),
         (GOOD + "mass = -1.0", "mass: expected more than 0"),
         (GOOD + 'technology = "magic"', "technology"),
         (GOOD + 'mass = "0.1"', "mass: expected a valid number"),
         (GOOD + GOOD, "one sensor per name, got several of a"),
+        (GOOD + "error = { percent = 1.0, force_N = 1.0 }", "expected percent, or force_N and moment_Nm"),
+        (GOOD + "error = { force_N = 1.0 }", "expected percent, or force_N and moment_Nm"),
         ('[[sensor]]\nname = "a"', "maker: expected this key, there is none"),
-        ("[[sensor", "catalogue of sensors: "),
+        ("[[sensor", "expected TOML"),
     ],
 )
-def test_broken_catalogues_are_refused(text: str, message: str) -> None:
-    """Unknown keys, wrong numbers and doubled names are errors that say where."""
-    assert read_catalogue(GOOD)[0].name == "a"
-    with pytest.raises(FormatError, match=message):
-        read_catalogue(text)
+def test_broken_catalogues_are_refused(text: str, message: str, tmp_path: Path) -> None:
+    """Unknown keys, wrong numbers and doubled names are errors that name the file and the key."""
+    file = tmp_path / "own.toml"
+    file.write_text(GOOD, encoding="utf-8")
+    assert read_catalogue(file)[0].name == "a"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(FormatError, match=rf"own\.toml: .*{message}"):
+        read_catalogue(file)
+
+
+def test_own_entries_come_first_and_are_no_second_entry(tmp_path: Path) -> None:
+    """A file adds sensors; a name of the library in any letters is refused."""
+    file = tmp_path / "own.toml"
+    file.write_text(GOOD, encoding="utf-8")
+    assert catalogue_with(file) == (*read_catalogue(file), *sensor_catalogue())
+    assert find_sensor("A", catalogue_with(file)).maker == "b"
+    file.write_text(GOOD.replace('"a"', '"MINI45"'), encoding="utf-8")
+    with pytest.raises(FormatError, match="expected one sensor per name, got several of mini45; rename one"):
+        catalogue_with(file)
+
+
+def test_stated_errors_are_the_printed_accuracies() -> None:
+    """Percent of the range of each axis, or absolute; the upper end of a printed range; none of a nonlinearity."""
+    stated = {sensor.name: sensor.error for sensor in sensor_catalogue() if sensor.error is not None}
+    assert {name: error.percent for name, error in stated.items()} == {
+        "mini45": 5.0,
+        "mini58": 5.0,
+        "75E20A4": 0.25,
+        "FTS-Theta": 1.0,
+        "FT300": None,
+        "Axia80": 2.0,
+    }
+    assert all((sensor.error is None) == (sensor.accuracy is None) for sensor in sensor_catalogue())
+    for name, errors in (("Axia80", [10, 10, 18, 0.4, 0.4, 0.4]), ("FT300", [1, 1, 1, 0.02, 0.02, 0.02])):
+        assert stated[name].components(find_sensor(name).calibrations[0].range) == pytest.approx(errors)

@@ -40,10 +40,20 @@ PANELS: Final[Mapping[str, tuple[str, ...]]] = {
 """Commands and groups in the order of work, as the help shows them."""
 GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     "bench": (
-        "Measure sensors on a bench: loads, temperature, fast forces, gains.",
+        "Choose and measure sensors: loads, temperature, fast forces, gains.",
         {
             name: name
-            for name in ("workbench", "thermal", "response", "gains", "device", "contest", "plate", "fit-plate")
+            for name in (
+                "sensor",
+                "workbench",
+                "thermal",
+                "response",
+                "gains",
+                "device",
+                "contest",
+                "plate",
+                "fit-plate",
+            )
         },
     ),
     "robot": (

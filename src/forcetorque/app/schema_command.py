@@ -17,7 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, scenario, fleet_plan, "
+            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, load_cases, "
+            "sensor_catalogue, scenario, fleet_plan, "
             "recording, calibration, joint, moments, taxels or module_frames for a file; a command, with _ for its "
             "space, for its result."
         ),
@@ -50,6 +51,8 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.fleet.plan_file import PlanFile
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile
     from forcetorque.recording.storage import recording_schema
+    from forcetorque.sensor.catalogue import CatalogueFile
+    from forcetorque.sensor.choice.load_case import LoadCaseFile
     from forcetorque.simulation.scenario.file import ScenarioFile
     from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
     from forcetorque.skin.taxels.patch_calibration import PatchCalibration
@@ -62,6 +65,8 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "device_file": DeviceFile.model_json_schema,
         "contestants": ContestFile.model_json_schema,
         "torque_loop_file": TorqueLoopFile.model_json_schema,
+        "load_cases": LoadCaseFile.model_json_schema,
+        "sensor_catalogue": CatalogueFile.model_json_schema,
         "scenario": ScenarioFile.model_json_schema,
         "fleet_plan": PlanFile.model_json_schema,
         "recording": recording_schema,

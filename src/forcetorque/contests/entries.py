@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -23,7 +24,7 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.sensor.catalogue import find_sensor
+from forcetorque.sensor.catalogue import CatalogueSensor, catalogue_with, find_sensor
 from forcetorque.workbench.recording import BenchRecording, read_bench
 
 PHASES = 120
@@ -84,7 +85,7 @@ class ContestantTable(Table):
     fitted_loads_kg: tuple[NotNegative, ...] = ()
     """Loads that a calibration file was fitted on: they are not evaluated."""
     catalogue: Text | None = None
-    """Name in the catalogue of sensors, for its full scale."""
+    """Name in the catalogue of sensors, of the library or of `catalogue_file`, for its full scale."""
     range: Annotated[int, Field(ge=1, strict=True)] | None = None
     """Which of its ranges there, from 1; needed where it has several."""
     full_scale: FullScale | None = None
@@ -113,6 +114,8 @@ class ContestFile(Table):
     """Which offset all are evaluated with: the mean of each run, that of its first second, or their own."""
     phases: Annotated[int, Field(ge=10, strict=True)] = PHASES
     """Number of phases that the motion is divided into."""
+    catalogue_file: Path | None = None
+    """Catalogue of further sensors, as `forcetorque bench sensor` takes it."""
     run: Annotated[tuple[RunTable, ...], Field(min_length=1)]
     """Runs."""
     contestant: Annotated[tuple[ContestantTable, ...], Field(min_length=2)]
@@ -234,11 +237,12 @@ def read_entries(path: Path | str) -> Entries:
                         f"contestant {entry.name!r}: fitted_on: expected the experiment of a [[run]], got {name}; "
                         f"known: {', '.join(sorted(known))}"
                     )
-        contestants = tuple(_contestant(entry, folder) for entry in stated.contestant)
+        catalogue = catalogue_with(None if stated.catalogue_file is None else folder / stated.catalogue_file)
+        contestants = tuple(_contestant(entry, folder, catalogue) for entry in stated.contestant)
     return Entries(name=stated.name, runs=runs, contestants=contestants, offset=stated.offset, phases=stated.phases)
 
 
-def _contestant(entry: ContestantTable, folder: Path) -> Contestant:
+def _contestant(entry: ContestantTable, folder: Path, catalogue: Sequence[CatalogueSensor]) -> Contestant:
     return Contestant(
         name=entry.name,
         sensor=entry.sensor,
@@ -248,19 +252,18 @@ def _contestant(entry: ContestantTable, folder: Path) -> Contestant:
         calibration=None if entry.calibration is None else read_calibration(folder / entry.calibration),
         fitted_on=None if entry.fitted_on is None else tuple(path.as_posix() for path in entry.fitted_on),
         fitted_loads_kg=entry.fitted_loads_kg,
-        full_scale=_full_scale(entry),
+        full_scale=_full_scale(entry, catalogue),
     )
 
 
-def _full_scale(entry: ContestantTable) -> FloatArray | None:
+def _full_scale(entry: ContestantTable, catalogue: Sequence[CatalogueSensor]) -> FloatArray | None:
     if entry.catalogue is None:
         return None if entry.full_scale is None else np.array(entry.full_scale)
-    sensor = find_sensor(entry.catalogue)
+    sensor = find_sensor(entry.catalogue, catalogue)
     ranges = sensor.calibrations
     if not ranges or (len(ranges) > 1 and entry.range is None) or (entry.range or 1) > len(ranges):
         raise ExperimentError(
             f"contestant {entry.name!r}: expected range, one of the {len(ranges)} that the catalogue has of "
             f"{sensor.name}, from 1, got {entry.range}; or state full_scale"
         )
-    axes = ranges[(entry.range or 1) - 1].range
-    return np.array([axes.fxy, axes.fxy, axes.fz, axes.txy, axes.txy, axes.tz])
+    return ranges[(entry.range or 1) - 1].range.components()

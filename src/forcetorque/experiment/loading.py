@@ -170,6 +170,8 @@ class Purpose(Enum):
     """Questions to force-torque sensors; it has at least one."""
     FORCES = "forces"
     """Contact forces; a robot with calibrated skin may have no sensor."""
+    MOTION = "motion"
+    """What the motion of joints and IMU demands; a robot with a support needs no sensor."""
     DISPLAY = "display"
     """To show it; it may have skin alone, of patches or of contacts that a skinManager saw. Without a robot the links
     that skin is on stand side by side. Intervals without support are shown, as if their use were `ignore`."""
@@ -209,8 +211,8 @@ def _loaded(file: Path, purpose: Purpose) -> Experiment:
             for one in parsed.interval
         )
         return _load(parsed.model_copy(update={"interval": spans}), file, Inputs.of(file))
-    gives_forces = any(one.gives_forces(parsed.table(one)) for one in sections())
-    if purpose is not Purpose.FORCES or parsed.robot is None or not gives_forces:
+    gives_forces = purpose is Purpose.MOTION or any(one.gives_forces(parsed.table(one)) for one in sections())
+    if purpose not in (Purpose.FORCES, Purpose.MOTION) or parsed.robot is None or not gives_forces:
         raise ExperimentError(_lacks_sensors(parsed, file))
     if not parsed.support and not any(one.contact_links for one in parsed.interval):
         raise ExperimentError(

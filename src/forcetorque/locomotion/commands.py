@@ -52,6 +52,17 @@ def balance(
     *,
     touch: Annotated[str, Option("Force that a contact reaches, as 50N, or a share of the weight, as 15%.")] = "15%",
     release: Annotated[str, Option("Force above which it lasts, as 20N or 6%; no more than --touch.")] = "6%",
+    offset: Annotated[
+        "OffsetPolicy | str",
+        Option(
+            "Where offsets of sensors come from: fitted, one-link-imu:LABEL, one-link-fixed-frame:LABEL, tare:LABEL or "
+            "none; see docs/locomotion/coherence.md.",
+            typed=str,
+        ),
+    ] = "fitted",
+    by_motion: Annotated[
+        bool, Option("Forces that masses, joints and IMU demand, without a force sensor.", "--by-motion")
+    ] = False,
     dwell_s: Annotated[
         float, Option("Shortest contact, and shortest pause between contacts, that counts; s.", "--dwell")
     ] = 0.0,
@@ -74,8 +85,8 @@ def balance(
 
     Example: forcetorque robot balance standing.toml --touch 50N --release 20N
 
-    Python: `experiment.balance(calibration)`; of vertical forces alone
-    `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
+    Python: `experiment.balance(calibration)`, without a sensor `experiment.balance(by_motion=True)`; of vertical forces
+    alone `locomotion.balance([locomotion.load_foot_forces("walking.toml")])`
 
     Returns:
         Phases, centres of pressure and of mass over all intervals that are not ignored, with every sample in
@@ -85,10 +96,12 @@ def balance(
         ExperimentError: If a file has no sole, or comes twice.
         EstimationError: If no foot is down in any interval, or thresholds cross.
     """
+    from forcetorque.base.errors import ExperimentError
     from forcetorque.experiment.calibrations_under_test import named
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.interval import BalanceOptions
     from forcetorque.locomotion.standing.standing import balance
@@ -108,27 +121,53 @@ def balance(
     )
     several = [experiments] if isinstance(experiments, Experiment) else experiments
     refuse_a_file_twice([Path(one) for one in several if isinstance(one, Path | str)])
-    read = [_with_corrections(experiment, named(calibrations)) for experiment in several]
-    return balance([recording for recording, _ in read], [corrections for _, corrections in read], options)
+    policy = OffsetPolicy.of(offset) if isinstance(offset, str) else offset
+    if policy.offset in (Offset.FIRST_SECOND, Offset.JUDGED_MEAN):
+        raise ExperimentError(
+            f"--offset {policy}: it comes from every interval itself, in which nobody knows what a foot bears; take "
+            "one from an interval, such as one-link-imu:LABEL"
+        )
+    if by_motion and (calibrations or policy.offset is not Offset.FITTED):
+        raise ExperimentError(
+            "--by-motion: no sensor is read, so that calibrations and --offset have no use; leave out one"
+        )
+    read = [_with_corrections(one, named(calibrations), policy, by_motion=by_motion) for one in several]
+    contents, corrections = [content for content, _ in read], [reading for _, reading in read]
+    return balance(contents, corrections, options, by_motion=by_motion)
 
 
 def _with_corrections(
-    experiment: "Experiment | FootForces | Path | str", calibrations: "Mapping[str, Calibration]"
+    experiment: "Experiment | FootForces | Path | str",
+    calibrations: "Mapping[str, Calibration]",
+    policy: "OffsetPolicy",
+    *,
+    by_motion: bool,
 ) -> "tuple[Experiment | FootForces, Mapping[str, Correction]]":
-    """A recording of feet, and how its sensors are read; vertical forces have none."""
+    """A recording of feet, and how its sensors are read; vertical forces have none, nor has motion."""
+    from forcetorque.base.errors import ExperimentError
     from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.loading import Purpose
     from forcetorque.experiment.offsets import corrections_of
+    from forcetorque.experiment.validation_offset import Offset
     from forcetorque.locomotion.standing.foot_wrenches import FootForces, has_foot_forces, load_foot_forces
     from forcetorque.results.terminal.reading import read_experiment
 
+    if by_motion and not isinstance(experiment, FootForces):
+        return (
+            experiment
+            if not isinstance(experiment, Path | str)
+            else read_experiment(Path(experiment), _LOG, Purpose.MOTION)
+        ), {}
     if isinstance(experiment, Path | str) and has_foot_forces(experiment):
         experiment = load_foot_forces(experiment)
     if isinstance(experiment, FootForces):
+        if policy.offset is not Offset.FITTED:
+            raise ExperimentError(f"{experiment.file}: --offset {policy}: vertical forces have no offset to remove")
         return experiment, {}
     if isinstance(experiment, Path | str):
         experiment = read_experiment(Path(experiment), _LOG)
     with stated_in(str(experiment.file)):
-        corrections = corrections_of(experiment, calibrations)
+        corrections = corrections_of(experiment, calibrations, offset=policy)
     for sensor, correction in corrections.items():
         _LOG.info("%s: %s", sensor, correction.source)
     return experiment, corrections

@@ -13,6 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import Table, Text
+from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading, Section
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
@@ -59,8 +60,7 @@ def read_soles(
         The soles in the order of the file.
 
     Raises:
-        ExperimentError: If a frame is not in the robot or listed twice, or a sole has a stream beside sensors, or none
-            without.
+        ExperimentError: If a frame is not in the robot or listed twice, or a sole has a stream beside sensors.
     """
     soles: list[ExperimentSole] = []
     for index, entry in enumerate(entries):
@@ -71,10 +71,10 @@ def read_soles(
             )
         if entry.frame in (earlier.sole.frame for earlier in soles):
             raise ExperimentError(f"{where}: the frame {entry.frame!r} is listed twice; keep one")
-        if sensed == (entry.stream is not None):
+        if sensed and entry.stream is not None:
             raise ExperimentError(
-                f"{where}: expected stream with the vertical_force of the ground, or [[sensor]] in the file, one of "
-                f"both, got {'both' if sensed else 'neither'}; two sources of one force are not combined"
+                f"{where}: expected stream with the vertical_force of the ground, or [[sensor]] in the file, got both; "
+                "two sources of one force are not combined"
             )
         with stated_in(where):
             if entry.stream is not None:
@@ -83,6 +83,27 @@ def read_soles(
             sole = Sole(frame=entry.frame, position=position, outline=entry.outline_m)
         soles.append(ExperimentSole(sole=sole, stream=entry.stream))
     return tuple(soles)
+
+
+def refuse_without_soles(experiment: Experiment) -> None:
+    """Refuse an experiment that does not state what the robot stands on.
+
+    Args:
+        experiment: The experiment.
+
+    Raises:
+        ExperimentError: If it has no sole; the message names the links that its intervals say are touched.
+    """
+    if experiment.section(SOLES):
+        return
+    supports = [one.support.frame for one in experiment.recording.intervals if one.support is not None]
+    touched = dict.fromkeys((*supports, *(entry.contact.link for entry in experiment.contacts)))
+    tables = ", ".join(f'[[sole]] frame = "{link}"' for link in touched)
+    raise ExperimentError(
+        f"experiment {experiment.name!r}: expected [[sole]], the flat soles that the robot stands on, got none; frame "
+        "names a link whose plane z = 0 is a sole, outline_m its corners"
+        + (f"; its intervals touch {', '.join(touched)}: of these state what is a sole, as {tables}" if touched else "")
+    )
 
 
 def _read(table: tuple[SoleTable, ...], loading: Loading) -> tuple[ExperimentSole, ...]:

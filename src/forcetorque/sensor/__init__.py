@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sensor by itself: how load becomes counts, amplifier gains, drift with temperature, response to fast forces."""
+"""The sensor by itself: its choice, how load becomes counts, gains, drift with temperature, response to fast forces."""
 
 from typing import TYPE_CHECKING
 
@@ -8,6 +8,7 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response
+    from forcetorque.sensor.choice.command import choose_sensor
     from forcetorque.sensor.commands import thermal
     from forcetorque.sensor.gains.gains import select_gains
 
@@ -15,12 +16,14 @@ CAPABILITY = Capability(
     page="sensor/temperature.md",
     commands=(
         "forcetorque.sensor.commands:gains",
+        "forcetorque.sensor.choice.command:sensor",
         "forcetorque.sensor.commands:response",
         "forcetorque.sensor.commands:thermal",
     ),
 )
 
 __all__ = [
+    "choose_sensor",
     "response",
     "select_gains",
     "thermal",
@@ -29,6 +32,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "choose_sensor": "forcetorque.sensor.choice.command",
         "response": "forcetorque.sensor.bandwidth.bandwidth",
         "select_gains": "forcetorque.sensor.gains.gains",
         "thermal": "forcetorque.sensor.commands",

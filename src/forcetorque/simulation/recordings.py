@@ -54,7 +54,7 @@ def support_text(link: str, *, down: FloatArray | None) -> str:
 
 
 def phases_text(simulated: SimulatedRecording) -> Iterator[str]:
-    """Write supports and intervals, one for each phase.
+    """Write supports, soles and intervals, one for each phase.
 
     Gravity is imposed where a foot stands, as on level ground; of a robot that hangs its IMU measures it. While both
     feet stand the load of each is unknown: both are touched, and the IMU measures how the robot moves. Landing is
@@ -71,6 +71,8 @@ def phases_text(simulated: SimulatedRecording) -> Iterator[str]:
     for link, kind in bearing.items():
         down = -movement.base_pose([0.0], link)[0, 2, :3]  # a link that bears alone stands in the same way all the time
         yield support_text(link, down=None if kind is PhaseKind.HANGING else down)
+        if kind is not PhaseKind.HANGING:  # the planes of feet are their soles, for `robot balance`
+            yield f'\n[[sole]]\nframe = "{link}"\n'
     for phase in phases:
         yield _phase_interval_text(simulated, phase)
 

@@ -24,7 +24,7 @@ from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.streams import read_streams
-from forcetorque.locomotion.section import SOLES, ExperimentSole, read_soles
+from forcetorque.locomotion.section import SOLES, ExperimentSole, read_soles, refuse_without_soles
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure, mass_of
 from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.robot_balance import BalanceScene, robot_balance
@@ -117,6 +117,12 @@ def load_foot_forces(path: Path | str) -> FootForces:
     table = parsed.table(SOLES)
     if not table:
         raise ExperimentError(f"{file}: expected [[sole]], a foot with the stream of its vertical_force, got none")
+    for index, entry in enumerate(table):
+        if entry.stream is None and not parsed.sensor:
+            raise ExperimentError(
+                f"{file}: sole[{index}]: expected stream with the vertical_force of the ground, or [[sensor]] in the "
+                "file, got neither; by joints and IMU alone: --by-motion"
+            )
     inputs = Inputs.of(file)
     model = None if parsed.robot is None else read_urdf(inputs.robot(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
@@ -150,11 +156,7 @@ def balance_of_sensors(
     Raises:
         ExperimentError: If the file has no sole, or every interval is to be ignored.
     """
-    if not experiment.section(SOLES):
-        raise ExperimentError(
-            f"experiment {experiment.name!r}: expected [[sole]], the flat soles that the robot stands on, got none; "
-            "frame names a link whose plane z = 0 is a sole, outline_m its corners"
-        )
+    refuse_without_soles(experiment)
     intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
     if not intervals:
         raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")

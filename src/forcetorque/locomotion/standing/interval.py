@@ -136,6 +136,8 @@ class IntervalBalance:
     """Of the robot, where wrenches were measured."""
     refused: tuple[str, ...] = field(default=())
     """What cannot be determined, as text."""
+    logged_net_N: FloatArray | None = None
+    """Logged vertical forces of all feet together, beside a net force by the motion; shape (n,); N; None without."""
 
     @property
     def share(self) -> Mapping[str, FloatArray]:
@@ -172,6 +174,8 @@ class IntervalBalance:
             yield f"share.{frame}", "1", share[frame]
             yield f"down.{frame}", "1", np.where(self.phases.known, down[:, k], np.nan)
         yield "net_force", "N", self.net_N
+        if self.logged_net_N is not None:
+            yield "logged_net_force", "N", self.logged_net_N
         for foot in self.feet:
             yield from _points(f"cop.{foot.sole.frame}", foot.pressure)
             if foot.sole.outline is not None:

@@ -10,10 +10,11 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import joined_times, sample_statistics
+from forcetorque.base.noise.means import SampleStatistics, joined_times, sample_statistics
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import ComAcceleration, PressureCentres
 from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance, half_widths
+from forcetorque.locomotion.standing.support_phases import SupportPhase
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 
@@ -38,6 +39,10 @@ class SupportPhaseRow(Row):
     half_width_95_N: float | None
     """Half of its 95 % interval: of stationary noise, and of three segments or more that each have an offset of their
     own, as of another foothold, the wider; None where there are fewer and the force is no stationary noise."""
+    logged_N: Annotated[float | None, Shown("logged", "N", digits=1, error="logged_half_width_95_N")] = None
+    """Mean of the logged vertical forces together, beside a net force by the motion; None without."""
+    logged_half_width_95_N: float | None = None
+    """Half of its 95 % interval, as above."""
     deviation_N: Annotated[float | None, Shown("deviation", "N", digits=1)]
     """Standard deviation of a sample."""
     smallest_N: Annotated[float | None, Shown("smallest", "N", digits=1)]
@@ -155,28 +160,56 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
         parts = [(interval, interval.phases.holds(name)) for interval in intervals]
         parts = [(interval, inside) for interval, inside in parts if inside.any()]
         phases = [(interval, phase) for interval, _ in parts for phase in interval.phases.phases if phase.name == name]
-        stretches = [interval.net_N[phase.samples][interval.phases.known[phase.samples]] for interval, phase in phases]
         net = np.concatenate([interval.net_N[inside] for interval, inside in parts])
         time = joined_times([interval.time_s[inside] for interval, inside in parts])
         weights = {interval.weight_N for interval, _ in parts}
         weight_N = weights.pop() if len(weights) == 1 else None
         force = sample_statistics(net[:, None], time)
         mean = float(force.mean[0])
-        # of noise, or of segments, NaN where there is none
-        half = np.fmax(float(force.half_width[0]), _half_width_of_stretches(stretches))
+        half = _half_width(force, [_known_of(interval, interval.net_N, phase) for interval, phase in phases])
+        logged = _logged(parts, phases, time)
         yield SupportPhaseRow(
             phase=name,
             intervals=len(phases),
             duration_s=sum(phase.duration_s for _, phase in phases),
             samples=len(net),
             net_N=mean,
-            half_width_95_N=finite_or_none(float(half)),
+            half_width_95_N=half,
+            logged_N=logged[0],
+            logged_half_width_95_N=logged[1],
             deviation_N=finite_or_none(float(force.deviation[0])),
             smallest_N=float(force.smallest[0]),
             largest_N=float(force.largest[0]),
             independent=finite_or_none(autocorrelation(net, time).effective_count) if len(net) > 1 else None,
             from_weight_N=None if weight_N is None else mean - weight_N,
         )
+
+
+def _half_width(force: SampleStatistics, stretches: Sequence[FloatArray]) -> float | None:
+    """Of noise, or of segments, the wider; None where there is neither."""
+    return finite_or_none(float(np.fmax(float(force.half_width[0]), _half_width_of_stretches(stretches))))
+
+
+def _known_of(interval: IntervalBalance, values: FloatArray, phase: SupportPhase) -> FloatArray:
+    return values[phase.samples][interval.phases.known[phase.samples]]
+
+
+def _logged(
+    parts: Sequence[tuple[IntervalBalance, BoolArray]],
+    phases: Sequence[tuple[IntervalBalance, SupportPhase]],
+    time: FloatArray,
+) -> tuple[float | None, float | None]:
+    """Mean of the logged forces over phases, with half of its interval; None where one interval has none."""
+    values = [interval.logged_net_N[inside] for interval, inside in parts if interval.logged_net_N is not None]
+    if len(values) < len(parts):
+        return None, None
+    force = sample_statistics(np.concatenate(values)[:, None], time)
+    stretches = [
+        _known_of(interval, interval.logged_net_N, phase)
+        for interval, phase in phases
+        if interval.logged_net_N is not None
+    ]
+    return float(force.mean[0]), _half_width(force, stretches)
 
 
 def _half_width_of_stretches(stretches: Sequence[FloatArray]) -> float:

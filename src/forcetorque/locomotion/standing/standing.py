@@ -21,6 +21,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.formats.sample_table import SampleSpan, write_samples
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, balance_of_forces, balance_of_sensors
 from forcetorque.locomotion.standing.interval import BalanceOptions, IntervalBalance
+from forcetorque.locomotion.standing.motion_balance import balance_by_motion
 from forcetorque.locomotion.standing.result import (
     FootPressureRow,
     PendulumRow,
@@ -69,8 +70,10 @@ class Balance(DrawnResult):
     """Load below which there is no centre of pressure."""
     phases: tuple[SupportPhaseRow, ...]
     """One per set of feet that are down together."""
+    by_motion: bool = False
+    """Whether masses, joints and IMU gave the forces, and no force sensor."""
     feet: tuple[FootPressureRow, ...]
-    """One per interval and sole, where wrenches were measured."""
+    """One per interval and sole, where wrenches are known."""
     robot: tuple[RobotPressureRow, ...]
     """One per interval, where wrenches were measured."""
     pendulum: tuple[PendulumRow, ...]
@@ -92,10 +95,12 @@ class Balance(DrawnResult):
             Tables and sentences.
         """
         weight = "" if self.weight_N is None else f", weight {self.weight_N:.1f} N"
+        by = " that the motion demands" if self.by_motion else ""
         yield table_of(
             self.phases,
-            f"support phases of {', '.join(self.experiments)}{weight}; net force: mean, "
+            f"support phases of {', '.join(self.experiments)}{weight}; net force{by}: mean, "
             "± half its 95 % interval where it is stationary noise or the phase recurs",
+            leave_out=() if any(row.logged_N is not None for row in self.phases) else ("logged_N",),
         )
         if self.feet:
             yield table_of(
@@ -144,6 +149,8 @@ def balance(
     recordings: Sequence[Experiment | FootForces],
     corrections: Sequence[Mapping[str, Correction]] = (),
     options: BalanceOptions | None = None,
+    *,
+    by_motion: bool = False,
 ) -> Balance:
     """Compute how a robot stood, over all intervals that are not ignored.
 
@@ -153,6 +160,7 @@ def balance(
         recordings: Experiments with soles: with force-torque sensors, or with vertical forces alone.
         corrections: How the sensors of each are read (`corrections_of`); none of vertical forces.
         options: What counts as a contact, as a point, and as a height that does not change.
+        by_motion: Whether masses, joints and IMU give the forces, in place of force sensors.
 
     Returns:
         Phases, centres of pressure and of mass, and what cannot be determined.
@@ -170,11 +178,7 @@ def balance(
     warnings = []
     for content, reading in zip(recordings, by_place, strict=True):
         with stated_in(str(content.file)):
-            intervals = tuple(
-                balance_of_forces(content, chosen)
-                if isinstance(content, FootForces)
-                else balance_of_sensors(content, reading, chosen)
-            )
+            intervals = tuple(_over(content, reading, chosen, by_motion=by_motion))
         mark = _fingerprint(intervals)
         if mark in names:
             warnings.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
@@ -187,11 +191,26 @@ def balance(
             if not correction.removes_offset
         ]
         counted += intervals
-    return _summed_up(tuple(counted), tuple(names.values()), chosen, warnings)
+    return _summed_up(tuple(counted), tuple(names.values()), chosen, warnings, by_motion=by_motion)
+
+
+def _over(
+    content: Experiment | FootForces, reading: Mapping[str, Correction], options: BalanceOptions, *, by_motion: bool
+) -> Iterator[IntervalBalance]:
+    if isinstance(content, FootForces):
+        if by_motion:
+            raise ExperimentError("expected an experiment with joints for its motion, got vertical forces alone")
+        return balance_of_forces(content, options)
+    return balance_by_motion(content, options) if by_motion else balance_of_sensors(content, reading, options)
 
 
 def _summed_up(
-    intervals: tuple[IntervalBalance, ...], names: tuple[str, ...], options: BalanceOptions, warnings: Sequence[str]
+    intervals: tuple[IntervalBalance, ...],
+    names: tuple[str, ...],
+    options: BalanceOptions,
+    warnings: Sequence[str],
+    *,
+    by_motion: bool,
 ) -> Balance:
     weights = {interval.weight_N for interval in intervals}
     weight_N = weights.pop() if len(weights) == 1 else None
@@ -220,7 +239,11 @@ def _summed_up(
         ),
         refused=refused,
         intervals=intervals,
-        warnings=(*warnings, *refused, *_warnings(feet), *_weight_warnings(phases, weight_N)),
+        by_motion=by_motion,
+        # of motion no sensor is to blame; its rows and what it refuses say all
+        warnings=(*warnings, *refused)
+        if by_motion
+        else (*warnings, *refused, *_warnings(feet), *_weight_warnings(phases, weight_N)),
     )
 
 

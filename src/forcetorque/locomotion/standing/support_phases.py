@@ -211,8 +211,26 @@ def support_phases(forces: Mapping[str, Any], time_s: Any, thresholds: ContactTh
         require_shape(column, name=f"force of {foot!r}", shape=time.shape)
     down = np.stack([contact_state(column, time, thresholds) for column in columns], axis=1)
     known: BoolArray = np.all(np.isfinite(np.stack(columns, axis=1)), axis=1)
-    phases = tuple(_phases(feet, time, down, known))
-    return SupportPhases(feet=feet, time_s=time, down=down & known[:, None], known=known, phases=phases)
+    return phases_of_contacts(feet, time, down, known)
+
+
+def phases_of_contacts(
+    feet: Sequence[str], time_s: FloatArray, down: BoolArray, known: BoolArray | None = None
+) -> SupportPhases:
+    """Give the support phases of contacts that are known.
+
+    Args:
+        feet: The feet.
+        time_s: Instants that rise; shape (n,); s.
+        down: Whether each foot is down; shape (n, feet).
+        known: Whether that is known; shape (n,); everywhere if None.
+
+    Returns:
+        The phases.
+    """
+    told = np.ones(len(time_s), dtype=np.bool_) if known is None else known
+    phases = tuple(_phases(tuple(feet), time_s, down, told))
+    return SupportPhases(feet=tuple(feet), time_s=time_s, down=down & told[:, None], known=told, phases=phases)
 
 
 def require_support(

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Loads that a sensor is chosen for: a force at a point and a moment, from a file or from options."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.toml_file import Finite, Table, Text, read_toml
+
+Three = tuple[Finite, Finite, Finite]
+
+
+class LoadCase(Table):
+    """One load on the sensor, in its frame."""
+
+    name: Text
+    """Name."""
+    force_N: Three = (0.0, 0.0, 0.0)
+    """Force; N."""
+    lever_m: Three = (0.0, 0.0, 0.0)
+    """Point at which the force acts, from the origin of the sensor's frame; m."""
+    moment_Nm: Three = (0.0, 0.0, 0.0)
+    """Moment beside that of the force; N m."""
+
+    @model_validator(mode="after")
+    def _some_load(self) -> LoadCase:
+        if not any((*self.force_N, *self.moment_Nm)):
+            raise PydanticCustomError("no_load", "expected a force_N or moment_Nm that is not zero")
+        return self
+
+    @property
+    def wrench(self) -> FloatArray:
+        """What the sensor bears, about the origin of its frame; shape (6,); N, N m."""
+        force = np.array(self.force_N)
+        return np.concatenate([force, np.array(self.moment_Nm) + np.cross(self.lever_m, force)])
+
+
+class LoadCaseFile(Table):
+    """The whole file."""
+
+    schema_name: Literal["forcetorque/load_cases/1"] = Field(alias="schema")
+    """Form of the file."""
+    load: Annotated[tuple[LoadCase, ...], Field(min_length=1)]
+    """Loads; the sensor has to hold each of them."""
+
+    @model_validator(mode="after")
+    def _names_differ(self) -> LoadCaseFile:
+        names = [load.name for load in self.load]
+        if len(set(names)) < len(names):
+            raise PydanticCustomError("twice", "expected each name of a load once, got {names}", {"names": names})
+        return self
+
+
+def read_load_cases(path: Path | str) -> tuple[LoadCase, ...]:
+    """Read the file.
+
+    Args:
+        path: TOML file with `[[load]]` tables.
+
+    Returns:
+        The loads.
+    """
+    return read_toml(path, LoadCaseFile, what="a file of loads").load
+
+
+def three_numbers(option: str, text: str) -> tuple[float, float, float]:
+    """Read three numbers between commas.
+
+    Args:
+        option: Option that they were typed at, for the message.
+        text: Such as `0,0,500`.
+
+    Returns:
+        The numbers.
+
+    Raises:
+        ForceTorqueError: If there are not three finite numbers.
+    """
+    try:
+        numbers = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) != 3 or not np.isfinite(numbers).all():
+        raise ForceTorqueError(f"{option} {text}: expected three numbers x,y,z with commas between them, as 0,0,500")
+    return numbers

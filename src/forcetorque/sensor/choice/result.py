@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sensors for stated loads, ranked, and what each sensing principle reads of the largest load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import StrEnum
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from forcetorque.results.result import DrawnResult
+from forcetorque.results.table import Row, Shown, Table, Values, WrenchValues, table_of
+from forcetorque.sensor.catalogue import Technology
+
+
+class Holds(StrEnum):
+    """Whether a range holds a load."""
+
+    HELD = "held"
+    """The shares of all axes together stay below the limit: no channel saturates."""
+    AXIS_BY_AXIS = "axis by axis"
+    """Every axis stays below the limit, all together do not: whether a channel saturates is not known."""
+    EXCEEDED = "exceeded"
+    """An axis passes the limit."""
+
+
+class SensorRow(Row):
+    """A range of a sensor under the load that uses most of it."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Model."""
+    maker: Annotated[str, Shown("maker")]
+    """Company."""
+    technology: Annotated[Technology | None, Shown("senses by")]
+    """How it senses; null where it is not printed."""
+    calibration: Annotated[int, Shown("range no.")]
+    """Which of its ranges, from 1."""
+    holds: Annotated[Holds, Shown("load")]
+    """Whether it holds all loads."""
+    load: Annotated[str, Shown("worst load")]
+    """Load that uses most of the range."""
+    axis_percent: Annotated[float, Shown("largest axis", "%", digits=0)]
+    """Largest share of the range of an axis that a load uses."""
+    combined_percent: Annotated[float, Shown("all axes", "%", digits=0)]
+    """Sum of the shares of all axes under the load where it is largest."""
+    error_force_N: Annotated[float | None, Shown("error", "N", digits=2)]
+    """Largest force error by the stated accuracy; null where none is stated."""
+    error_moment_Nm: Annotated[float | None, Shown("error", "N m", digits=3)]
+    """Largest moment error by the stated accuracy."""
+    error_of_load_percent: Annotated[float | None, Shown("of the load", "%", digits=1)]
+    """The larger of force error over force and moment error over moment, under the load where it is largest."""
+    resolution_force_N: Annotated[float | None, Shown("step", "N", digits=3)]
+    """Coarsest step of a force; null where none is stated."""
+    resolution_moment_Nm: Annotated[float | None, Shown("step", "N m", digits=4)]
+    """Coarsest step of a moment."""
+    bandwidth_hz: Annotated[float | None, Shown("bandwidth", "Hz", digits=0)]
+    """Largest bandwidth; null where none is stated."""
+    mass_kg: Annotated[float | None, Shown("mass", "kg", digits=3)]
+    """Mass; null where none is stated."""
+    nonlinearity: Annotated[str | None, Shown("nonlinearity")]
+    """As printed; not part of the error."""
+    sign_stated: Annotated[bool, Shown("range has sign")]
+    """Whether the range is printed for both directions."""
+    source: Annotated[tuple[str, ...], Shown("source")]
+    """Where its figures are from."""
+
+    @property
+    def name(self) -> str:
+        """The sensor, with the number of its range beyond the first."""
+        return self.sensor + (f", range {self.calibration}" if self.calibration > 1 else "")
+
+
+class PrincipleRow(Row):
+    """A sensing principle as six channels of one elastic element."""
+
+    principle: Annotated[str, Shown("principle")]
+    """Principle."""
+    noise_N: Annotated[float | None, Shown("noise at least", "N", digits=4)]
+    """Largest standard deviation of a force of one sample by what the model has, a lower bound; null where it has
+    nothing."""
+    noise_Nm: Annotated[float | None, Shown("noise at least", "N m", digits=5)]
+    """Largest standard deviation of a moment."""
+    nonlinearity_percent: Annotated[float | None, Shown("nonlinear", "%", digits=3)]
+    """Error of a linear reading under the load, as a share of it: the larger of force and moment; null where the load
+    leaves what the principle can sense."""
+    temperature_force_N_per_degC: Annotated[float | None, Shown("zero drift", "N/degC", digits=2)]
+    """Size of the force that warming of all channels by one degree is read as; null where the model has none."""
+    temperature_moment_Nm_per_degC: Annotated[float | None, Shown("zero drift", "N m/degC", digits=3)]
+    """Size of the moment."""
+    gain_percent_per_degC: Annotated[float | None, Shown("gain drift", "%/degC", digits=3)]
+    """Change of the reading of the load per degree, as a share of the load."""
+    lost_percent_per_minute: Annotated[float, Shown("lost in a minute", "%", digits=1)]
+    """Share of a constant load that is no longer read after a minute."""
+    from_hz: Annotated[float, Shown("from", "Hz", digits=4)]
+    """Frequency below which less than 1 / sqrt(2) of a load is read."""
+    to_hz: Annotated[float, Shown("resonance", "Hz", digits=0)]
+    """Lowest resonance of the element with a mass on it, the same for all principles."""
+    noise_by: Annotated[str, Shown("noise by")]
+    """What the noise consists of, or why there is none."""
+    temperature_by: Annotated[str, Shown("drift by")]
+    """What the temperature acts on, or why there is no figure."""
+
+
+class PrincipleCurve(Row):
+    """What a principle reads of a load that begins, while it warms, for the figure."""
+
+    principle: str
+    """Principle."""
+    time_s: Values
+    """Instants; shape (n,); s."""
+    share: Values
+    """Reading over the load, along the load; shape (n,)."""
+
+
+class SensorChoice(DrawnResult):
+    """Sensors for stated loads."""
+
+    answered_by: ClassVar[str | None] = "forcetorque.sensor.choice.answers:choice_answers"
+    drawn_by: ClassVar[str] = "forcetorque.sensor.choice.figure:choice_figure"
+
+    schema_name: Literal["forcetorque/sensor/1"] = Field(default="forcetorque/sensor/1", alias="schema")
+    """Form of the result."""
+    loads: tuple[str, ...]
+    """Names of the loads."""
+    largest: str
+    """Load that the principles are compared under: that which uses most of the ranges."""
+    largest_wrench: WrenchValues
+    """It in the sensor's frame; N, N m."""
+    margin: float
+    """Share of every range that is kept free."""
+    sensors: tuple[SensorRow, ...]
+    """Ranges of the catalogue, the best first."""
+    without_range: tuple[str, ...]
+    """Sensors whose range is not stated."""
+    principles: tuple[PrincipleRow, ...]
+    """Principles under the largest load."""
+    curves: tuple[PrincipleCurve, ...] = Field(default=(), exclude=True, repr=False)
+    """Simulated readings, for the figure."""
+
+    def held(self, holds: Holds = Holds.HELD) -> tuple[SensorRow, ...]:
+        """Give the sensors that hold the loads in one way.
+
+        Args:
+            holds: The way.
+
+        Returns:
+            Their rows, the best first.
+        """
+        return tuple(row for row in self.sensors if row.holds is holds)
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give sensors and principles.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield table_of(self.sensors, f"sensors, of whose range {100.0 * self.margin:g} % stay free; - where not stated")
+        if self.without_range:
+            yield f"no range is stated of {', '.join(self.without_range)}"
+        yield table_of(self.principles, f"principles on one Y-shaped element under {self.largest}, by their models")
