@@ -2,24 +2,29 @@
 """Recordings of a fleet per second, against workers and number; memory against length; overhead per job.
 
 Every recording is the same log of a simulated arm, 20 s at 100 Hz, under an experiment file of its own, so that each is
-read and reduced; seconds include the start of processes. The peer is the same log by hand with pandas: read, means over
-a second, second moments. It has no expected wrenches, findings or hashes. Overhead is that of jobs that do nothing, on
-processes, and on a Dask cluster of two workers where distributed is installed; with `--quick` it is mostly noise.
+read and reduced; seconds include the start of processes. The peer is a script with pandas or `dask.dataframe` that
+reduces the same samples to the sums of a fit; it is given the expected wrenches, and has no findings or hashes.
+Overhead is that of jobs that do nothing, on processes, and on a Dask cluster of two workers where distributed is
+installed; with `--quick` it is mostly noise. What is said on paper is of processor time.
 """
 
 from __future__ import annotations
 
+import resource
+import statistics
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from benchmarks.commands import command_cost, simulated_recordings
-from benchmarks.harness import arguments, write_result
+from benchmarks.fleet_by_hand import with_dask, with_moments, with_pandas, write_tables
+from benchmarks.harness import arguments, interleaved, median_ratio, write_result
+from forcetorque.base.arrays import FloatArray
 from forcetorque.fleet.job import AddJob, run_add
 from forcetorque.fleet.pool import DaskPool, LocalPool, Pool
 from forcetorque.fleet.sensor_record import AddOptions
@@ -44,14 +49,17 @@ def _copies(file: Path, number: int, prefix: str) -> list[Path]:
     return made
 
 
-def _added_s(pool: Pool, files: list[Path], dataset: Path) -> float:
+def _added_s(pool: Pool, files: list[Path], dataset: Path) -> tuple[float, float]:
+    """Seconds of the clock, and those of the processors."""
     jobs = [AddJob(source=RecordingSource(experiment=file), dataset=dataset, options=AddOptions()) for file in files]
-    start = time.perf_counter()
+    start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     outcomes = list(pool.outcomes(run_add, jobs))
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     failed = [one.error for one in outcomes if one.error is not None]
     if failed:
         raise SystemExit(failed[0])
-    return time.perf_counter() - start
+    cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return time.perf_counter() - start, cpu_s
 
 
 def _jobs_s(pool: Pool, number: int) -> float:
@@ -61,19 +69,6 @@ def _jobs_s(pool: Pool, number: int) -> float:
     begun = time.perf_counter()
     list(pool.outcomes(nothing, range(2 + number)))
     return max(time.perf_counter() - begun - (begun - start), 0.0) / number
-
-
-def _by_hand_s(log: Path, rounds: int) -> float:
-    """Seconds of the peer."""
-    start = time.perf_counter()
-    for _ in range(rounds):
-        for file in sorted(log.glob("*.parquet")):
-            frame = pd.read_parquet(file)
-            numbers = frame.select_dtypes("number")
-            seconds = (numbers.iloc[:, 0] - numbers.iloc[0, 0]) // 10**9
-            numbers.groupby(seconds).mean()
-            np.cov(numbers.to_numpy(dtype=np.float64).T)
-    return (time.perf_counter() - start) / rounds
 
 
 @contextmanager
@@ -94,6 +89,7 @@ def main() -> None:
     """Measure, and write figures and ratios."""
     options = arguments(__doc__ or "")
     lengths, numbers, jobs = ((20.0, 80.0), (4,), 20) if options.quick else ((20.0, 600.0, 3600.0), (10, 200), 500)
+    rounds = 2 if options.quick else 5
     figures: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
@@ -101,14 +97,15 @@ def main() -> None:
         files = dict(zip(lengths, made, strict=True))
         short = files[lengths[0]]
         rates: dict[str, float] = {}
+        costs: dict[str, float] = {}
         for number in numbers:
             for workers in (1, 2):
                 name = f"{number} recordings, {workers} workers"
                 own = _copies(short, number, f"n{number}w{workers}")
-                rates[name] = number / _added_s(LocalPool(workers=workers), own, folder / name.replace(" ", "_"))
+                clock_s, cpu_s = _added_s(LocalPool(workers=workers), own, folder / name.replace(" ", "_"))
+                rates[name], costs[name] = number / clock_s, cpu_s / number
                 figures[f"{name}, recordings_per_s"] = rates[name]
-        by_hand = _by_hand_s(short.with_suffix(""), 3)
-        figures["by hand with pandas, recordings_per_s"] = 1.0 / by_hand
+                figures[f"{name}, cpu_s of each"] = costs[name]
         for seconds, file in files.items():
             figures[f"{seconds:g} s, peak_MB"] = command_cost(
                 "fleet", "add", file, "--into", folder / f"length_{seconds:g}"
@@ -117,8 +114,21 @@ def main() -> None:
         with _cluster(folder) as address:
             if address is not None:
                 figures["job on Dask, ms"] = 1e3 * _jobs_s(DaskPool(address=address), jobs)
+            tables, prior = write_tables(short, numbers[-1], folder / "tables")
+            tasks: dict[str, Callable[[], FloatArray]] = {
+                "moments": partial(with_moments, tables, prior),
+                "pandas by hand": partial(with_pandas, tables, prior),
+            }
+            if address is not None:
+                tasks["dask.dataframe by hand"] = partial(with_dask, tables, prior, address)
+            by_hand = with_pandas(tables, prior)
+            differences = {name: float(np.abs(task() / by_hand - 1.0).max()) for name, task in tasks.items()}
+            seconds = interleaved(tasks, rounds=rounds)
+    by_pandas = seconds["pandas by hand"]
+    each_s = statistics.median(by_pandas) / numbers[-1]
+    figures["pandas by hand, recordings_per_s"] = 1.0 / each_s
     first, two = (f"{numbers[-1]} recordings, {workers} workers" for workers in (1, 2))
-    core_s_per_hour = 3600.0 / lengths[0] / rates[first]
+    core_s_per_hour = 3600.0 / lengths[0] * costs[first]
     figures["core_s per hour of logs"] = core_s_per_hour
     figures["on paper: cores for 1000 robots of 8 h a day"] = core_s_per_hour * _HOURS * _ROBOTS / 86400.0
     figures["on paper: EUR per robot and year"] = core_s_per_hour * _HOURS * _DAYS / 3600.0 * _CORE_HOUR_EUR
@@ -126,11 +136,16 @@ def main() -> None:
         options.json,
         ratios={
             "two workers, one worker": rates[two] / rates[first],
-            "time of fleet add, by hand with pandas": 1.0 / rates[first] / by_hand,
+            "time of fleet add, sums alone with pandas": 1.0 / rates[first] / each_s,
+            **{
+                f"{name}, pandas by hand": median_ratio(own, by_pandas)
+                for name, own in seconds.items()
+                if own != by_pandas
+            },
         },
-        seconds={},
-        accuracy={},
-        rounds=1,
+        seconds=seconds,
+        accuracy={f"{name}, relative difference of sums": value for name, value in differences.items()},
+        rounds=rounds,
         packages=("numpy", "pyarrow", "pandas"),
         figures={**figures, "log_s": lengths[0]},
     )

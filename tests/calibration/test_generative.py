@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.generative.model import _have_rank
 from forcetorque.calibration.thesis.regression import solve
 from forcetorque.experiment.calibration.estimation_type import Estimation
 from forcetorque.experiment.calibration.moments import Moments, WindowMeans
@@ -64,6 +65,12 @@ def test_a_direction_that_no_load_moves_keeps_its_prior() -> None:
     ridge = solve(Moments.of(data.raw, data.reference), Estimation(prior=PRIOR), 1e-3)
     response = ridge.matrix @ np.linalg.inv(MOUNTED)
     assert np.abs(np.diag(response)[2:]).max() < 0.1
+
+
+def test_loads_that_rounding_makes_negative_have_no_rank() -> None:
+    """Squares of a load that does not move are zero but for rounding, of either sign."""
+    assert _have_rank(np.eye(6))
+    assert not _have_rank(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1e-17]))
 
 
 def test_a_limb_that_stands_still_leaves_the_prior_and_finds_the_offset() -> None:

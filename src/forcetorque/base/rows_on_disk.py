@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from forcetorque.base.errors import OutputError
 
-IN_MEMORY: Final = 1 << 26
+IN_MEMORY: Final = 1 << 24
 """Bytes of a stream up to which it is held in memory."""
 _WITHOUT_FILE: Final = 1 << 20
 """Bytes of rows up to which they need no file, of which a process may have a limited number open."""

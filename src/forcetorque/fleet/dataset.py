@@ -341,7 +341,8 @@ class Dataset:
             target.parent.mkdir(parents=True, exist_ok=True)
             with temporary_beside(target) as temporary:
                 with temporary.open("wb") as stream:
-                    pq.write_table(columns, stream, compression="zstd")
+                    # a dictionary of numbers that do not repeat takes time and twenty times their memory
+                    pq.write_table(columns, stream, compression="zstd", use_dictionary=False)
                     stream.flush()
                     # otherwise a power cut after the rename can leave an empty file
                     os.fsync(stream.fileno())

@@ -174,18 +174,21 @@ def sensor_records(
     warnings: list[dict[str, None]] = [{} for _ in runs]
     of_fits: list[list[Sequence[Finding]]] = [[] for _ in runs]
     left = TimeLeft(progress, f"adding {experiment.name}", len(segments) * len(runs))
+    forget_recording(experiment)  # which was looked at as it was read
     for number, segment in enumerate(segments):
-        part, found_in = replace(experiment, recording=segment.recording), []
-        each = enumerate(zip(runs, _runs(part), sensors, warnings, of_fits, strict=True))
-        for place, (run, own, sensor, said, of_fit) in each:
+        found_in = []
+        parts = _runs(replace(experiment, recording=segment.recording))
+        for place, (run, sensor, said, of_fit) in enumerate(zip(runs, sensors, warnings, of_fits, strict=True)):
+            own = parts.pop(0)  # its samples are let go before those of the next are computed
             sensor.add(own)
             found_in.append(_findings(own))
             of_fit.append(_findings_of_fit(own) if run.has(Use.CALIBRATION) else ())
             if own.has(Use.CALIBRATION):
                 said |= dict.fromkeys(doubts_of_samples(own))
+            del own
+            forget_recording(experiment)
             left.at(number * len(runs) + place + 1)
         findings.append(_joined(found_in))
-        forget_recording(experiment)
     found_in_all = joined_findings(segments, findings)
     for run, said, of_fit in zip(runs, warnings, of_fits, strict=True):
         sensor = sensors.pop(0)  # what is kept of it is let go with its record

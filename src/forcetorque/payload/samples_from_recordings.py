@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Means of measurements and motion under loads, of a wrist sensor and of loads on links of a robot.
 
-The expected wrench of a sensor is linear in mass, first moment and inertia of a load on a link: robots that weigh
-nothing but one of the ten give what each adds.
+The expected wrench of a sensor is linear in mass, first moment and inertia of a load on a link: the motion of the link
+gives what each of the ten adds.
 """
 
 from __future__ import annotations
@@ -14,24 +14,24 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.inertia import Inertia
 from forcetorque.base.noise.means import means_over, window_for
-from forcetorque.base.wrench import reading_sign
+from forcetorque.base.pose import invert_pose
+from forcetorque.base.wrench import reading_sign, wrench_matrix
 from forcetorque.experiment.calibration.assumptions import FLATTENED
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
-from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.parameter_vector import inertia_of
+from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.measurement_model import inertial_columns
 from forcetorque.payload.toml_tables import Load as LoadTable
 from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.robot.dynamics import body_poses, joints_between, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import support_motion_at
-from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
-from forcetorque.robot.model import RobotModel
-from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.mechanics.samples import LoggedRobot, Processing
+from forcetorque.robot.motion import JointMotion, RootMotion, blocks_of
+from forcetorque.robot.tree import BodyTree, build_tree, path_to_root
 
 MOST_ROWS = 3600
 """Means of an interval, at most: an hour has means of 1 s, a day of half a minute."""
@@ -258,9 +258,6 @@ def _orientation(recording: Recording, interval: Interval, at_ns: IntArray) -> F
     return np.full((len(at_ns), 9), np.nan)
 
 
-_PARAMETERS = 10
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class LoadedInterval:
     """An interval with the load that the robot carries."""
@@ -307,9 +304,9 @@ def link_load_problem(
     lengths = [len(block.time_s) for block in blocks]
     means = np.concatenate([block.means for block in blocks])
     counts = np.concatenate([block.counts for block in blocks])
-    ends = np.cumsum([6, 6 * _PARAMETERS, 6])
+    ends = np.cumsum([6, 6 * INERTIAL, 6])
     wrench, columns, known, variables = np.split(means, ends, axis=1)
-    columns = columns.reshape(-1, 6, _PARAMETERS)
+    columns = columns.reshape(-1, 6, INERTIAL)
     rows = LoadRows(
         wrench=wrench,
         proper_acceleration=columns[:, :3, 0],
@@ -353,45 +350,45 @@ def _expected(
     experiment: Experiment, sensor: ExperimentSensor, loaded: LoadedInterval, at_ns: IntArray
 ) -> tuple[FloatArray, FloatArray]:
     """Derivative of the load's wrench by each parameter, (n, 6, 10), and the expected wrench by the URDF, (n, 6)."""
-    bare = experiment.mounted(experiment.model)
-    weightless = replace(bare, links=dict.fromkeys(bare.links, Inertia.zero()))
-    parameters = [] if loaded.link is None else [_with(weightless, loaded.link, k) for k in range(_PARAMETERS)]
-    sign = reading_sign(bare.sensor(sensor.name).direction, child_is_outboard=True)
-    columns = np.zeros((len(at_ns), 6, _PARAMETERS))
-    wrenches = _expected_wrenches(experiment, sensor, loaded.interval, [bare, *parameters], at_ns)
-    if parameters:
-        columns[:] = sign * np.stack(wrenches[1:], axis=2)
-    return columns, wrenches[0]
-
-
-def _with(weightless: RobotModel, link: str, parameter: int) -> RobotModel:
-    """A robot whose only mass is one inertial parameter of one link."""
-    unit = np.eye(_PARAMETERS)[parameter]
-    inertia = Inertia(mass=float(unit[0]), first_moment=unit[1:4], second_moment=inertia_of(unit[4:]))
-    return replace(weightless, links={**weightless.links, link: inertia})
-
-
-def _expected_wrenches(
-    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, models: Sequence[RobotModel], at_ns: IntArray
-) -> list[FloatArray]:
-    """Expected wrenches of a sensor on several robots with the same motion, corrected for smoothing."""
-    support = interval.support
+    support = loaded.interval.support
     if support is None:
-        raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
-    name = experiment.model.sensor(sensor.name).name
-    questions = [Question(tree=build_tree(model, support.frame), expected=(name,), equations=()) for model in models]
-    needed = tuple(dict.fromkeys(joint for question in questions for joint in required_joints_of(question)))
+        raise ExperimentError(f"interval {loaded.interval.label!r}: expected a support frame, got none")
+    bare = experiment.mounted(experiment.model)
+    tree, name, link = build_tree(bare, support.frame), bare.sensor(sensor.name).name, loaded.link
+    question = Question(tree=tree, expected=(name,), equations=())
+    needed = (*required_joints_of(question), *(() if link is None else joints_between(tree, link)))
     stream = experiment.recording.stream(sensor.stream)
+    sign = reading_sign(bare.sensor(sensor.name).direction, child_is_outboard=True)
 
-    def expected(how: Processing) -> list[FloatArray]:
-        joints, root = robot_motion_at(
-            experiment.recording, experiment.model, support, needed, stream, at_ns, processing=how
-        )
-        return [estimate(question, joints, root).expected_of(name) for question in questions]
+    def expected(how: Processing) -> FloatArray:
+        robot = LoggedRobot(experiment.recording, experiment.model, support, needed, stream, processing=how)
+        wrenches = np.zeros((len(at_ns), 6, INERTIAL + 1))
+        for block in blocks_of(len(at_ns)):
+            joints, root = robot.at(at_ns[block])
+            wrenches[block, :, -1] = estimate(question, joints, root).expected_of(name)
+            if link is not None:
+                wrenches[block, :, :-1] = sign * _by_load(tree, name, link, joints, root)
+        robot.require_radians()
+        return wrenches
 
     processing = experiment.processing
     wrenches = expected(processing)
-    if processing.logged_derivatives:
-        return wrenches
-    longer = expected(replace(processing, derivative_window=processing.derivative_window.doubled()))
-    return [short + FLATTENED * np.nan_to_num(short - long) for short, long in zip(wrenches, longer, strict=True)]
+    if not processing.logged_derivatives:
+        longer = expected(replace(processing, derivative_window=processing.derivative_window.doubled()))
+        wrenches += FLATTENED * np.nan_to_num(wrenches - longer)
+    return wrenches[:, :, :-1], wrenches[:, :, -1]
+
+
+def _by_load(tree: BodyTree, sensor: str, link: str, joints: JointMotion, root: RootMotion) -> FloatArray:
+    """Derivatives of the measurement of a sensor by the inertial parameters of a load on a link; shape (n, 6, 10)."""
+    cut, (body, body_H_link) = tree.cuts[sensor], tree.frames[link]
+    if cut.body not in path_to_root(tree, body):
+        return np.zeros((len(joints), 6, INERTIAL))
+    motion = motion_of_link(tree, joints, root, link)
+    omega = motion.angular_velocity
+    columns = inertial_columns(
+        motion.proper_acceleration, motion.angular_acceleration, omega[:, :, None] * omega[:, None, :]
+    )
+    poses = body_poses(tree, joints, (cut.body, body))
+    sensor_H_link = invert_pose(poses[cut.body] @ cut.body_H_sensor) @ poses[body] @ body_H_link
+    return cut.sign * (wrench_matrix(sensor_H_link) @ columns)

@@ -292,8 +292,11 @@ def infer(
 
 def _have_rank(products: FloatArray) -> bool:
     """Whether loads with these products move all six directions."""
-    size = np.sqrt(np.diag(products))
-    return bool(size.all()) and bool(np.linalg.eigvalsh(products / np.outer(size, size))[0] > _RANK**2)
+    squares = np.diag(products)  # of a load that does not move, rounding may make them negative
+    if not (squares > 0.0).all():
+        return False
+    size = np.sqrt(squares)
+    return bool(np.linalg.eigvalsh(products / np.outer(size, size))[0] > _RANK**2)
 
 
 def _ascend(

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import FORCE, reading_sign
-from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.parameter_vector import (
     AXES,
     OF_LOAD,
@@ -51,16 +51,37 @@ def load_columns(rows: LoadRows, rotation: FloatArray, tilt: FloatArray) -> Floa
         change = upwards @ (rotation_by(np.append(tilt, 0.0)) - np.eye(3)).T
         acceleration = acceleration + np.einsum("nji,nj->ni", rows.orientation, change)
     acceleration = acceleration @ rotation.T
-    columns = np.zeros((len(rows), 6, 10))
-    columns[:, :3, 0] = acceleration
-    columns[:, 3:, 1:4] = -skew(acceleration)  # h x a
     if rows.angular_velocity_products is None or rows.angular_acceleration is None:
-        return columns
+        return inertial_columns(acceleration)
     turning = rows.angular_acceleration @ rotation.T
-    products = rotation @ rows.angular_velocity_products @ rotation.T
+    return inertial_columns(acceleration, turning, rotation @ rows.angular_velocity_products @ rotation.T)
+
+
+def inertial_columns(
+    proper_acceleration: FloatArray,
+    angular_acceleration: FloatArray | None = None,
+    angular_velocity_products: FloatArray | None = None,
+) -> FloatArray:
+    """Give what a unit of mass, first moment and inertia adds to the wrench that moves a body.
+
+    Args:
+        proper_acceleration: Of the origin of the body's frame, along its axes; shape (n, 3); m/s2.
+        angular_acceleration: Along these axes; shape (n, 3); rad/s2; None of a body that does not turn.
+        angular_velocity_products: Products `w w'` of the angular velocity w; shape (n, 3, 3); rad2/s2; None as well.
+
+    Returns:
+        About this origin, along these axes; shape (n, 6, 10).
+    """
+    columns = np.zeros((len(proper_acceleration), 6, INERTIAL))
+    columns[:, :3, 0] = proper_acceleration
+    columns[:, 3:, 1:4] = -skew(proper_acceleration)  # h x a
+    if angular_velocity_products is None or angular_acceleration is None:
+        return columns
+    products = angular_velocity_products
     squared = np.trace(products, axis1=1, axis2=2)[:, None, None] * np.eye(3)
-    columns[:, :3, 1:4] = skew(turning) + products - squared  # w x (w x h) = (w w' - w'w) h
-    columns[:, 3:, 4:] = np.einsum("aij,nj->nia", _SIX, turning) + np.einsum("iajl,njl->nia", _GYROSCOPIC, products)
+    columns[:, :3, 1:4] = skew(angular_acceleration) + products - squared  # w x (w x h) = (w w' - w'w) h
+    columns[:, 3:, 4:] = np.einsum("aij,nj->nia", _SIX, angular_acceleration)
+    columns[:, 3:, 4:] += np.einsum("iajl,njl->nia", _GYROSCOPIC, products)
     return columns
 
 
