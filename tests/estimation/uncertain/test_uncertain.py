@@ -10,6 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.uncertain.equations import Affine, posterior_of
 from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty, wrench_covariances
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
@@ -229,6 +230,18 @@ def test_an_unknown_name_is_refused() -> None:
             known=known,
             uncertainty=Uncertainty(measured={"l_leg": np.eye(6)}),
         )
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_one_equation_of_two_unknowns_by_hand(unit: float) -> None:
+    """Of x - 2 + 3 e = 0 follow x = 2 - 3 e and nothing of y, in any unit."""
+    equation = Affine(constant=np.array([[-2.0]]), free=np.array([[[1.0, 0.0]]]), errors=np.array([[[3.0]]]))
+    wanted = Affine(constant=np.array([[5.0, 0.0]]), free=unit * np.eye(2)[None], errors=np.zeros((1, 2, 1)))
+    posterior = posterior_of(equation)
+    mean, wrong = posterior.linear(wanted)
+    np.testing.assert_allclose(mean, [[5.0 + 2.0 * unit, np.nan]], rtol=1e-12)
+    np.testing.assert_allclose(wrong, [[[-3.0 * unit], [np.nan]]], rtol=1e-12)
+    assert (posterior.rank[0], posterior.condition[0]) == (1, 1.0)
 
 
 def test_a_gap_stays_in_its_sample() -> None:
