@@ -108,6 +108,9 @@ def test_one_radius_of_a_perfect_sensor() -> None:
         assert radius.low <= WEIGHT <= radius.high
         assert radius.low <= radius.geometric <= radius.high
         assert bool(radius.why) is not radius.identifiable
+        # an ellipsoid that is not identifiable may be the sphere
+        rounding = 1.0 + 1e-12
+        assert fit.identifiable or ((fit.low <= radius.low * rounding) & (fit.high * rounding >= radius.high)).all()
 
 
 def test_a_deformed_sensor_has_no_one_radius() -> None:
