@@ -265,8 +265,9 @@ def test_a_covariance_without_parts_stays_what_it_is() -> None:
     one = TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=0.25)
     np.testing.assert_allclose(one.covariance, covariance, atol=EXACT)
     np.testing.assert_allclose(one.noise, 0.25 * covariance)
-    with pytest.raises(EstimationError, match="noise_share: expected above 0"):
-        TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=0.0)
+    for share in (0.0, 1.01):
+        with pytest.raises(EstimationError, match="noise_share: expected above 0"):
+            TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=share)
 
 
 def test_noise_that_repeats_itself_is_no_conflict() -> None:
