@@ -101,6 +101,16 @@ def test_every_load_reaches_its_lock(demands: DeviceDemands) -> None:
 def test_budgets_are_by_joint_and_sensor(demands: DeviceDemands) -> None:
     """Six quantities and all at once for each of three sensors; the innermost has the longest lever."""
     assert len(demands.budget) == 3 * 7
+    # half of the full widths of a well-made device, in the units of the table
+    stated = {(row.quantity, row.unit): row.plus_minus for row in demands.budget if row.quantity != "all"}
+    assert stated == pytest.approx({
+        ("pitch", "deg"): 0.05,
+        ("yaw", "deg"): 0.05,
+        ("mass", "%"): 0.05,
+        ("bracket length", "mm"): 0.1,
+        ("load length", "mm"): 0.1,
+        ("compliance", "urad/Nm"): 1.0,
+    })  # fmt: skip
     together = [row for row in demands.budget if row.quantity == "all"]
     moments = [row.moment_Nm for row in together]
     assert moments == sorted(moments, reverse=True)

@@ -203,6 +203,19 @@ def test_postures_of_all_options_are_quarters_of_a_turn() -> None:
         np.testing.assert_allclose(quarters, np.round(quarters), atol=1e-9)
 
 
+def test_locks_are_changed_where_gravity_takes_the_load_there() -> None:
+    """With the arm down at the nearest yaw that lets the load swing: whole turns to +90, a half turn to -90."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, swaps=0)
+    chosen = [[-90.0, 350.0, 0.0], [30.0, 350.0, 90.0], [30.0, 170.0, -90.0]]
+    motion = designer.through(np.deg2rad(chosen)).sequence
+    changes = [[-90.0, 360.0, 0.0], [0.0, 360.0, 90.0]], [[0.0, 360.0, 90.0], [-90.0, 360.0, 0.0]]
+    back = [[-90.0, 180.0, 0.0], [0.0, 180.0, -90.0]]
+    expected = [chosen[0], *changes[0], chosen[1], *changes[1], *back, chosen[2]]
+    np.testing.assert_allclose(np.rad2deg(motion.postures), expected, atol=1e-9)
+    assert motion.unlocked == (False, True, False, False, True, False, True, False)
+
+
 def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:
     """Negative control of the bar: the response of least norm misses a part of most loads."""
     assert np.median(_errors("12 steps", 3)[:, 0]) > 30.0

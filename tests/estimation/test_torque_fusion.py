@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,9 @@ from forcetorque.base.errors import ExperimentError, FormatError, RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import EstimateSummary, summarise_estimates
+from forcetorque.estimation.torque import experiment_sources
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
+from forcetorque.estimation.torque.motor import Friction, fit_friction
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
@@ -22,7 +25,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
-from tests.scenes.experiments import PARQUET, add, edit
+from tests.scenes.experiments import PARQUET, RATE_HZ, add, edit
 from tests.scenes.motors import DRIVEN, ERRORS, FUSION, MOTOR, motor_tables, with_motors
 
 SKIN = """
@@ -67,9 +70,19 @@ def _fused(file: Path, fitted: Calibration) -> EstimateSummary:
     return summarise_estimates(experiment, corrections, spans, fusions=fusions, frictions=frictions)
 
 
-def test_torques_of_sensors_and_motors_are_fused(arm: Path, fitted: Calibration) -> None:
+def test_torques_of_sensors_and_motors_are_fused(
+    arm: Path, fitted: Calibration, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """All sources beside each other, friction within its interval, and no conflict."""
+    periods: list[float] = []
+
+    def noted(*given: Any, period_s: float, **options: Any) -> Friction:
+        periods.append(period_s)
+        return fit_friction(*given, period_s=period_s, **options)
+
+    monkeypatch.setattr(experiment_sources, "fit_friction", noted)
     summary = _fused(with_motors(arm), fitted)
+    assert periods == pytest.approx(3 * [1.0 / RATE_HZ], rel=5e-3)  # stamps jitter
     fusion = summary.fusion
     assert fusion is not None
     assert [(row.joint, row.source) for row in fusion.torques[:9]] == [

@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.export.export import export_table
+from forcetorque.calibration.export.command import export_calibrations
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
@@ -167,14 +167,14 @@ def test_a_gap_is_neither_inside_nor_outside(arm: Path) -> None:
 def test_an_export_says_which_loads_were_fitted(arm: Path) -> None:
     """Per component the range that the calibration reads over the fitted samples; of older files that they lack it."""
     calibration = _fitted(arm)
-    entry = export_table({NAME: calibration}, arm / "m.csv").calibrations[0]
+    entry = export_calibrations({NAME: calibration}, "csv").calibrations[0]
     (part,) = SensorRun(load_experiment(arm / PARQUET), "arm_ft").samples(Use.CALIBRATION)
     wrench = calibration.model.wrench(part.raw)
     assert np.allclose(entry.fitted_minimum, wrench.min(axis=0), atol=0.02 * np.abs(wrench).max())
     assert np.allclose(entry.fitted_maximum, wrench.max(axis=0), atol=0.02 * np.abs(wrench).max())
     assert "arm_ft: fitted loads, outside which it extrapolates: fx " in entry.fitted_text
     validity = calibration.validity.model_copy(update={"loads": None})
-    older = export_table({NAME: calibration.model_copy(update={"validity": validity})}, arm / "m.csv").calibrations[0]
+    older = export_calibrations(calibration.model_copy(update={"validity": validity}), "csv").calibrations[0]
     assert "does not hold which loads were fitted" in older.fitted_text
 
 

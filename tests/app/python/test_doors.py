@@ -234,7 +234,7 @@ def test_a_page_of_posture_and_forces_is_written_from_what_a_script_holds(
 @some_cases("name", ["recording/arm_ft.parquet", "arm.urdf", PARQUET, "matrix_SIM001.txt"])
 def test_no_method_writes_over_what_it_has_read(arm: Path, name: str, force: bool) -> None:
     """Not even by force, and not through a link."""
-    from forcetorque.calibration.export.export import export_table
+    from forcetorque.calibration import export_calibrations
 
     experiment = load_experiment(arm / PARQUET)
     calibration = experiment["arm_ft"].calibrate()
@@ -247,7 +247,7 @@ def test_no_method_writes_over_what_it_has_read(arm: Path, name: str, force: boo
         lambda: document.save(arm / "link.html", force=force),
         lambda: experiment.estimate(output=arm / "link.csv", force=force),
         lambda: experiment.view(arm / name, force=force),
-        lambda: export_table({"new": calibration}, arm / name, force=force),
+        lambda: export_calibrations(calibration, "csv").save(arm / name, force=force),
     )
     for write in writers:
         with pytest.raises(OutputError, match="got an input of the result"):

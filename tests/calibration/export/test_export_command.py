@@ -19,7 +19,8 @@ import pytest
 
 from forcetorque.app.command_line import main
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.export.export import Export, export_icub_matrix, export_wholebodydynamics
+from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.export import Export
 from forcetorque.calibration.export.wholebodydynamics import corrected, read_groups
 from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset, write_calibration
 from forcetorque.formats.icub_matrix import read_matrix_file
@@ -333,15 +334,16 @@ def test_the_result_has_three_forms(
 def test_exports_show_themselves(tmp_path: Path) -> None:
     """From Python too: what is not stored is a warning of the result, and both kinds of matrix keep their numbers."""
     leg = make_calibration(variables=(make_variable(),))
-    matrix = export_icub_matrix("leg", leg, str(tmp_path / "matrix.txt"))  # text is a path too
+    matrix = export_calibrations({"leg": leg}, "icub-matrix")
+    matrix.save(str(tmp_path / "matrix.txt"))  # text is a path too
     require_shown(matrix)
     offset, coefficients = matrix.warnings
     assert offset.startswith("leg: offset (8, -5, 20) N, (0.3, -0.2, 0.1) N m: not stored")
     assert coefficients == (
         "leg: the coefficients of temperature are not in this file: --to coefficients, from Python "
-        "export_coefficients, has them"
+        "export_calibrations, has them"
     )
-    groups = export_wholebodydynamics({"leg": leg}, tmp_path / "ft.xml")
+    groups = export_calibrations({"leg": leg}, "wholebodydynamics")
     require_shown(groups)
     assert groups.warnings == ()
 

@@ -10,7 +10,7 @@ import yaml
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError
-from forcetorque.calibration import export_numpy, export_ros2_parameters
+from forcetorque.calibration import export_calibrations
 from forcetorque.experiment.calibration.artefact import Calibration
 from tests.scenes.calibrations import OFFSET, make_calibration, make_variable
 
@@ -49,7 +49,8 @@ def _by_the_comments(sensor: dict[str, Any]) -> FloatArray:
 def test_the_formula_in_the_file_gives_the_wrenches(tmp_path: Path) -> None:
     """Of parsed numbers; another order of the matrix does not."""
     calibration, file = _warm(), tmp_path / "leg.yaml"
-    result = export_ros2_parameters({"leg": calibration}, file, frame_ids=["l_leg_ft"])
+    result = export_calibrations({"leg": calibration}, "ros2", frame_ids=["l_leg_ft"])
+    result.save(file)
     sensor, expected = _sensors(file)["leg_ft"], _expected(calibration)
     close = SUM_ROUNDING * np.abs(expected).max()
     np.testing.assert_allclose(_by_the_comments(sensor), expected, rtol=0, atol=close)
@@ -65,7 +66,7 @@ def test_every_number_is_a_double(tmp_path: Path) -> None:
     offset = np.array([8.0, 1e-7, 1e22, -0.0, 3.0, 5e-324])
     matrix = np.eye(6) * 1e-7
     file = tmp_path / "leg.yaml"
-    export_ros2_parameters({"leg": make_calibration(matrix=matrix, offset=offset)}, file, frame_ids=["ft"])
+    export_calibrations({"leg": make_calibration(matrix=matrix, offset=offset)}, "ros2", frame_ids=["ft"]).save(file)
     sensor = _sensors(file)["leg_ft"]
     numbers = [*sensor["matrix"], *sensor["offset"]]
     assert {type(number) for number in numbers} == {float}
@@ -76,9 +77,9 @@ def test_every_number_is_a_double(tmp_path: Path) -> None:
 def test_several_sensors_have_one_file(tmp_path: Path) -> None:
     """Each with its frame; the name of a single one can be chosen."""
     file = tmp_path / "legs.yaml"
-    export_ros2_parameters({"l": _warm("l_ft"), "r": _warm("r_ft")}, file, frame_ids=["l_sole", "r_sole"])
+    export_calibrations({"l": _warm("l_ft"), "r": _warm("r_ft")}, "ros2", frame_ids=["l_sole", "r_sole"]).save(file)
     assert {name: sensor["frame_id"] for name, sensor in _sensors(file).items()} == {"l_ft": "l_sole", "r_ft": "r_sole"}
-    export_ros2_parameters({"l": _warm("l.ft")}, file, frame_ids=["l_sole"], sensor_name="l_ft", force=True)
+    export_calibrations({"l": _warm("l.ft")}, "ros2", frame_ids=["l_sole"], sensor_name="l_ft").save(file, force=True)
     assert list(_sensors(file)) == ["l_ft"]
 
 
@@ -86,18 +87,19 @@ def test_what_a_calibration_does_not_know_is_asked_for(tmp_path: Path) -> None:
     """The frame of tf is never that of the robot model by guess, and a name is never changed."""
     file = tmp_path / "leg.yaml"
     with pytest.raises(ExperimentError, match=r"leg_ft: its child frame.*got 0 for 1; --frame-id names it"):
-        export_ros2_parameters({"leg": _warm()}, file, frame_ids=[])
+        export_calibrations({"leg": _warm()}, "ros2", frame_ids=[]).save(file)
     with pytest.raises(FormatError, match=r"got 'l\.ft'; name the sensor by --sensor-name"):
-        export_ros2_parameters({"leg": _warm("l.ft")}, file, frame_ids=["ft"])
+        export_calibrations({"leg": _warm("l.ft")}, "ros2", frame_ids=["ft"]).save(file)
     with pytest.raises(FormatError, match="got a name twice"):
-        export_ros2_parameters({"a": _warm(), "b": _warm()}, file, frame_ids=["ft", "ft"])
+        export_calibrations({"a": _warm(), "b": _warm()}, "ros2", frame_ids=["ft", "ft"]).save(file)
     assert not file.exists()
 
 
 def test_an_archive_of_numpy_is_applied_in_two_lines(tmp_path: Path) -> None:
     """It reads without pickle, to the last bit."""
     calibration, file = _warm(), tmp_path / "leg.npz"
-    result = export_numpy("leg", calibration, file)
+    result = export_calibrations({"leg": calibration}, "numpy")
+    result.save(file)
     with np.load(file, allow_pickle=False) as sensor:
         wrench = RAW @ sensor["matrix"].T + sensor["offset"]
         added = (DEGREES[:, None] - sensor["reference_values"]) @ sensor["coefficients"].T
@@ -123,5 +125,5 @@ def test_an_archive_of_numpy_is_applied_in_two_lines(tmp_path: Path) -> None:
 def test_a_corrected_stream_names_its_unit(tmp_path: Path) -> None:
     """With the prior "identity" the raw samples are newtons, not counts."""
     calibration = make_calibration(matrix=np.eye(6), prior=np.eye(6), prior_source="identity")
-    export_ros2_parameters({"leg": calibration}, tmp_path / "leg.yaml", frame_ids=["ft"])
+    export_calibrations({"leg": calibration}, "ros2", frame_ids=["ft"]).save(tmp_path / "leg.yaml")
     assert _sensors(tmp_path / "leg.yaml")["leg_ft"]["raw_unit"] == "N, N m"

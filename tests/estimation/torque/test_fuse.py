@@ -254,6 +254,7 @@ def test_one_source_is_itself() -> None:
     np.testing.assert_allclose(fusion.torque, ft.torque, atol=EXACT)
     np.testing.assert_allclose(fusion.covariance, ft.covariance, atol=EXACT)
     assert not fusion.conflict.is_there
+    assert fusion.conflict.everyone.total.probability == 1.0
 
 
 def test_a_covariance_without_parts_stays_what_it_is() -> None:
@@ -264,8 +265,9 @@ def test_a_covariance_without_parts_stays_what_it_is() -> None:
     one = TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=0.25)
     np.testing.assert_allclose(one.covariance, covariance, atol=EXACT)
     np.testing.assert_allclose(one.noise, 0.25 * covariance)
-    with pytest.raises(EstimationError, match="noise_share: expected above 0"):
-        TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=0.0)
+    for share in (0.0, 1.01):
+        with pytest.raises(EstimationError, match="noise_share: expected above 0"):
+            TorqueSource.of_covariance("skin", JOINTS, stamps(), truth(), covariance, noise_share=share)
 
 
 def test_noise_that_repeats_itself_is_no_conflict() -> None:
@@ -312,6 +314,8 @@ def test_other_joints_names_and_options_are_refused() -> None:
         fuse([ft, replace(skin, name="ft")])
     with pytest.raises(EstimationError, match="false_alarm"):
         fuse([ft, skin], false_alarm=0.0)
+    with pytest.raises(EstimationError, match="false_alarm"):
+        fuse([ft, skin], false_alarm=1.0)
     with pytest.raises(EstimationError, match="instants that increase"):
         replace(ft, stamp_ns=ft.stamp_ns[::-1])
     with pytest.raises(EstimationError, match="noise_time_s"):

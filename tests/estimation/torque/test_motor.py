@@ -71,6 +71,22 @@ def test_what_friction_leaves_is_the_drives() -> None:
     assert white.noise_time_s < 0.03 < wandering.noise_time_s < 0.3
 
 
+def test_the_variance_is_over_the_degrees_of_freedom() -> None:
+    """Of 60 samples and four coefficients, as least squares have it."""
+    rng = np.random.default_rng(3)
+    velocity, acceleration = _motion(rng, 60)
+    velocity[::3] *= -1.0
+    drive = rng.standard_normal(60)
+    friction = fit_friction("knee", drive, np.zeros(60), velocity, acceleration, period_s=0.02, standstill=1e-6)
+    terms = friction_terms(velocity, acceleration)
+    coefficients, squares, *_ = np.linalg.lstsq(terms, drive, rcond=None)
+    np.testing.assert_allclose(friction.coefficients, coefficients, rtol=1e-9)
+    assert friction.variance == pytest.approx(squares[0] / (60 - 4), rel=1e-9)
+    # however small the accelerations are: only the unit of the inertia changes
+    slow = fit_friction("knee", drive, np.zeros(60), velocity, 1e-5 * acceleration, period_s=0.02, standstill=1e-6)
+    np.testing.assert_allclose(slow.coefficients, coefficients * [1.0, 1.0, 1e5, 1.0], rtol=1e-6)
+
+
 def test_the_unit_of_torque_does_not_change_what_is_fitted() -> None:
     """In N mm coefficients are a thousand times as large and variances a million times; times stay."""
     rng = np.random.default_rng(7)
@@ -165,5 +181,8 @@ def test_motions_that_do_not_tell_friction_are_refused() -> None:
     one_speed = np.where(np.arange(n) % 100 < 50, 0.3, -0.3)
     with pytest.raises(FitError, match="expected motions that tell coulomb, viscous, inertia, offset .* apart"):
         fit_friction("knee", drive, trusted, one_speed, np.zeros(n), period_s=0.02, standstill=0.02)
+    nearly_one = one_speed * (1.0 + 1e-4 * rng.standard_normal(n))
+    with pytest.raises(FitError, match="expected motions that tell"):
+        fit_friction("knee", drive, trusted, nearly_one, rng.standard_normal(n), period_s=0.02, standstill=0.02)
     with pytest.raises(FitError, match="standstill: expected a positive speed"):
         fit_friction("knee", drive, trusted, one_speed, np.zeros(n), period_s=0.02, standstill=0.0)

@@ -6,19 +6,29 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import pytest
 
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.skin_contacts import SkinSource, frames_before, skin_sources
+from forcetorque.estimation.skin_contacts import (
+    PLACE_M,
+    TILT_RAD,
+    TWIST_M,
+    SkinSource,
+    frames_before,
+    skin_sources,
+    sources_at,
+)
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Tangents, tangent_maps
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.contact.contacts import find_contacts
+from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.cases import some_cases
 from tests.estimation.uncertain.limb import FRICTION, Draws, Shin, cylinder
@@ -35,6 +45,10 @@ from tests.estimation.uncertain.limb_trials import (
 from tests.skin.contact.test_contacts import frame_of
 from tests.skin.contact_trials import leg_layout
 from tests.skin.layout.skins import plane_layout
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.experiment import Experiment
+    from forcetorque.skin.wrench.wrench import PatchFrames
 
 DRAWS = 60
 """Poses of the quick tests; each has some contacts and torques of several components."""
@@ -189,14 +203,59 @@ def test_tangents_on_one_face_are_refused_by_name(number: int) -> None:
     assert answered(bounded, Case(skin=number, foot=False, friction=0.0, believed=FRICTION)).determined.all()
 
 
-def test_there_are_as_many_sources_as_contacts_at_once() -> None:
-    """Frames that no sample has do not count, nor a frame without contact; without samples there is no source."""
+@cache
+def _touched_and_free() -> tuple[SkinContacts, SkinContacts]:
+    """One hill on a flat face, and nothing."""
     layout = plane_layout(rows=14, columns=40)
     patch = SkinPatch.of(layout)
     distance = np.linalg.norm(layout.positions - layout.positions.mean(axis=0), axis=1)
     pressures = np.where(distance < 0.025, 2e4 * np.exp(-0.5 * (distance / 0.009) ** 2), 0.0)
     touched, free = (find_contacts(patch, frame_of(values)) for values in (pressures, 0.0 * pressures))
     assert (len(touched), len(free)) == (1, 0)
+    return touched, free
+
+
+def test_the_covariance_of_a_source_by_hand() -> None:
+    """Pressures, direction, place, a turn about the normal, and a slip in either direction of the face z = 0."""
+    touched, _ = _touched_and_free()
+    (source,) = skin_sources("plate", "shank", [touched], np.array([0]), friction=0.5)
+    force, centre = float(touched.normal_force_N[0]), touched.centre_of_pressure[0]
+    np.testing.assert_allclose(np.abs(touched.normal[0]), [0.0, 0.0, 1.0], atol=1e-12)
+    expected = np.array(touched.covariance[0])
+    expected[5, 5] += (TWIST_M * force) ** 2
+    slips = np.zeros((6, 6))
+    for tangent in np.eye(3)[:2]:
+        slip = np.concatenate([tangent, np.cross(centre, tangent)])
+        slips += np.outer(slip, slip)
+        moved = np.concatenate([np.zeros(3), PLACE_M * np.cross(tangent, touched.wrench[0, :3])])
+        expected += np.outer(moved, moved)
+    expected += (TILT_RAD * force) ** 2 * slips
+    np.testing.assert_allclose(source.covariance[0], expected, rtol=1e-9, atol=1e-18)
+    noise, lasting = source.errors(0.25)
+    whole = expected + (0.5 * force) ** 2 / 2.0 * slips
+    np.testing.assert_allclose(noise[0], 0.25 * whole, rtol=1e-9, atol=1e-18)
+    np.testing.assert_allclose(lasting[0] @ lasting[0].T, 0.75 * whole, rtol=1e-6, atol=1e-12)
+
+
+def test_a_frame_holds_until_the_next() -> None:
+    """From 0.1 s on there is a contact, from 0.3 s on none: what changes until then is a third of its square."""
+    touched, free = _touched_and_free()
+    frames = SimpleNamespace(
+        patch=SimpleNamespace(name="plate", oldest_s=None, link="shank", friction=0.0),
+        read=SimpleNamespace(frames=[(0.1, None, touched), (0.3, None, free)]),
+    )
+    experiment = SimpleNamespace(recording=SimpleNamespace(start_ns=5_000_000_000))
+    at_ns = 5_000_000_000 + np.array([150, 350], dtype=np.int64) * 1_000_000
+    (source,) = sources_at(cast("Experiment", experiment), [cast("PatchFrames", frames)], at_ns)
+    np.testing.assert_array_equal(source.wrench, [touched.wrench[0], np.zeros(6)])
+    (held,) = skin_sources("plate", "shank", [touched], np.array([0]), friction=0.0)
+    change = np.outer(touched.wrench[0], touched.wrench[0]) / 3.0
+    np.testing.assert_allclose(source.covariance[0], held.covariance[0] + change, rtol=1e-9)
+
+
+def test_there_are_as_many_sources_as_contacts_at_once() -> None:
+    """Frames that no sample has do not count, nor a frame without contact; without samples there is no source."""
+    touched, free = _touched_and_free()
     for rows, count in (([0, 1, 0], 1), ([1, 1], 0), ([], 0)):
         frames = np.array(rows, dtype=np.int64)
         assert len(skin_sources("plate", "shank", [touched, free], frames, friction=0.5)) == count
@@ -259,8 +318,8 @@ def test_old_frames_are_refused() -> None:
     frames = np.array([0, 100, 200], dtype=np.int64) * 1_000_000
     at = np.array([0, 99, 100, 350], dtype=np.int64) * 1_000_000
     np.testing.assert_array_equal(frames_before(frames, at, patch="shin", oldest_s=0.15), [0, 0, 1, 2])
-    with pytest.raises(EstimationError, match="'shin': expected .* at most 0.1 s older than the pose, got 0.15 s"):
-        frames_before(frames, at, patch="shin", oldest_s=0.1)
+    with pytest.raises(EstimationError, match="'shin': expected .* at most 0.149 s older than the pose, got 0.15 s"):
+        frames_before(frames, at, patch="shin", oldest_s=0.149)
     with pytest.raises(EstimationError, match="the first one comes later"):
         frames_before(frames, at - 1, patch="shin")
 

@@ -10,8 +10,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.uncertain.equations import Affine, posterior_of, undetermined_of
 from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty, wrench_covariances
+from forcetorque.estimation.uncertain.uncertainty import Actor, Uncertainty, wrench_covariances
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
@@ -229,6 +230,41 @@ def test_an_unknown_name_is_refused() -> None:
             known=known,
             uncertainty=Uncertainty(measured={"l_leg": np.eye(6)}),
         )
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_one_equation_of_two_unknowns_by_hand(unit: float) -> None:
+    """Of x - 2 + 3 e = 0 follow x = 2 - 3 e and nothing of y, in any unit."""
+    equation = Affine(constant=np.array([[-2.0]]), free=np.array([[[1.0, 0.0]]]), errors=np.array([[[3.0]]]))
+    wanted = Affine(constant=np.array([[5.0, 0.0]]), free=unit * np.eye(2)[None], errors=np.zeros((1, 2, 1)))
+    posterior = posterior_of(equation)
+    mean, wrong = posterior.linear(wanted)
+    np.testing.assert_allclose(mean, [[5.0 + 2.0 * unit, np.nan]], rtol=1e-12)
+    np.testing.assert_allclose(wrong, [[[-3.0 * unit], [np.nan]]], rtol=1e-12)
+    assert (posterior.rank[0], posterior.condition[0]) == (1, 1.0)
+
+
+def test_what_no_reading_sees_is_named_in_newtons() -> None:
+    """Two wrenches of 4 N and 2 N m per unknown that cancel: the largest component is made 1 N."""
+    acts = np.array([0.0, 4.0, 0.0, 0.0, 0.0, 2.0])
+    actors = [
+        Actor(
+            name=name,
+            unknowns=("push",),
+            given=np.zeros((1, 6)),
+            free=sign * acts[None, :, None],
+            errors=np.zeros((1, 6, 0)),
+        )
+        for name, sign in (("shin", 1.0), ("toe", -1.0))
+    ]
+    seen = np.concatenate([actor.free for actor in actors], axis=2)
+    equation = Affine(constant=np.zeros((1, 6)), free=seen, errors=np.zeros((1, 6, 0)))
+    (found,) = undetermined_of(actors, posterior_of(equation).hidden)
+    assert found.contacts == ("shin", "toe")
+    assert found.directions == (
+        "a force of (0.00, 1.00, 0.00) N at 'shin' and a moment of (0.00, 0.00, 0.50) N m at 'shin' and "
+        "a force of (0.00, -1.00, 0.00) N at 'toe' and a moment of (0.00, 0.00, -0.50) N m at 'toe'",
+    )
 
 
 def test_a_gap_stays_in_its_sample() -> None:

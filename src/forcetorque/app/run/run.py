@@ -15,7 +15,8 @@ from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError,
 from forcetorque.base.output_file import refuse_output
 from forcetorque.base.toml_file import parsed_toml
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
-from forcetorque.calibration.export.export import export_icub_matrix, export_table
+from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
@@ -493,7 +494,7 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
     way.begin("export")
     named = {entry.file: entry.calibration for entry in saved.calibrations}
     table = way.output / TABLE
-    export_table(named, table, force=way.force)
+    export_calibrations(named, ExportFormat.CSV).save(table, force=way.force)
     files, refused = [str(table)], []
     for file, calibration in named.items():
         if _is_of_icub(calibration):
@@ -503,7 +504,7 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
                 refused.append(f"{matrix} is not written, for it may not be used yet: forcetorque {command} writes it")
                 continue
             try:
-                export_icub_matrix(file, calibration, matrix, force=way.force)
+                export_calibrations({file: calibration}, ExportFormat.ICUB_MATRIX).save(matrix, force=way.force)
             except ForceTorqueError as error:  # such as a row that no full scale holds: the table has it
                 refused.append(f"{matrix} is not written: {error}")
             else:

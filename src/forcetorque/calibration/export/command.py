@@ -1,120 +1,99 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque export`: from calibration files to the files that robots and other programs read."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
+from forcetorque.base.errors import ForceTorqueError, known_names
 from forcetorque.calibration.export.formats import ExportFormat
-from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption
-from forcetorque.results.terminal.output import (
-    Format,
-    refuse_two_on_standard_output,
-    show,
-    show_warnings,
-    start_logging,
-)
+from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
+    from forcetorque.base.progress import Progress
     from forcetorque.calibration.export.export import Export
+    from forcetorque.experiment.calibration.artefact import Calibration
 
 
-def export(
+@command(
+    None,
+    Saved(flags=("--output", "-o"), help="File to write; - for standard output.", required=True, standard_output=True),
+)
+def export_calibrations(
     calibration: Annotated[
-        list[Path], typer.Argument(help="Calibration files or folders of them; one calibration for icub-matrix, numpy.")
+        "Calibration | Mapping[str, Calibration]",
+        Option(
+            "Calibration files or folders of them; one calibration for icub-matrix, numpy.",
+            typed=list[Path],
+            reads="forcetorque.results.terminal.reading:read_calibrations",
+        ),
     ],
     to: Annotated[
-        ExportFormat,
-        typer.Option(
-            "--to",
-            help="Matrix file for the sensor's DSP, XML groups for wholebodydynamics, a plain table, the "
+        "ExportFormat | str",
+        Option(
+            "Matrix file for the sensor's DSP, XML groups for wholebodydynamics, a plain table, the "
             "coefficients of temperature and other variables by themselves, parameters of a ROS 2 node (YAML), or an "
             "archive of NumPy.",
+            "--to",
+            typed=ExportFormat,
         ),
     ],
-    output: Annotated[Path, typer.Option("--output", "-o", help="File to write; - for standard output.")],
+    *,
     full_scale: Annotated[
         tuple[int, int, int, int, int, int] | None,
-        typer.Option(
-            "--full-scale", help="Six full scales for icub-matrix; N, N m. Default: chosen to hold the matrix."
-        ),
+        Option("Six full scales for icub-matrix; N, N m. Default: chosen to hold the matrix."),
     ] = None,
     sensor_name: Annotated[
-        str | None,
-        typer.Option(
-            "--sensor-name", help="Name of the sensor in the robot's configuration, for wholebodydynamics and ros2."
-        ),
+        str | None, Option("Name of the sensor in the robot's configuration, for wholebodydynamics and ros2.")
     ] = None,
-    frame_id: Annotated[
-        list[str] | None,
-        typer.Option("--frame-id", help="Frame of tf that the sensor reads in, for ros2; once for each calibration."),
-    ] = None,
+    frame_ids: Annotated[
+        Sequence[str],
+        Option("Frame of tf that the sensor reads in, for ros2, of each calibration in their order.", "--frame-id"),
+    ] = (),
     stream: Annotated[
-        Path | None,
-        typer.Option(
-            "--stream", help="Calibration that the stream is already made with. Default: the prior matrix alone."
+        "Calibration | None",
+        Option(
+            "Calibration that the stream is already made with. Default: the prior matrix alone.",
+            typed=Path,
+            reads="forcetorque.experiment.calibration.artefact:read_calibration",
         ),
     ] = None,
-    force: ForceOption = False,
-    details: DetailsOption = False,
-    output_format: FormatOption = Format.TABLE,
-) -> None:
+    progress: Annotated["Progress", Option("Called with a line on every offset in the file.")] = lambda _: None,
+) -> "Export":
     """Write calibrations as files that a robot or another program reads.
 
     Example: forcetorque export leg.json --to wholebodydynamics -o leg.xml
 
-    Python: `calibration.export_icub_matrix("arm", calibration, "matrix.txt")`,
-    `calibration.export_wholebodydynamics({"arm": calibration}, "arm.xml")`, `calibration.export_table`,
-    `calibration.export_coefficients`, `calibration.export_ros2_parameters({"arm": calibration}, "arm.yaml",
-    frame_ids=["tool0"])`, `calibration.export_numpy("arm", calibration, "arm.npz")`
-    """
-    from forcetorque.calibration.export.export import (
-        export_coefficients,
-        export_icub_matrix,
-        export_numpy,
-        export_ros2_parameters,
-        export_table,
-        export_wholebodydynamics,
-    )
-    from forcetorque.experiment.calibration.artefact import read_calibration
-    from forcetorque.results.terminal.reading import read_calibrations
+    Python: `calibration.export_calibrations(calibration, "icub-matrix").save("matrix.txt")`
 
-    log = start_logging()
-    refuse_two_on_standard_output(output, output_format)
-    declare_outputs(output, force=force)
-    calibrations = read_calibrations(calibration)
+    Returns:
+        What the file holds, to be saved.
+
+    Raises:
+        ForceTorqueError: If the form has no place for an option or for several calibrations.
+        ExperimentError: If a matrix is not per count, or there is not one frame for each calibration.
+        FormatError: If the form has no place for a calibration, or a full scale cannot hold its row.
+    """
+    from forcetorque.calibration.export.export import exported
+    from forcetorque.experiment.calibrations_under_test import named
+
+    if to not in tuple(ExportFormat):
+        raise ForceTorqueError(f"no form of files is called {to!r}; {known_names(str(to), ExportFormat)}")
+    form, calibrations = ExportFormat(to), named(calibration)
     _require_consistent(
-        len(calibrations), to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream, frame_id=frame_id
+        len(calibrations), to=form, full_scale=full_scale, sensor_name=sensor_name, stream=stream, frame_ids=frame_ids
     )
-    made_with = None if stream is None else read_calibration(stream)
-    writers: dict[ExportFormat, Callable[[], Export]] = {
-        ExportFormat.ICUB_MATRIX: lambda: export_icub_matrix(
-            *next(iter(calibrations.items())), output, full_scale=full_scale
-        ),
-        ExportFormat.WHOLEBODYDYNAMICS: lambda: export_wholebodydynamics(
-            calibrations, output, sensor_name=sensor_name, stream=made_with
-        ),
-        ExportFormat.CSV: lambda: export_table(calibrations, output),
-        ExportFormat.COEFFICIENTS: lambda: export_coefficients(calibrations, output),
-        ExportFormat.ROS2: lambda: export_ros2_parameters(
-            calibrations, output, frame_ids=frame_id or (), sensor_name=sensor_name
-        ),
-        ExportFormat.NUMPY: lambda: export_numpy(*next(iter(calibrations.items())), output),
-    }
-    written = writers[to]()
-    for entry in written.calibrations:
+    result = exported(
+        calibrations, form, full_scale=full_scale, sensor_name=sensor_name, frame_ids=frame_ids, stream=stream
+    )
+    for entry in result.calibrations:
         if entry.offset_stored:
-            log.info("%s: offset %s: %s", entry.calibration, entry.offset_text, written.offset_handling)
-    if output == STANDARD_OUTPUT:  # the file itself went there
-        show_warnings(written)
-    else:
-        show(written, output_format, details=details)
+            progress(f"{entry.calibration}: offset {entry.offset_text}: {result.offset_handling}")
+    return result
+
+
+export = export_calibrations
+"""The command."""
 
 
 def _require_consistent(
@@ -123,10 +102,10 @@ def _require_consistent(
     to: ExportFormat,
     full_scale: Sequence[int] | None,
     sensor_name: str | None,
-    stream: Path | None,
-    frame_id: Sequence[str] | None,
+    stream: "Calibration | None",
+    frame_ids: Sequence[str],
 ) -> None:
-    if frame_id and to is not ExportFormat.ROS2:
+    if frame_ids and to is not ExportFormat.ROS2:
         raise ForceTorqueError(f"--frame-id: only files of --to {ExportFormat.ROS2} hold frames of tf, not {to}")
     if to in (ExportFormat.ICUB_MATRIX, ExportFormat.NUMPY) and count != 1:
         raise ForceTorqueError(f"--to {to}: a file holds one matrix, got {count} calibrations; export each by itself")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -110,11 +110,34 @@ class Export(Result):
     format: ExportFormat
     """Form of the file."""
     file: str
-    """The file."""
+    """The file; empty until its command has written it."""
     offset_handling: str
     """What becomes of the offset, in words."""
     calibrations: tuple[ExportedCalibration, ...]
     """One per calibration file."""
+    writes: Callable[[Path], None] | None = Field(default=None, exclude=True, repr=False)
+    """Writes the file; None of a result that is read from JSON."""
+    inputs_sha256: frozenset[str] = Field(default=frozenset(), exclude=True, repr=False)
+    """SHA-256 in hex of the inputs of the calibrations, none of which it replaces."""
+
+    def save(self, path: Path | str, *, force: bool = False) -> None:
+        """Write the file; on any error it keeps what it held before.
+
+        Args:
+            path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            SerialNumberError: If the file is named after another sensor.
+            FormatError: If the form has no file of these calibrations, or the result is read from JSON.
+            OutputError: If the file must not be replaced.
+        """
+        if self.writes is None:
+            raise FormatError(
+                f"{path}: expected an export of calibrations, got its JSON, which lacks the file; export again"
+            )
+        refuse_output(path, inputs_sha256=self.inputs_sha256, force=force)
+        self.writes(Path(path))
 
     def answers(self) -> Iterator[Answer]:
         """Say what was written, and what becomes of the offset.
@@ -125,9 +148,9 @@ class Export(Result):
         for entry in self.calibrations:
             yield Answer(
                 subject=f"{entry.sensor} ({entry.serial})",
-                verdict=f"WRITTEN AS {self.format.value}",
+                verdict=f"{'WRITTEN AS' if self.file else 'FOR'} {self.format.value}",
                 why=(f"offset: {self.offset_handling}", entry.fitted_text),
-                written=(self.file,),
+                written=(self.file,) if self.file else (),
             )
 
     def blocks(self) -> Iterator[Table | str]:
@@ -140,7 +163,8 @@ class Export(Result):
             yield _matrix_table(entry, is_secondary=self.format is ExportFormat.WHOLEBODYDYNAMICS)
             yield entry.fitted_text
         yield f"offset: {self.offset_handling}"
-        yield f"written to {self.file}"
+        if self.file:
+            yield f"written to {self.file}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the matrices as flat lines.
@@ -233,153 +257,90 @@ def write_coefficient_table(path: Path | str, calibrations: Iterable[Calibration
     write_bytes_atomically(Path(path), text.getvalue().encode())
 
 
-def export_icub_matrix(
-    name: str,
-    calibration: Calibration,
-    output: Path | str,
+def exported(
+    calibrations: Mapping[str, Calibration],
+    form: ExportFormat,
     *,
-    full_scale: Sequence[int] | None = None,
-    force: bool = False,
+    full_scale: Sequence[int] | None,
+    sensor_name: str | None,
+    frame_ids: Sequence[str],
+    stream: Calibration | None,
 ) -> Export:
-    """Write the matrix file of a sensor's DSP, which has no place for an offset.
+    """Compute what a file holds of calibrations; the options are those of the command."""
+    _require_linear(calibrations, form)
+    writes: Callable[[Path], None]
+    if form is ExportFormat.ICUB_MATRIX:
+        entries, writes = _icub_matrix(*next(iter(calibrations.items())), full_scale)
+    elif form is ExportFormat.WHOLEBODYDYNAMICS:
+        entries, writes = _groups(calibrations, sensor_name, stream)
+    elif form is ExportFormat.ROS2:
+        entries, writes = _ros2_parameters(calibrations, frame_ids, sensor_name)
+    else:
+        stored, given = form is not ExportFormat.COEFFICIENTS, tuple(calibrations.values())
+        entries = [_entry(name, one, matrix=one.matrix, offset_stored=stored) for name, one in calibrations.items()]
+        writes = {
+            ExportFormat.CSV: lambda path: write_calibration_table(path, given),
+            ExportFormat.COEFFICIENTS: lambda path: write_coefficient_table(path, given),
+            ExportFormat.NUMPY: lambda path: write_archive(path, given[0]),
+        }[form]
+    inputs = {digest for one in calibrations.values() for digest in one.provenance.inputs_sha256.values()}
+    return Export(
+        format=form,
+        file="",
+        offset_handling=form.offset_handling,
+        calibrations=tuple(entries),
+        writes=writes,
+        inputs_sha256=frozenset(inputs),
+        warnings=tuple(sentence for entry in entries for sentence in _doubts(form, entry)),
+    )
 
-    Args:
-        name: Name of the calibration, for messages.
-        calibration: The calibration.
-        output: File to write or to replace.
-        full_scale: Full scales for fx, fy, fz, tx, ty, tz; N, N m; None to choose them.
-        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
-    Returns:
-        What the file holds.
+_Entries = tuple[list[ExportedCalibration], Callable[[Path], None]]
 
-    Raises:
-        SerialNumberError: If the file is named after another sensor.
-        ExperimentError: If the matrix is not per count.
-        FormatError: If a full scale cannot hold its row.
-    """
-    _refuse_output(output, [calibration], force=force)
-    _require_linear({name: calibration}, ExportFormat.ICUB_MATRIX)
+
+def _icub_matrix(name: str, calibration: Calibration, full_scale: Sequence[int] | None) -> _Entries:
+    """The matrix file of a sensor's DSP, which has no place for an offset."""
     with stated_in(name):
-        if (serial := serial_number_in_name(output)) is not None:
-            calibration.require_serial(serial)
         if calibration.prior is not None and calibration.prior.source == "identity":
             raise ExperimentError(
                 'its prior is "identity": the matrix corrects a calibrated stream and is not per count; '
-                "use --to wholebodydynamics, from Python export_wholebodydynamics"
+                "use --to wholebodydynamics, from Python export_calibrations"
             )
         file = encode_matrix(calibration.matrix, full_scale=full_scale)
         error = _largest_in_range(file.matrix - calibration.matrix, calibration)
-    write_matrix_file(output, file)
     entry = _entry(name, calibration, matrix=file.matrix, offset_stored=False, variables_stored=False)
     rounding = {"full_scale": tuple(file.full_scale), "largest_rounding_error": error}
-    return _export(ExportFormat.ICUB_MATRIX, output, [entry.model_copy(update=rounding)])
+
+    def write(path: Path) -> None:
+        with stated_in(name):
+            if (serial := serial_number_in_name(path)) is not None:
+                calibration.require_serial(serial)
+        write_matrix_file(path, file)
+
+    return [entry.model_copy(update=rounding)], write
 
 
-def export_wholebodydynamics(
-    calibrations: Mapping[str, Calibration],
-    output: Path | str,
-    *,
-    sensor_name: str | None = None,
-    stream: Calibration | None = None,
-    force: bool = False,
-) -> Export:
-    """Write the groups of a wholebodydynamics configuration, which correct streams that are calibrated already.
-
-    Args:
-        calibrations: Calibrations of different sensors by name.
-        output: File to write or to replace.
-        sensor_name: Name of the sensor in the robot's configuration; that of the calibration if None.
-        stream: Calibration that the robot's stream is already made with; the prior matrix alone if None.
-        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
-
-    Returns:
-        What the file holds.
-    """
-    _refuse_output(output, calibrations.values(), force=force)
-    _require_linear(calibrations, ExportFormat.WHOLEBODYDYNAMICS)
+def _groups(calibrations: Mapping[str, Calibration], sensor_name: str | None, stream: Calibration | None) -> _Entries:
+    """The groups of a wholebodydynamics configuration, which correct streams that are calibrated already."""
     if stream is not None:
         _require_linear({"the stream's calibration": stream}, ExportFormat.WHOLEBODYDYNAMICS)
-    corrections = {}
+    corrections, entries = [], []
     for name, calibration in calibrations.items():
         with stated_in(name):
-            corrections[name] = from_calibration(calibration, sensor_name=sensor_name, stream=stream)
-    write_groups(output, corrections.values())
-    entries = []
-    for name, correction in corrections.items():
-        entry = _entry(name, calibrations[name], matrix=correction.secondary_matrix)
+            correction = from_calibration(calibration, sensor_name=sensor_name, stream=stream)
+        corrections.append(correction)
+        entry = _entry(name, calibration, matrix=correction.secondary_matrix)
         changed: dict[str, object] = {"sensor": correction.sensor, "offset": correction.offset}
         if correction.temperature_coefficients is not None:
             changed["variables"] = dict.fromkeys(entry.variables, correction.temperature_coefficients)
         entries.append(entry.model_copy(update=changed))
-    return _export(ExportFormat.WHOLEBODYDYNAMICS, output, entries)
+    return entries, lambda path: write_groups(path, corrections)
 
 
-def export_table(calibrations: Mapping[str, Calibration], output: Path | str, *, force: bool = False) -> Export:
-    """Write matrices, offsets and coefficients into a plain table.
-
-    Args:
-        calibrations: Calibrations by name.
-        output: File to write or to replace.
-        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
-
-    Returns:
-        What the file holds.
-    """
-    _refuse_output(output, calibrations.values(), force=force)
-    _require_linear(calibrations, ExportFormat.CSV)
-    write_calibration_table(output, calibrations.values())
-    entries = [_entry(name, calibration, matrix=calibration.matrix) for name, calibration in calibrations.items()]
-    return _export(ExportFormat.CSV, output, entries)
-
-
-def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | str, *, force: bool = False) -> Export:
-    """Write the coefficients of temperature and other variables by themselves.
-
-    Args:
-        calibrations: Calibrations by name, one of them with a variable.
-        output: File to write or to replace.
-        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
-
-    Returns:
-        What the file holds.
-    """
-    _refuse_output(output, calibrations.values(), force=force)
-    _require_linear(calibrations, ExportFormat.COEFFICIENTS)
-    write_coefficient_table(output, calibrations.values())
-    entries = [
-        _entry(name, calibration, matrix=calibration.matrix, offset_stored=False)
-        for name, calibration in calibrations.items()
-    ]
-    return _export(ExportFormat.COEFFICIENTS, output, entries)
-
-
-def export_ros2_parameters(
-    calibrations: Mapping[str, Calibration],
-    output: Path | str,
-    *,
-    frame_ids: Sequence[str],
-    sensor_name: str | None = None,
-    force: bool = False,
-) -> Export:
-    """Write a file of parameters of a ROS 2 node.
-
-    Args:
-        calibrations: Calibrations of different sensors by name.
-        output: File to write or to replace.
-        frame_ids: Frame of tf that the reading of each is in, which a calibration does not know.
-        sensor_name: Name of the one sensor in the file; that of the calibration if None.
-        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
-
-    Returns:
-        What the file holds.
-
-    Raises:
-        ExperimentError: If there is not one frame for each calibration.
-        FormatError: If two calibrations are of one name, or a name cannot be that of a parameter.
-    """
-    _refuse_output(output, calibrations.values(), force=force)
-    _require_linear(calibrations, ExportFormat.ROS2)
+def _ros2_parameters(
+    calibrations: Mapping[str, Calibration], frame_ids: Sequence[str], sensor_name: str | None
+) -> _Entries:
+    """Parameters of a ROS 2 node."""
     if len(frame_ids) != len(calibrations):
         frames = ", ".join(f"{one.sensor.name}: its {one.sensor.frame} frame" for one in calibrations.values())
         raise ExperimentError(
@@ -389,33 +350,25 @@ def export_ros2_parameters(
         )
     by_sensor = {sensor_name or one.sensor.name: one for one in calibrations.values()}
     if len(by_sensor) != len(calibrations):
-        raise FormatError(f"{output}: expected calibrations of different sensors, got a name twice; export each alone")
+        raise FormatError("--to ros2: expected calibrations of different sensors, got a name twice; export each alone")
     text = ros2_parameters(by_sensor, dict(zip(by_sensor, frame_ids, strict=True)))
-    write_bytes_atomically(Path(output), text.encode())
     entries = [
         _entry(name, one, matrix=one.matrix).model_copy(update={"sensor": sensor})
         for (name, one), sensor in zip(calibrations.items(), by_sensor, strict=True)
     ]
-    return _export(ExportFormat.ROS2, output, entries)
+    return entries, lambda path: write_bytes_atomically(path, text.encode())
 
 
-def export_numpy(name: str, calibration: Calibration, output: Path | str, *, force: bool = False) -> Export:
+def write_archive(path: Path, calibration: Calibration) -> None:
     """Write an archive of NumPy (`.npz`), which holds numbers and text and no pickled objects.
 
-    `sensor = np.load(output)`, then `raw @ sensor["matrix"].T + sensor["offset"]` is the wrench; with variables
+    `sensor = np.load(path)`, then `raw @ sensor["matrix"].T + sensor["offset"]` is the wrench; with variables
     `(values - sensor["reference_values"]) @ sensor["coefficients"].T` is added, values of shape (n, v).
 
     Args:
-        name: Name of the calibration, for messages.
+        path: File to write or to replace.
         calibration: The calibration.
-        output: File to write or to replace.
-        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
-
-    Returns:
-        What the file holds.
     """
-    _refuse_output(output, [calibration], force=force)
-    _require_linear({name: calibration}, ExportFormat.NUMPY)
     model, sensor, content = calibration.model, calibration.sensor, io.BytesIO()
     np.savez(
         content,
@@ -433,13 +386,7 @@ def export_numpy(name: str, calibration: Calibration, output: Path | str, *, for
         frame=np.array(sensor.frame),
         measure_direction=np.array(sensor.measure_direction.value),
     )
-    write_bytes_atomically(Path(output), content.getvalue())
-    return _export(ExportFormat.NUMPY, output, [_entry(name, calibration, matrix=calibration.matrix)])
-
-
-def _refuse_output(output: Path | str, calibrations: Iterable[Calibration], *, force: bool) -> None:
-    inputs = {digest for calibration in calibrations for digest in calibration.provenance.inputs_sha256.values()}
-    refuse_output(output, inputs_sha256=inputs, force=force)
+    write_bytes_atomically(path, content.getvalue())
 
 
 def _require_linear(calibrations: Mapping[str, Calibration], form: ExportFormat) -> None:
@@ -484,16 +431,6 @@ def _entry(
     )
 
 
-def _export(form: ExportFormat, output: Path | str, entries: Sequence[ExportedCalibration]) -> Export:
-    return Export(
-        format=form,
-        file=str(output),
-        offset_handling=form.offset_handling,
-        calibrations=tuple(entries),
-        warnings=tuple(sentence for entry in entries for sentence in _doubts(form, entry)),
-    )
-
-
 def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
     """What the file does not hold, or the robot does not take from it."""
     if not entry.offset_stored:
@@ -504,7 +441,7 @@ def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
         names = ", ".join(entry.variables)
         yield (
             f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients, from Python "
-            "export_coefficients, has them"
+            "export_calibrations, has them"
         )
     if form is ExportFormat.WHOLEBODYDYNAMICS and not entry.offset.any():
         yield f"{entry.calibration}: the device ignores an FT_OFFSET of six zeros and keeps its own"
