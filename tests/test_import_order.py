@@ -32,8 +32,9 @@ ROOT = Path(forcetorque.__file__).parent
 
 @cache
 def _nodes(path: Path) -> tuple[ast.AST, ...]:
-    """All of a file; it is parsed once for all that is checked of it."""
-    return tuple(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    """Module, imports, calls and constants of a file; it is parsed once for all that is checked of it."""
+    kinds = ast.Module | ast.Import | ast.ImportFrom | ast.Call | ast.Constant
+    return tuple(node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, kinds))
 
 
 _NAMED = re.compile(r"forcetorque\.(\w+)[.\w]*:\w+")
@@ -240,7 +241,7 @@ def _foreign(nodes: Iterable[ast.AST]) -> set[str]:
     """Distributions that these nodes import, or find by name because they hold data and no module."""
     imported = set()
     for node in nodes:
-        if isinstance(node, ast.Call) and ast.unparse(node.func) == "distribution":
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "distribution":
             imported |= {argument.value for argument in node.args if isinstance(argument, ast.Constant)}
         names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
         names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer import BadParameter
@@ -33,7 +35,7 @@ def _offered() -> Iterator[tuple[str, tuple[str, ...]]]:
     """Where a command is offered, and its words; words that are known only at run time are file names."""
     for path in sorted(SOURCE.rglob("*.py")):
         text = path.read_text(encoding="utf-8")
-        if "import" not in text or "typed" not in text:
+        if "typed(" not in text:
             continue
         for node in ast.walk(ast.parse(text)):
             called = isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "typed"
@@ -45,9 +47,14 @@ def _offered() -> Iterator[tuple[str, tuple[str, ...]]]:
 OFFERED = dict(_offered())
 
 
+@cache
+def _program() -> Any:
+    return get_command(whole_program())
+
+
 def _parse(words: tuple[str, ...]) -> None:
     """Read a command line as the program does, without running it."""
-    command, rest, context = get_command(whole_program()), [*words], None
+    command, rest, context = _program(), [*words], None
     while isinstance(command, TyperGroup):
         context = command.make_context("forcetorque", [*rest], parent=context)
         _, found, rest = command.resolve_command(context, rest)

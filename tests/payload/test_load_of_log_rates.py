@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hundred simulated recordings of a UR5 and a Panda: how often intervals hold the truth and mistakes are named."""
+"""Hundreds of simulated recordings of a UR5 and a Panda: how often intervals hold the truth and mistakes are named."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from tests.payload.simulated_ur5 import (
 )
 
 COUNT = 100
+LOGS = 300
+"""Logs of a Panda of which the rate is told: of a hundred, three standard errors are 7 %."""
 
 
 def _weighed(folder: Path, recording: Recording) -> WeighedLoad:
@@ -86,9 +88,12 @@ def test_mistakes_are_named(tmp_path: Path, mistake: Callable[[Recording], Recor
 
 @pytest.mark.long
 def test_intervals_of_a_panda_hold_the_truth(tmp_path: Path) -> None:
-    """Mass in 90 to 99 of 100 logs of external wrenches; nothing is named where nothing is wrong."""
+    """Mass in 90 to 99 % of logs of external wrenches; nothing is named where nothing is wrong.
+
+    Intervals that hold 95 % pass in 99.9 % of draws of 300 logs (98 % of 100), those that hold 86 % in 2 % (16 %).
+    """
     mass, named = 0, 0
-    for seed in range(COUNT):
+    for seed in range(LOGS):
         arm = moved(seed)
         weighed = _load_of(write_states(tmp_path / "log", arm.states()), {})
         (load,) = weighed.loads
@@ -96,8 +101,8 @@ def test_intervals_of_a_panda_hold_the_truth(tmp_path: Path) -> None:
         assert load.mass_half_width_95_kg is not None
         mass += abs(load.mass_kg - arm.mass) <= load.mass_half_width_95_kg
         named += bool(weighed.hypotheses)
-    assert 90 <= mass <= 99
-    assert named <= 5
+    assert 0.90 * LOGS <= mass <= 0.99 * LOGS
+    assert named <= 0.05 * LOGS
 
 
 @pytest.mark.long

@@ -7,6 +7,7 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from pkgutil import walk_packages
@@ -315,12 +316,18 @@ def result_classes(*packages: ModuleType) -> dict[str, type[Result]]:
         Class by name of its schema, which is that of the command that shows it; sorted.
     """
     modules = {
-        import_module(module.name).__name__
+        import_module(name).__name__
         for package in packages
-        for module in walk_packages(package.__path__, f"{package.__name__}.")
+        for name in _modules_below(package.__name__, tuple(package.__path__))
     }
     classes = {_name(kind): kind for kind in _below(Result) if kind.__module__ in modules}
     return {name: classes[name] for name in sorted(classes) if name}
+
+
+@cache
+def _modules_below(package: str, folders: tuple[str, ...]) -> frozenset[str]:
+    """Names of the modules of a package; its folders are walked once, which takes longer than all else here."""
+    return frozenset(module.name for module in walk_packages(folders, f"{package}."))
 
 
 def _below(kind: type[Result]) -> Iterator[type[Result]]:

@@ -19,7 +19,7 @@ _STEP_S = 2.0
 """Time over which a change counts as a step: shorter ones drown in the rounding of counts, longer ones in creep; s."""
 _MEAN_S = 0.5
 """Time over which readings are averaged before; s."""
-_COARSE_S, _FINE_S = 1.0, 0.02
+_COARSE_S, _FINE_S = 1.0, 0.01
 """Spacing of the search, from first to last; s."""
 
 
