@@ -159,9 +159,9 @@ class Corrector:
         self.bias, self.bias_variance = np.zeros((2, count, 6))
         # saturation is of counts, which a wrench does not show
         to_counts = np.array([term.to_counts for term in terms if term.to_counts is not None]).reshape(-1, 6, 6)
-        counts = np.array([term.matrix.shape[1] for term in terms])
+        counts = np.array([term.matrix.shape[1] for term in terms], dtype=np.int64)
         limit = math.inf if options.limit_counts is None else (1.0 - SATURATION_SHARE) * options.limit_counts
-        self._clock_ns, self._same_since_ns = np.full(2, NEVER), np.full(count, NEVER)
+        self._clock_ns, self._same_since_ns = (np.full(size, NEVER, dtype=np.int64) for size in (2, count))
         self._read_arguments = (
             self._sample, reference, matrix, to_counts, counts, limit, 1e9 * options.frozen_after_s, self._clock_ns,
             np.full((count, c), np.nan), self._same_since_ns, self._load, self._status,
