@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.viewer.arrays import ALIGNMENT, peak, read_array
 from forcetorque.viewer.scene import ArrayRef, Scene
 from forcetorque.viewer.scene_builder import BuiltScene
@@ -122,7 +122,7 @@ def _largest_steps(built: BuiltScene) -> dict[int, FloatArray | float]:
 
 
 def _some(steps: FloatArray) -> FloatArray:
-    """A step where nothing is above 0."""
+    """1 where nothing is above 0."""
     return np.where(steps > 0.0, steps, 1.0)
 
 
@@ -130,9 +130,8 @@ def _bases(scene: Scene) -> dict[int, ArrayRef]:
     """The first measured series of the sensor, by the place of each calibrated one."""
     bases: dict[int, ArrayRef] = {}
     for sensor in scene.sensors:
-        first, *others = [series for series in sensor.wrenches if series.role == "measured"] or [None]
-        if first is not None:
-            bases |= {series.values.offset: first.values for series in others if series is not None}
+        measured = [series.values for series in sensor.wrenches if series.role == "measured"]
+        bases |= {values.offset: measured[0] for values in measured[1:]}
     return bases
 
 
@@ -148,11 +147,11 @@ class _Rest:
 def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
     """What a linear map of other wrenches leaves; None where it leaves more than constants."""
     table, other = np.asarray(values, dtype=np.float64), np.asarray(base, dtype=np.float64)
-    present = np.isfinite(table).all(axis=1)
-    changes = np.isfinite(np.diff(other, axis=0)).all(axis=1) & present[1:] & present[:-1]
-    if (
-        np.isfinite(table).any(axis=1) & ~np.isfinite(other).all(axis=1)
-    ).any() or changes.sum() < _FEWEST * table.shape[1]:
+    known = np.asarray(np.isfinite(other).all(axis=1))
+    both: BoolArray = known & np.asarray(np.isfinite(table).all(axis=1))
+    changes = both[1:] & both[:-1]
+    lost = np.isfinite(table[~known]).any()  # a value that the map of an absent one would hide
+    if lost or changes.sum() < _FEWEST * table.shape[1]:
         return None
     before, after = (np.diff(one, axis=0)[changes] for one in (other, table))
     matrix = np.linalg.lstsq(before, after, rcond=None)[0].T
@@ -274,7 +273,7 @@ def _steps(filled: FloatArray) -> FloatArray:
     noise = np.median(fourth, axis=0) * (1.4826 / np.sqrt(70.0))
     steps: FloatArray = np.maximum(RESOLUTION * spread, 0.0)
     steps = np.where(noise > 0.0, np.maximum(steps, np.minimum(NOISE_SHARE * noise, LEAST_STEPS * spread)), steps)
-    return np.where(steps > 0.0, steps, np.maximum(np.abs(filled).max(axis=0), 1.0) * 2.0**-30)
+    return np.where(steps > 0.0, steps, 2.0**-30 * _some(np.abs(filled).max(axis=0)))
 
 
 def _block(filled: FloatArray, absent: npt.NDArray[np.bool_], steps: FloatArray) -> bytes:
