@@ -52,6 +52,8 @@ _LINEAR, _ALMOST_ALL = 0.1, 0.99
 """Largest change of what a linear map leaves, in steps, and the share of samples that hold it."""
 _FEWEST = 20
 """Changes for each column from which a linear map is computed."""
+_FINER = 16.0
+"""Steps of what a linear map leaves, in a step of the values."""
 _AMPLIFIED = 2.0
 """Largest step that a linear map makes of those of its argument, in steps of the result."""
 _LEVEL = 4
@@ -163,7 +165,7 @@ def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
     held = (np.abs(np.diff(rest, axis=0)[changes]) < _LINEAR * step).all(axis=1)
     if held.mean() < _ALMOST_ALL or (np.abs(matrix) @ base_step > _AMPLIFIED * step).any():
         return None
-    return _Rest(matrix=matrix, values=rest, step=step)
+    return _Rest(matrix=matrix, values=rest, step=step / _FINER)  # half a step of a constant would be a bias
 
 
 def _has_outliers(values: npt.NDArray[Any]) -> bool:
