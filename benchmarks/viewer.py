@@ -63,7 +63,7 @@ def main() -> None:
     figures: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as name:
         for samples in QUICK_SIZES if options.quick else SIZES:
-            experiment = _experiment(Path(name) / str(samples), urdf, samples)
+            experiment = humanoid_experiment(Path(name) / str(samples), urdf, samples)
             warm = not seconds  # the first scene compiles and fills caches
             for number in range(rounds + warm):
                 start, processor = time.perf_counter(), time.process_time()
@@ -164,8 +164,21 @@ def _page_size(built: BuiltScene, folder: Path) -> int:
     return len(page_of(packed(built), data_url=served, assets=assets))
 
 
-def _experiment(folder: Path, urdf: Path, samples: int, *, rate_hz: float = 100.0) -> Experiment:
-    """A humanoid that moves all joints, on its root link."""
+def humanoid_experiment(
+    folder: Path, urdf: Path, samples: int, *, rate_hz: float = 100.0, sensors: int = SENSORS
+) -> Experiment:
+    """Simulate a humanoid that moves all joints, on its root link.
+
+    Args:
+        folder: Folder to make.
+        urdf: File of the robot.
+        samples: Number of samples.
+        rate_hz: Their rate; Hz.
+        sensors: Number of sensors.
+
+    Returns:
+        The experiment, with one interval for calibration and one for validation.
+    """
     folder.mkdir()
     model = read_urdf(urdf)
     stand = Stand(model=model, support=model.root_link, gravity_direction=np.array([0.0, 0.0, -1.0]))
@@ -173,7 +186,7 @@ def _experiment(folder: Path, urdf: Path, samples: int, *, rate_hz: float = 100.
     matrix = encode_matrix(np.linalg.inv(FAMILIES["standard"].nominal()))
     write_matrix_file(folder / "matrix_S1.txt", matrix)
     sensor = SimulatedSensor(matrix=matrix.matrix, offset=np.zeros(6), noise_counts=3.0, noise_corner_hz=0.5)
-    names = list(model.sensors)[:SENSORS]
+    names = list(model.sensors)[:sensors]
     recording = record(movement, dict.fromkeys(names, sensor), rate_hz=rate_hz, rng=np.random.default_rng(2))
     write_recording(folder / "recording", recording)
     start, end = ((stamp - recording.start_ns) * 1e-9 for stamp in recording.span_ns)

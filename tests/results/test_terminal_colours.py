@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 
 import pytest
 
@@ -44,10 +45,12 @@ def _shown(monkeypatch: pytest.MonkeyPatch, *, terminal: bool) -> str:
     with os.fdopen(writer, "w", encoding="utf-8") as stream, monkeypatch.context() as patched:
         patched.setattr(sys, "stdout", stream)
         show(_Checked(), Format.TABLE)
-        stream.flush()
-        text = os.read(reader, 65536).decode()
+    text = b""
+    with suppress(OSError):  # a terminal whose other end is closed
+        while piece := os.read(reader, 65536):
+            text += piece
     os.close(reader)
-    return text.replace("\r\n", "\n")
+    return text.decode().replace("\r\n", "\n")
 
 
 def test_each_verdict_has_its_colour_on_a_terminal(environment: pytest.MonkeyPatch) -> None:

@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.viewer.arrays import ALIGNMENT, peak, read_array
 from forcetorque.viewer.scene import ArrayRef, Scene
 from forcetorque.viewer.scene_builder import BuiltScene
@@ -52,6 +52,8 @@ _LINEAR, _ALMOST_ALL = 0.1, 0.99
 """Largest change of what a linear map leaves, in steps, and the share of samples that hold it."""
 _FEWEST = 20
 """Changes for each column from which a linear map is computed."""
+_FINER = 16.0
+"""Steps of what a linear map leaves, in a step of the values."""
 _AMPLIFIED = 2.0
 """Largest step that a linear map makes of those of its argument, in steps of the result."""
 _LEVEL = 4
@@ -122,7 +124,7 @@ def _largest_steps(built: BuiltScene) -> dict[int, FloatArray | float]:
 
 
 def _some(steps: FloatArray) -> FloatArray:
-    """A step where nothing is above 0."""
+    """1 where nothing is above 0."""
     return np.where(steps > 0.0, steps, 1.0)
 
 
@@ -130,9 +132,8 @@ def _bases(scene: Scene) -> dict[int, ArrayRef]:
     """The first measured series of the sensor, by the place of each calibrated one."""
     bases: dict[int, ArrayRef] = {}
     for sensor in scene.sensors:
-        first, *others = [series for series in sensor.wrenches if series.role == "measured"] or [None]
-        if first is not None:
-            bases |= {series.values.offset: first.values for series in others if series is not None}
+        measured = [series.values for series in sensor.wrenches if series.role == "measured"]
+        bases |= {values.offset: measured[0] for values in measured[1:]}
     return bases
 
 
@@ -148,11 +149,11 @@ class _Rest:
 def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
     """What a linear map of other wrenches leaves; None where it leaves more than constants."""
     table, other = np.asarray(values, dtype=np.float64), np.asarray(base, dtype=np.float64)
-    present = np.isfinite(table).all(axis=1)
-    changes = np.isfinite(np.diff(other, axis=0)).all(axis=1) & present[1:] & present[:-1]
-    if (
-        np.isfinite(table).any(axis=1) & ~np.isfinite(other).all(axis=1)
-    ).any() or changes.sum() < _FEWEST * table.shape[1]:
+    known = np.asarray(np.isfinite(other).all(axis=1))
+    both: BoolArray = known & np.asarray(np.isfinite(table).all(axis=1))
+    changes = both[1:] & both[:-1]
+    lost = np.isfinite(table[~known]).any()  # a value that the map of an absent one would hide
+    if lost or changes.sum() < _FEWEST * table.shape[1]:
         return None
     before, after = (np.diff(one, axis=0)[changes] for one in (other, table))
     matrix = np.linalg.lstsq(before, after, rcond=None)[0].T
@@ -164,7 +165,7 @@ def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
     held = (np.abs(np.diff(rest, axis=0)[changes]) < _LINEAR * step).all(axis=1)
     if held.mean() < _ALMOST_ALL or (np.abs(matrix) @ base_step > _AMPLIFIED * step).any():
         return None
-    return _Rest(matrix=matrix, values=rest, step=step)
+    return _Rest(matrix=matrix, values=rest, step=step / _FINER)  # half a step of a constant would be a bias
 
 
 def _has_outliers(values: npt.NDArray[Any]) -> bool:
@@ -274,7 +275,7 @@ def _steps(filled: FloatArray) -> FloatArray:
     noise = np.median(fourth, axis=0) * (1.4826 / np.sqrt(70.0))
     steps: FloatArray = np.maximum(RESOLUTION * spread, 0.0)
     steps = np.where(noise > 0.0, np.maximum(steps, np.minimum(NOISE_SHARE * noise, LEAST_STEPS * spread)), steps)
-    return np.where(steps > 0.0, steps, np.maximum(np.abs(filled).max(axis=0), 1.0) * 2.0**-30)
+    return np.where(steps > 0.0, steps, 2.0**-30 * _some(np.abs(filled).max(axis=0)))
 
 
 def _block(filled: FloatArray, absent: npt.NDArray[np.bool_], steps: FloatArray) -> bytes:

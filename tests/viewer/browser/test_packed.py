@@ -8,6 +8,7 @@ import pytest
 
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.packing import packed, unpack
+from forcetorque.viewer.page import page_of
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm
 from tests.viewer.browser.test_choosing import SERIES, table
@@ -38,3 +39,18 @@ def test_numbers_and_poses_of_a_packed_page_are_those_of_the_library(visit: Visi
         for link in ("hand", "finger"):
             wanted = arm.link_pose(link, sample)
             np.testing.assert_allclose(np.reshape(poses[link], (4, 4)), wanted, rtol=0, atol=POSE)
+
+
+def test_a_browser_of_before_2025_shows_the_same(visit: Visit, arm: Arm) -> None:
+    """It decodes base64 another way."""
+    file = visit.folder / "view.html"
+    file.write_bytes(page_of(packed(arm.built)))
+    shown = []
+    for script in ("", "delete Uint8Array.fromBase64"):
+        page = visit.blank()
+        page.add_init_script(script)
+        page.goto(file.as_uri())
+        page.evaluate("window.ft.ready")
+        shown.append((table(page), page.evaluate("window.ft.linkPoses(123)"), page.evaluate("window.ft.plots()")))
+    assert page.evaluate("Uint8Array.fromBase64 === undefined")
+    assert shown[0] == shown[1]
