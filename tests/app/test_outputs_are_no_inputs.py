@@ -70,6 +70,7 @@ WORDS = {
     "bench gains": f"{PARQUET}",
     "init": f"{PARQUET}",
     "live": f"{PARQUET} --replay {PARQUET}",
+    "robot joint-collisions": f"{PARQUET}",
     "robot motion": f"{PARQUET}",
     "payload": f"{PARQUET} --to ft-tools",
     "plan": f"{PARQUET}",

@@ -116,13 +116,15 @@ WITHOUT_TABLE = {
     "fleet run",
     "live",
     "payload",
+    "robot joint-collisions",
     "robot torque-loop",
     "run",
     "schema",
     "simulate",
 }
 """Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `run` and `demo` minutes;
-`schema` is JSON; `dataset compensate` a dataset, `live` a stream, which their own tests have."""
+`schema` is JSON; `dataset compensate` a dataset, `live` a stream, `joint-collisions` an arm, which their
+own tests have."""
 
 
 def _write_limits(arm: Path) -> None:

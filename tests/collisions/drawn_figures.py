@@ -6,8 +6,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.collisions.figures import collisions_figure
+from forcetorque.collisions.figures import collisions_figure, joint_collisions_figure
 from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, SensitivityRow
+from forcetorque.collisions.torque_result import JointCollisions, JointRow, TorqueContactRow, TorqueCurve
 
 
 def draw_collisions(rng: np.random.Generator) -> Figure:
@@ -56,4 +57,34 @@ def draw_collisions(rng: np.random.Generator) -> Figure:
     curves = tuple(CollisionCurve(sensor=name, time_s=time_s, force_N=force) for name in names)
     return collisions_figure(
         Collisions(experiment="walking", collisions=tuple(rows), sensitivity=sensitivity, curves=curves)
+    )
+
+
+def draw_joint_collisions(rng: np.random.Generator) -> Figure:
+    """Two joints, one with a long name, and a contact."""
+    time_s = np.arange(0.0, 60.0, 0.05)
+    names = ("_joint $1$ " + "x" * 60, "elbow")
+    return joint_collisions_figure(
+        JointCollisions(
+            experiment="arm",
+            contacts=(
+                TorqueContactRow(
+                    interval="watched",
+                    start_s=20.0,
+                    end_s=20.4,
+                    link="link",
+                    joint=names[0],
+                    torque_Nm=3.0,
+                    half_width_95_Nm=0.1,
+                    over_threshold=4.0,
+                ),
+            ),
+            joints=tuple(JointRow(joint=name, threshold_Nm=0.5, noise_Nm=0.1, explained_Nm=0.3) for name in names),
+            alarms_per_hour=1.0,
+            free_s=60.0,
+            looked_at_s=60.0,
+            curves=tuple(
+                TorqueCurve(joint=name, time_s=time_s, over_threshold=rng.normal(size=len(time_s))) for name in names
+            ),
+        )
     )

@@ -51,13 +51,16 @@ class Threshold:
     """Time of the free samples that it is from; s."""
 
 
-def threshold_of(statistic: FloatArray, correlation_s: float, *, alarms_per_hour: float) -> Threshold:
+def threshold_of(
+    statistic: FloatArray, correlation_s: float, *, alarms_per_hour: float, components: int = LOADS
+) -> Threshold:
     """Set the threshold for a rate of false alarms.
 
     Args:
         statistic: Of free windows, in the order of time; shape (w,).
         correlation_s: Time over which noise goes on; s.
         alarms_per_hour: Rate of false alarms; above 0.
+        components: Components of the residual that the statistic is of.
 
     Returns:
         The threshold.
@@ -66,8 +69,8 @@ def threshold_of(statistic: FloatArray, correlation_s: float, *, alarms_per_hour
 
     tests = 3600.0 / max(correlation_s, WINDOW_S)
     independent = len(statistic) * WINDOW_S / max(correlation_s, _SLOW_S)
-    freedom = LOADS * max(independent - 1.0, 1.0)
-    by_law = LOADS * float(f.isf(min(alarms_per_hour / tests, 0.5), LOADS, freedom))
+    freedom = components * max(independent - 1.0, 1.0)
+    by_law = components * float(f.isf(min(alarms_per_hour / tests, 0.5), components, freedom))
     blocks = np.array_split(statistic, max(round(len(statistic) * WINDOW_S / _BLOCK_S), 1))
     largest = np.array([block.max() for block in blocks if len(block)])
     by_tail = None

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from forcetorque.collisions.result import Collisions
+    from forcetorque.collisions.torque_result import JointCollisions
 
 
 _FORCE: dict[str, Any] = {"color": look(0).colour, "linewidth": 0.8}
@@ -75,6 +76,37 @@ def collisions_figure(result: Collisions) -> Figure:
         )
     panels[-1].set_xlabel("time, s")
     legend_below(figure, [("force beyond the model", _FORCE), ("noticed from", LIMIT_LINE), ("contact", _CONTACT)])
+    return figure
+
+
+@in_figure_style
+def joint_collisions_figure(result: JointCollisions) -> Figure:
+    """Draw the external torque of every joint over its threshold, with contacts shaded.
+
+    Args:
+        result: Contacts, with the curves of the joints.
+
+    Returns:
+        The figure.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    figure = new_figure(1.5 * ROW_INCHES[1])
+    panel = figure.subplots()
+    for k, curve in enumerate(result.curves):
+        style = look(k)
+        panel.plot(
+            curve.time_s, curve.over_threshold, **style.key, markevery=0.1, linewidth=0.8, label=shown_name(curve.joint)
+        )
+    for sign in (-1.0, 1.0):
+        panel.axhline(sign, **_NOTICED)
+    for row in result.contacts:
+        panel.axvspan(row.start_s, row.end_s, color=_CONTACT["color"], alpha=0.25, linewidth=0.0)
+    panel.set_xlabel("time, s")
+    panel.set_ylabel("external torque over threshold")
+    panel.set_title(f"{shown_name(result.experiment)}: {_contacts(len(result.contacts))}")
+    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return figure
 
 

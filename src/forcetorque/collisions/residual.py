@@ -246,9 +246,9 @@ class FreeModel:
         """Learn from windows in which nothing touches the robot.
 
         Args:
-            residual: Changes of the residual; shape (w, 6); N, N m.
-            terms: Changes of the terms; shape (w, 6, p).
-            unmodelled: As of `Signals`; shape (6,); N, N m.
+            residual: Changes of the residual; shape (w, k), six of a sensor; N, N m.
+            terms: Changes of the terms; shape (w, k, p).
+            unmodelled: As of `Signals`; shape (k,); N, N m.
 
         Returns:
             The model; windows that are far from all others do not count.
@@ -258,7 +258,7 @@ class FreeModel:
         mean, left = np.zeros(p), residual
         covariance: FloatArray = np.eye(p)
         correlation = 1.0
-        noise = np.zeros((LOADS, LOADS))
+        noise = np.zeros((residual.shape[1], residual.shape[1]))
         for _ in range(_ROUNDS):
             scale: FloatArray = np.maximum(MAD_TO_DEVIATION * np.median(np.abs(left), axis=0), _TINY)
             kept = np.asarray(np.sqrt(((left / scale) ** 2).mean(axis=1)) < _FAR)
