@@ -203,6 +203,12 @@ def test_postures_of_all_options_are_quarters_of_a_turn() -> None:
         np.testing.assert_allclose(quarters, np.round(quarters), atol=1e-9)
 
 
+def test_the_tolerances_of_a_well_made_device() -> None:
+    """Encoders of 0.1 deg full width, a tenth of a millimetre, and 0.05 % of every mass."""
+    sizes = [Tolerances().size_of(error) for error in ("pitch", "height", "mass of 25 kg")]
+    assert sizes == pytest.approx([np.deg2rad(0.1) / np.sqrt(12.0), 1e-4, 5e-4])
+
+
 def test_locks_are_changed_where_gravity_takes_the_load_there() -> None:
     """With the arm down at the nearest yaw that lets the load swing: whole turns to +90, a half turn to -90."""
     third = _options(25.0)["third lock"].trajectories[0]

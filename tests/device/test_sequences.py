@@ -87,6 +87,14 @@ def test_a_hinge_hangs_with_its_derivatives() -> None:
     np.testing.assert_allclose((after.velocity - before.velocity) / (2 * step), at.acceleration, atol=DIFFERENCE)
 
 
+def test_a_hinge_whose_axis_is_upright_hangs_nowhere() -> None:
+    """With a level arm yaw tilts the axis: a fiftieth of gravity across it is needed, 1.15 degrees."""
+    names = ("pitch", "yaw")
+    assert len(hanging(DEVICE, LOAD, JointMotion.at_rest(names, np.deg2rad([[0.0, 88.8]])))) == 1
+    with pytest.raises(RobotError, match="expected its axis away from the vertical"):
+        hanging(DEVICE, LOAD, JointMotion.at_rest(names, np.deg2rad([[0.0, 88.9]])))
+
+
 def test_with_yaw_turned_the_load_goes_the_other_way() -> None:
     """After half a turn of yaw gravity carries the load to -90."""
     postures = [[-90.0, 180.0, 0.0], [0.0, 180.0, -90.0]]

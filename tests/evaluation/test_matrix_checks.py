@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.evaluation.matrix_checks import LEAST_TEMPERATURE_SPAN, matrix_checks, matrix_condition, offset_change
+from forcetorque.evaluation.matrix_checks import matrix_checks, matrix_condition, offset_change
 from forcetorque.sensor.full_scale import RawLimits, reachable_full_scale
 from tests.scenes.calibrations import MOUNTED, OFFSET
 
@@ -96,10 +96,10 @@ def test_a_straight_drift_is_all_slope() -> None:
 
 
 def test_equal_temperatures_tell_no_slope() -> None:
-    """Just below the least span there is none, from it on there is; without temperature the change remains."""
+    """Just below 1 degC there is none, from it on there is; without temperature the change remains."""
     offsets = np.array([OFFSET, OFFSET + SLOPE])
-    near = offset_change(offsets, np.array([30.0, 30.0 + 0.999 * LEAST_TEMPERATURE_SPAN]))
-    far = offset_change(offsets, np.array([30.0, 30.0 + LEAST_TEMPERATURE_SPAN]))
+    near = offset_change(offsets, np.array([30.0, 30.999]))
+    far = offset_change(offsets, np.array([30.0, 31.0]))
     unknown = offset_change(offsets)
     assert near.per_degree is None
     assert far.per_degree is not None

@@ -103,7 +103,7 @@ class ExportedCalibration(Row):
 
 
 class Export(Result):
-    """What was written for a robot or another program."""
+    """What a file for a robot or another program holds."""
 
     schema_name: Literal["forcetorque/export/1"] = Field(default="forcetorque/export/1", alias="schema")
     """Form of the result."""
