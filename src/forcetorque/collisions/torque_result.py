@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, Values, table_of
@@ -103,8 +103,7 @@ class JointCollisions(DrawnResult):
                 f"{amount(most.threshold_Nm, 'N m')} on {most.joint}; set for {self.alarms_per_hour:g} false alarms "
                 f"per hour, from {self.free_s:.3g} s without contact",
             ),
-            step="look at the log around it" if self.contacts else "",
-            command=typed("view", FIRST_EXPERIMENT) if self.contacts else "",
+            step="see all by --details, and the torques over time by --figure" if self.contacts else "",
             written=(self.figure_file,),
             concern=Concern.UNCERTAIN if self.contacts else Concern.NONE,
         )
