@@ -100,7 +100,7 @@ def joint_collisions_figure(result: JointCollisions) -> Figure:
             curve.time_s, curve.over_threshold, **style.key, markevery=0.1, linewidth=0.8, label=shown_name(curve.joint)
         )
     for sign in (-1.0, 1.0):
-        panel.axhline(sign, **_NOTICED)
+        panel.axhline(sign, **LIMIT_LINE)
     for row in result.contacts:
         panel.axvspan(row.start_s, row.end_s, color=_CONTACT["color"], alpha=0.25, linewidth=0.0)
     panel.set_xlabel("time, s")
