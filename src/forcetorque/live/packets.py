@@ -61,9 +61,9 @@ class PacketCounts:
     late: int = 0
     """Packets that came after one with a higher number or a later stamp."""
     backwards: int = 0
-    """Packets in sequence whose stamp is older than the one before."""
+    """Packets in sequence whose stamp is older than that of an earlier one."""
     restarts: int = 0
-    """Times that the sender began to count again."""
+    """Times that the sender began its numbers or stamps again."""
     unreadable: int = 0
     """Lines or datagrams that are no sample: wrong types, wrong lengths."""
     oversized: int = 0
@@ -93,6 +93,19 @@ class PacketCounts:
                 setattr(self, name, own + added)
 
 
+@dataclass(slots=True)
+class _OldOnes:
+    """Old numbers or stamps in a row."""
+
+    last: int = 0
+    count: int = 0
+
+    def begin_again(self, old: int, follows: bool) -> bool:
+        """Whether so many old ones followed each other that they are new ones."""
+        self.last, self.count = old, self.count + 1 if follows else 1
+        return self.count >= _RESTARTED
+
+
 class PacketAccount:
     """Decides of each packet whether it is new, repeated or late, and counts those that are lost."""
 
@@ -110,7 +123,7 @@ class PacketAccount:
         self._highest: int | None = None
         self._stamp_ns: int | None = None
         self._missing: OrderedDict[int, None] = OrderedDict()
-        self._old, self._old_in_a_row = 0, 0
+        self._old_numbers, self._old_stamps = _OldOnes(), _OldOnes()
         self._behind, self._doubtful, self._since_gap = 0.0, 0, 0
 
     def add(self, packet: Packet) -> Status:
@@ -127,9 +140,7 @@ class PacketAccount:
             self.counts.countable = True
             status = self._begin(packet.sequence) if packet.begins else self._by_number(packet.sequence)
             if not status and packet.stamp_ns is not None:
-                if self._stamp_ns is not None and packet.stamp_ns < self._stamp_ns:
-                    self.counts.backwards += 1
-                self._stamp_ns = packet.stamp_ns
+                self._follow_clock(packet.stamp_ns)
             return status
         if packet.stamp_ns is None:
             return Status(0)
@@ -147,11 +158,12 @@ class PacketAccount:
             return Status.REPEATED
         if step <= min(_FARTHEST, self._modulus // 2):
             self._skip(highest, step - 1)
-            self._highest, self._old_in_a_row = number, 0
+            self._highest = number
+            self._old_numbers.count = 0
             return Status(0)
         if step < self._modulus // 2:
             return self._begin(number)
-        again = self._begins_again(number, number == self._old + 1)
+        again = self._old_numbers.begin_again(number, number == self._old_numbers.last + 1)
         if number in self._missing:
             del self._missing[number]
             self.counts.lost -= 1
@@ -166,13 +178,21 @@ class PacketAccount:
         """Count from here on, as the sender does."""
         self.counts.restarts += 1
         self._missing.clear()
-        self._highest, self._old_in_a_row, self._stamp_ns = number, 0, None
+        self._highest, self._stamp_ns = number, None
+        self._old_numbers.count = self._old_stamps.count = 0
         return Status(0)
 
-    def _begins_again(self, old: int, follows: bool) -> bool:
-        """Whether so many old numbers or stamps followed each other that they are new ones."""
-        self._old, self._old_in_a_row = old, self._old_in_a_row + 1 if follows else 1
-        return self._old_in_a_row >= _RESTARTED
+    def _follow_clock(self, stamp_ns: int) -> None:
+        """Count stamps that step back while numbers go on, until they are those of a clock that began again."""
+        if self._stamp_ns is not None and stamp_ns < self._stamp_ns and not self._stamps_begin_again(stamp_ns):
+            self.counts.backwards += 1
+        elif stamp_ns != self._stamp_ns:
+            self._stamp_ns, self._old_stamps.count = stamp_ns, 0
+
+    def _stamps_begin_again(self, stamp_ns: int) -> bool:
+        again = self._old_stamps.begin_again(stamp_ns, stamp_ns > self._old_stamps.last)
+        self.counts.restarts += again
+        return again
 
     def _skip(self, highest: int, count: int) -> None:
         self.counts.lost += count
@@ -187,9 +207,8 @@ class PacketAccount:
             if stamp_ns == before:
                 self.counts.repeated += 1
                 return Status.REPEATED
-            if self._begins_again(stamp_ns, stamp_ns > self._old):
-                self.counts.restarts += 1
-                self._stamp_ns, self._old_in_a_row, self._behind = stamp_ns, 0, 0.0
+            if self._stamps_begin_again(stamp_ns):
+                self._stamp_ns, self._old_stamps.count, self._behind = stamp_ns, 0, 0.0
                 return Status(0)
             if not self._is_found():
                 self._behind -= 1.0
@@ -212,7 +231,7 @@ class PacketAccount:
             period_ns = self._period_ns * (1.0 + learnt)
             farthest_ns = _FARTHEST_RATE * self._stated_ns
             self._period_ns = min(max(period_ns, self._stated_ns - farthest_ns), self._stated_ns + farthest_ns)
-        self._stamp_ns, self._old_in_a_row = stamp_ns, 0
+        self._stamp_ns, self._old_stamps.count = stamp_ns, 0
         return Status(0)
 
     def _is_found(self) -> bool:

@@ -65,9 +65,9 @@ class LivePackets(Row):
     late: Annotated[int, Shown("late")]
     """Packets that came after later ones."""
     backwards: Annotated[int, Shown("time steps back")]
-    """Packets whose stamp is older than the one before."""
+    """Packets in sequence whose stamp is older than that of an earlier one."""
     restarts: Annotated[int, Shown("restarts")]
-    """Times that the sender began to count again."""
+    """Times that the sender began its numbers or stamps again."""
     unreadable: Annotated[int, Shown("unreadable")]
     """Lines or datagrams that are no sample."""
     oversized: Annotated[int, Shown("oversized")]
