@@ -43,7 +43,7 @@ class JointGravity:
 
     @property
     def oldest_s(self) -> float:
-        """When the joint on the way that is silent for longest came, by the clock of `add`; s; infinite without joints."""
+        """When the joint on the way that is silent for longest came; s, by the clock of `add`; infinite without any."""
         return min(self._came_s.values(), default=math.inf)
 
     def add(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
