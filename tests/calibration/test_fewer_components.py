@@ -169,6 +169,11 @@ def test_inspect_says_what_it_cannot_test(axis: Path) -> None:
         (("calibrate", "--jointly", "cell.toml", "-o", "joint"), "a joint calibration expects a sensor of six"),
         (("robot", "collisions", "cell.toml"), "a search for collisions expects a sensor of six"),
         (("study", "sphere", "cell.toml"), "the sphere of the weight expects a sensor of six"),
+        (
+            ("study", "validate", "cell.toml"),
+            "by contact forces and joint torques expects a sensor of six",
+        ),
+        (("study", "fits", "cell.toml", "-o", "fits"), "a study of estimation types expects a sensor of six"),
         (("plan", "cell.toml", "--clearance-deg", "10"), "a plan expects a sensor of six"),
         (("fleet", "add", "cell.toml", "--into", "set"), "a dataset expects a sensor of six"),
         (("estimate", "cell.toml", "-o", "out.csv"), "expects a sensor of six components, this one measures fz"),
@@ -179,6 +184,16 @@ def test_what_needs_six_components_says_so(axis: Path, run: Run, command: tuple[
     done = run(*command)
     assert done.code != 0
     assert words in " ".join(done.err.split())
+
+
+def test_calibration_of_other_components_is_refused(axis: Path, run: Run) -> None:
+    """A channel that is fz is not read as fx, whatever the serial number; the same components are."""
+    assert run("calibrate", str(axis), "-o", "cell.json").code == 0
+    assert run("evaluate", str(axis), "-c", "cell.json").code == 0
+    edit(axis, '["fz"]', '["fx"]')
+    done = run("evaluate", str(axis), "-c", "cell.json")
+    assert done.code == 2
+    assert "expected the components fx that the sensor 'arm_ft' measures, got fz" in " ".join(done.err.split())
 
 
 @pytest.mark.parametrize(
