@@ -66,7 +66,7 @@ def balance_by_motion(experiment: Experiment, options: BalanceOptions) -> Iterat
             not logged, or no such joint moves, or thresholds are stated and not every sole has a stream.
     """
     refuse_without_soles(experiment)
-    _refuse_unused(experiment.section(SOLES), options)
+    _refuse_unused(experiment, options)
     on_sole = _soles_by_link(experiment)
     intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
     if not intervals:
@@ -96,8 +96,9 @@ def unused_forces(experiment: Experiment) -> str | None:
     )
 
 
-def _refuse_unused(entries: Sequence[ExperimentSole], options: BalanceOptions) -> None:
+def _refuse_unused(experiment: Experiment, options: BalanceOptions) -> None:
     """Refuse options that nothing is done with."""
+    entries = experiment.section(SOLES)
     if options.height_band_m is not None:
         raise ExperimentError("--height-band: expected force sensors for (5.22), got --by-motion; leave it out")
     default = BalanceOptions()
