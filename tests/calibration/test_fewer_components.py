@@ -169,6 +169,11 @@ def test_inspect_says_what_it_cannot_test(axis: Path) -> None:
         (("calibrate", "--jointly", "cell.toml", "-o", "joint"), "a joint calibration expects a sensor of six"),
         (("robot", "collisions", "cell.toml"), "a search for collisions expects a sensor of six"),
         (("study", "sphere", "cell.toml"), "the sphere of the weight expects a sensor of six"),
+        (
+            ("study", "validate", "cell.toml"),
+            "by contact forces and joint torques expects a sensor of six",
+        ),
+        (("study", "fits", "cell.toml", "-o", "fits"), "a study of estimation types expects a sensor of six"),
         (("plan", "cell.toml", "--clearance-deg", "10"), "a plan expects a sensor of six"),
         (("fleet", "add", "cell.toml", "--into", "set"), "a dataset expects a sensor of six"),
         (("estimate", "cell.toml", "-o", "out.csv"), "expects a sensor of six components, this one measures fz"),
@@ -181,10 +186,40 @@ def test_what_needs_six_components_says_so(axis: Path, run: Run, command: tuple[
     assert words in " ".join(done.err.split())
 
 
+def test_exports_have_the_measured_components_alone(axis: Path, run: Run) -> None:
+    """No zero stands for a load that is not measured, and what has no place for their names is refused."""
+    fitted = run("calibrate", str(axis), "-o", "cell.json")
+    assert "learnt: fz " in fitted.out
+    assert "of the cross-talk of others: fx " in " ".join(fitted.out.split())
+    done = run("export", "cell.json", "--to", "csv", "-o", "cell.csv", "--details")
+    assert [line.split(",")[2] for line in Path("cell.csv").read_text(encoding="utf-8").splitlines()[1:]] == ["fz"]
+    assert "fitted loads, outside which it extrapolates: fz " in " ".join(done.out.split())
+    assert "fx" not in done.out
+    assert run("export", "cell.json", "--to", "numpy", "-o", "cell.npz").code == 0
+    with np.load("cell.npz") as sensor:
+        assert sensor["components"].tolist() == ["fz"]
+        assert (sensor["matrix"].shape, sensor["offset"].shape) == ((1, 1), (1,))
+    for words in (("ros2", "--frame-id", "tool"), ("wholebodydynamics",)):
+        refused = run("export", "cell.json", "--to", *words, "-o", "cell.out")
+        assert refused.code == 2
+        assert f"expected a sensor of six components for --to {words[0]}" in " ".join(refused.err.split())
+
+
+def test_calibration_of_other_components_is_refused(axis: Path, run: Run) -> None:
+    """A channel that is fz is not read as fx, whatever the serial number; the same components are."""
+    assert run("calibrate", str(axis), "-o", "cell.json").code == 0
+    assert run("evaluate", str(axis), "-c", "cell.json").code == 0
+    edit(axis, '["fz"]', '["fx"]')
+    done = run("evaluate", str(axis), "-c", "cell.json")
+    assert done.code == 2
+    assert "expected the components fx that the sensor 'arm_ft' measures, got fz" in " ".join(done.err.split())
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
         (STATED, "", "fewer than six components need prior, and full_scale of all six"),
+        (STATED, "full_scale = 800.0\n", "expected a number for each of fx, fy, fz, tx, ty, tz with fewer than six"),
         ('["fz"]', '["fz", "fx"]', "each once, in the order fx to tz"),
         ('["fz"]', '["fz", "tz"]', "expected a channel for each of 2 components"),
         ('prior = "identity"', 'prior = "matrix_SIM001.txt"', "rows are zero just where components names none"),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
+from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.capability import named
 from forcetorque.results.number_text import counted, number, with_error
@@ -254,6 +255,8 @@ class InformationGain(Row):
     """The same with the calibration."""
     uncertainty_reduction: Annotated[float, Shown("narrower by", digits=2)]
     """One less the uncertainty after over that before: 0 where the recordings said nothing, 1 where they said all."""
+    measured: bool = True
+    """Whether the sensor measures this load; of another the row is about its cross-talk."""
 
 
 def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] | None:
@@ -270,7 +273,7 @@ def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] |
     before = None if posterior is None else posterior.prior_error_covariance(np.eye(6))
     if posterior is None or shares is None or before is None:
         return None
-    after = posterior.error_covariance(np.eye(6))
+    after, measured = posterior.error_covariance(np.eye(6)), measured_components(calibration.matrix)
     sizes = [
         [np.sqrt(np.trace(covariance[k][part, part])) for part in FORCE_AND_MOMENT]
         for covariance in (before, after)
@@ -284,6 +287,7 @@ def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] |
             moment_error_before_Nm=sizes[k][1],
             moment_error_after_Nm=sizes[6 + k][1],
             uncertainty_reduction=float(shares[k]),
+            measured=bool(measured[k]),
         )
         for k, name in enumerate(WRENCH_COMPONENTS)
     )
@@ -324,11 +328,16 @@ def learnt_words(directions: Sequence[InformationGain]) -> str:
     Returns:
         Words such as `fz 97 %, tz 4 %: add a load off the axis`.
     """
-    shares = ", ".join(f"{row.direction} {100.0 * row.uncertainty_reduction:.0f} %" for row in directions)
+    own, others = (_shares(row for row in directions if row.measured is measured) for measured in (True, False))
+    shares = f"{own}; of the cross-talk of others: {others}" if others else own
     little = [row.direction for row in directions if row.uncertainty_reduction < LITTLE_LEARNT]
     if not little:
         return f"learnt: {shares}"
     return f"learnt: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
+
+
+def _shares(rows: Iterable[InformationGain]) -> str:
+    return ", ".join(f"{row.direction} {100.0 * row.uncertainty_reduction:.0f} %" for row in rows)
 
 
 def to_learn(directions: Sequence[InformationGain]) -> str | None:

@@ -12,6 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval
+from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_mount import SensorMount
@@ -49,8 +50,8 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
 
     Raises:
         SerialNumberError: If it is of another sensor.
-        ExperimentError: If the robot now reads the sensor in another frame or sign, or counts were recovered
-            through another matrix.
+        ExperimentError: If the robot now reads the sensor in another frame or sign, it measures other components, or
+            counts were recovered through another matrix.
     """
     tag = experiment.model.sensor(sensor.name)
     reading = (experiment.model.name, tag.frame.value, tag.direction.value)
@@ -79,6 +80,7 @@ def require_same_reading(
     with stated_in(name):
         calibration.require_serial(sensor.serial)
     _refuse_other_reading(name, calibration, reading)
+    _refuse_other_components(name, calibration, sensor)
     _refuse_other_mount(name, calibration, sensor, mount)
     _refuse_other_counts(name, calibration, sensor)
     for variable in calibration.variables:
@@ -213,6 +215,17 @@ def _refuse_other_reading(name: str, calibration: Calibration, reading: tuple[st
         raise ExperimentError(
             f"calibration {name!r}: expected readings in the frame {frame}, {direction}, as the robot "
             f"{robot!r} has them, got {', '.join(fitted)}; fit again with this robot"
+        )
+
+
+def _refuse_other_components(name: str, calibration: Calibration, sensor: ExperimentSensor) -> None:
+    """Refuse a calibration that would read channels as components that the sensor does not measure."""
+    fitted = measured_components(calibration.matrix)
+    if (fitted != sensor.measured).any():
+        raise ExperimentError(
+            f"calibration {name!r}: expected the components {component_names(sensor.measured)} that the sensor "
+            f"{sensor.name!r} measures, got {component_names(fitted)}; state components of [[sensor]] as they were "
+            "fitted, or fit again"
         )
 
 

@@ -183,6 +183,19 @@ class Sensor(Table):
             )
         return self
 
+    @model_validator(mode="before")
+    @classmethod
+    def _one_full_scale_needs_six_components(cls, content: Any) -> Any:
+        if isinstance(content, dict) and isinstance(content.get("full_scale"), int | float):
+            components = content.get("components")
+            if isinstance(components, list | tuple) and len(components) < _AXES:
+                raise PydanticCustomError(
+                    "one_full_scale",
+                    "full_scale: expected a number for each of fx, fy, fz, tx, ty, tz with fewer than six components, "
+                    "got one for newtons and newton metres",
+                )
+        return content
+
     @model_validator(mode="after")
     def _fewer_components_are_complete(self) -> Sensor:
         if self.components is None:

@@ -12,11 +12,10 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
-from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
-from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names
 from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
 from forcetorque.experiment.sensor_mount import SensorMount, with_mount
@@ -137,9 +136,9 @@ class ExperimentSensor:
             ExperimentError: If it measures fewer.
         """
         if not self.measured.all():
-            names = ", ".join(name for name, own in zip(WRENCH_COMPONENTS, self.measured, strict=True) if own)
             raise ExperimentError(
-                f"sensor {self.name!r}: {what} expects a sensor of six components, this one measures {names}"
+                f"sensor {self.name!r}: {what} expects a sensor of six components, this one measures "
+                f"{component_names(self.measured)}"
             )
 
     def expected_reading(self, load: FloatArray) -> FloatArray:

@@ -192,7 +192,11 @@ class SubModelChoice:
 
         Returns:
             The sub-model.
+
+        Raises:
+            ExperimentError: If the sensor measures fewer than six components: at another point the others count.
         """
+        run.sensor.require_six_components("a validation by contact forces and joint torques")
         measured = self.other_sensors is OtherSensors.MEASURED
         corrections = corrections_of(run.experiment, self.others or {}) if measured else {}
         return FreeSubModel(run=run, choice=self, corrections=corrections)

@@ -25,6 +25,7 @@ UNITS: Final[Mapping[str, str]] = MappingProxyType(
         "reference": "N, N m",
         "flattening": "N, N m",
         "accuracy": "N, N m",
+        "load_full_scale": "N, N m",
         "prior": "N, N m per unit of what it multiplies",
         "prior_deviation": "N, N m per unit of the variable",
         "variables": "that of each variable",

@@ -118,7 +118,8 @@ class CatalogueSensor(Table):
     accuracy: Text | None = None
     """As printed: makers do not mean the same by it."""
     error: StatedError | None = None
-    """The largest error that `accuracy` states; left out where only a nonlinearity is printed."""
+    """The largest error that is printed of this sensor, else that of `accuracy`; left out where only a nonlinearity
+    is."""
     nonlinearity: Text | None = None
     """As printed."""
     note: Text | None = None

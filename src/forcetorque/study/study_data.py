@@ -82,7 +82,7 @@ def read_study_data(
 
     Raises:
         ExperimentError: If there is no file, a file lacks a sensor, a sensor is not the same in all files, or samples
-            that are fitted are evaluated too.
+            that are fitted are evaluated too, or a sensor measures fewer than six components.
     """
     if not paths:
         raise ExperimentError("expected at least one experiment file to study, got none")
@@ -99,6 +99,8 @@ def read_study_data(
             ]
         # several names may be aliases of one sensor
         for sensor in {sensor.name: sensor for sensor in wanted or experiment.sensors}.values():
+            with stated_in(str(path)):
+                sensor.require_six_components("a study of estimation types")
             with stated_in(f"{path}: sensor {sensor.name!r}"):
                 recordings.setdefault(sensor.name, []).append(_recording_samples(SensorRun(experiment, sensor)))
     return [_joined(of_sensor) for of_sensor in recordings.values()]
@@ -222,7 +224,6 @@ def _recordings(
     from forcetorque.inspection.plausibility.checks import examine
 
     sensor = data.sensor
-    sensor.require_six_components("a study of estimation types")
     doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
     return [
         moments_of(

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.locomotion.section import SOLES
@@ -18,16 +18,19 @@ from forcetorque.locomotion.standing.motion_balance import SHARES, balance_by_mo
 from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import ForceLimit
 from forcetorque.recording.alignment import interpolate
-from forcetorque.recording.storage import read_recording
+from forcetorque.recording.recording import MovingSupport
+from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario
 from tests.app.outcome import Run
 from tests.locomotion.standing_robot import Standing, switching
+from tests.scenes.experiments import edit
 from tests.scenes.switchings import short_switching
 
 EXACT_N, EXACT_M = 1e-6, 1e-8
 """Rounding of forces of 300 N; the log keeps positions, velocities and accelerations exactly."""
+SOLE_FRAMES = ("l_sole", "r_sole")
 
 
 @pytest.fixture(scope="module")
@@ -103,24 +106,85 @@ def test_no_sensor_is_read(standing: Standing) -> None:
         assert one.net_N == pytest.approx(_intervals(standing.experiment)[label].net_N, nan_ok=True)
 
 
-def test_logged_vertical_forces_give_the_phases(standing: Standing) -> None:
-    """Soles with a stream: thresholds of the logged forces say which foot is down, whatever the intervals state."""
-    truth = standing.truth
-    streams = dict(standing.experiment.recording.streams)
-    soles = []
-    for entry in standing.experiment.section(SOLES):
-        stream = truth.stream(entry.sole.frame)
-        vertical = Signal.of_fixed("vertical_force", stream.signal("wrench").values[:, 2:3])
-        name = f"foot_{entry.sole.frame}"
-        streams[name] = replace(stream, name=name, clock="robot", signals={"vertical_force": vertical})
-        soles.append(replace(entry, stream=name))
+def _with_forces(standing: Standing, *, clock: str = "simulation", frames: tuple[str, ...] = SOLE_FRAMES) -> Experiment:
+    """The experiment with logged vertical forces of soles."""
     experiment = standing.experiment
-    logged = replace(
+    streams, soles = dict(experiment.recording.streams), []
+    for entry in experiment.section(SOLES):
+        name = f"foot_{entry.sole.frame}"
+        if entry.sole.frame in frames:
+            stream = standing.truth.stream(entry.sole.frame)
+            vertical = Signal.of_fixed("vertical_force", stream.signal("wrench").values[:, 2:3])
+            streams[name] = replace(stream, name=name, clock=clock, signals={"vertical_force": vertical})
+        soles.append(replace(entry, stream=name if entry.sole.frame in frames else None))
+    return replace(
         experiment,
         recording=replace(experiment.recording, streams=streams),
         sections={**experiment.sections, SOLES.key: tuple(soles)},
     )
-    result = balance([logged], options=BalanceOptions(), by_motion=True)
+
+
+def test_forces_of_another_clock_are_refused(standing: Standing) -> None:
+    """As by sensors: stamps of two clocks say nothing of each other."""
+    with pytest.raises(RecordingError, match="'joints' and 'foot_l_sole' were stamped by the clocks"):
+        balance([_with_forces(standing, clock="treadmill")], by_motion=True)
+
+
+def test_forces_of_one_sole_alone_are_not_dropped_in_silence(standing: Standing) -> None:
+    """The intervals state the contacts then, and a warning says so."""
+    result = balance([_with_forces(standing, frames=("l_sole",))], by_motion=True)
+    assert "the forces of foot_l_sole are not used, as r_sole has no stream" in result.warnings[0]
+    assert {row.logged_N for row in result.phases} == {None}
+    assert (result.contact_threshold_N, result.release_N, result.dwell_s) == (None, None, None)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (BalanceOptions(touch=ForceLimit(force_N=5000.0)), "--touch, --release, --dwell: expected a stream"),
+        (BalanceOptions(dwell_s=100.0), "--touch, --release, --dwell: expected a stream"),
+        (BalanceOptions(height_band_m=0.01), "--height-band: expected force sensors"),
+    ],
+)
+def test_options_without_an_effect_are_refused(standing: Standing, options: BalanceOptions, message: str) -> None:
+    """No stream to which thresholds apply; no wrench for (5.22)."""
+    with pytest.raises(ExperimentError, match=message):
+        balance([standing.experiment], options=options, by_motion=True)
+
+
+def test_recordings_of_other_motion_are_all_counted(standing: Standing) -> None:
+    """Of both feet no force is known; the sum tells two recordings of one time apart, and a copy is counted once."""
+    recording = standing.experiment.recording
+    both = [one for one in recording.intervals if isinstance(one.support, MovingSupport) and one.label != "hanging"][:1]
+    first = replace(standing.experiment, name="first", recording=replace(recording, intervals=tuple(both)))
+    joints = recording.stream("joints")
+    faster = replace(joints.signal("acceleration"), values=joints.signal("acceleration").values + 0.1)
+    streams = {**recording.streams, "joints": replace(joints, signals={**joints.signals, "acceleration": faster})}
+    second = replace(first, name="second", recording=replace(first.recording, streams=streams))
+    result = balance([first, second, replace(first, name="copy")], by_motion=True)
+    assert result.experiments == ("first", "second")
+    assert "copy: its forces are those of first" in result.warnings[0]
+
+
+def test_a_support_that_is_fixed_to_a_sole_is_that_sole(standing: Standing) -> None:
+    """The link of the foot in place of the frame of its sole: the same forces and points."""
+    experiment = standing.experiment
+    (label,) = (one.label for one in experiment.recording.intervals if one.label == "l_sole")
+    foot = next(joint.parent for joint in experiment.model.joints.values() if joint.child == "l_sole")
+    intervals = tuple(
+        replace(one, support=replace(one.support, frame=foot)) if one.label == label and one.support else one
+        for one in experiment.recording.intervals
+    )
+    moved = replace(experiment, recording=replace(experiment.recording, intervals=intervals))
+    right, other = _intervals(experiment)[label], _intervals(moved)[label]
+    assert other.phases.names == ("l_sole",)
+    assert other.forces["l_sole"] == pytest.approx(right.forces["l_sole"], abs=EXACT_N)
+    assert other.feet[0].pressure.points == pytest.approx(right.feet[0].pressure.points, abs=EXACT_M)
+
+
+def test_logged_vertical_forces_give_the_phases(standing: Standing) -> None:
+    """Soles with a stream: thresholds of the logged forces say which foot is down, whatever the intervals state."""
+    result = balance([_with_forces(standing)], options=BalanceOptions(), by_motion=True)
     assert {row.phase for row in result.phases} == {"l_sole", "r_sole", "l_sole + r_sole"}
     for row in result.phases:
         assert row.net_N is not None
@@ -161,6 +225,7 @@ def test_files_of_simulate_have_soles(files: Path, run: Run) -> None:
     shown = run("robot", "balance", files, "--by-motion", "--details")
     assert shown.code == 0, shown.err
     assert "net force that the motion demands" in " ".join(shown.out.split())
+    assert "a foot is down as the intervals state; no centre of pressure below" in " ".join(shown.out.split())
     by_motion = run("robot", "balance", files, "--by-motion", "--format", "json").result()
     assert by_motion["by_motion"] is True
     assert all(abs(row["from_weight_N"]) < 1.0 for row in by_motion["phases"])
@@ -212,6 +277,21 @@ def test_a_joint_that_was_not_logged_is_named(standing: Standing) -> None:
     lacking = replace(standing.experiment, recording=replace(recording, streams=streams))
     with pytest.raises(ExperimentError, match=r"which carry a mass and no stream holds; .* as fixed = \{ "):
         _intervals(lacking)
+    no_joints = {name: stream for name, stream in recording.streams.items() if name != "joints"}
+    with pytest.raises(ExperimentError, match="which carry a mass and no stream holds"):
+        _intervals(replace(standing.experiment, recording=replace(recording, streams=no_joints)))
+
+
+def test_a_robot_whose_joints_are_all_held_is_refused(files: Path) -> None:
+    """Nothing gives the instants."""
+    experiment = load_experiment(files)
+    names = [name for name, joint in experiment.model.joints.items() if joint.type.moves]
+    streams = {name: stream for name, stream in experiment.recording.streams.items() if name != "joints"}
+    write_recording(files.parent / "held", replace(experiment.recording, streams=streams))
+    edit(files, 'path = "switching_day1"', 'path = "held"')
+    edit(files, "[robot]\n", f"[robot]\nfixed = {{ {', '.join(f'{name} = 0.0' for name in names)} }}\n")
+    with pytest.raises(ExperimentError, match="got a robot whose joints are all held; leave those out of fixed"):
+        _intervals(load_experiment(files, Purpose.MOTION))
 
 
 def test_a_file_without_sensors_is_read_for_motion(files: Path) -> None:

@@ -11,6 +11,7 @@ import pytest
 from forcetorque.base.errors import FormatError, SensorError
 from forcetorque.sensor.catalogue import Axes, catalogue_with, sensor_catalogue
 from forcetorque.sensor.choice.choice import range_shares, rank_sensors
+from forcetorque.sensor.choice.command import choose_sensor
 from forcetorque.sensor.choice.load_case import LoadCase, read_load_cases
 from forcetorque.sensor.choice.result import Holds
 from forcetorque.sensor.full_scale import RawLimits, reachable_full_scale
@@ -47,15 +48,15 @@ def test_a_lever_makes_a_moment() -> None:
 
 
 def test_shares_errors_and_order_are_those_of_the_table() -> None:
-    """By hand: of the mini45 500 / 1160 and 5 / 20, together 68 %, held with 20 % to spare; 5 % of 1160 N is 58 N."""
+    """By hand: of the mini45 500 / 1160 and 5 / 20, together 68 %, with 20 % to spare; 1.75 % of 1160 N is 20.3 N."""
     choice = rank_sensors([STANCE], sensor_catalogue(), margin=0.2)
     rows = {(row.sensor, row.calibration): row for row in choice.sensors}
     mini45 = rows["mini45", 1]
     assert mini45.holds is Holds.HELD
     assert mini45.axis_percent == pytest.approx(100 * 500 / 1160)
     assert mini45.combined_percent == pytest.approx(100 * (500 / 1160 + 5 / 20))
-    assert (mini45.error_force_N, mini45.error_moment_Nm) == pytest.approx((58.0, 1.0))
-    assert mini45.error_of_load_percent == pytest.approx(100 * max(58 / 500, 1 / 5))
+    assert (mini45.error_force_N, mini45.error_moment_Nm) == pytest.approx((20.3, 0.35))
+    assert mini45.error_of_load_percent == pytest.approx(100 * max(20.3 / 500, 0.35 / 5))
     assert (mini45.resolution_force_N, mini45.resolution_moment_Nm) == (0.25, 0.005)
     # 500 of 900 and 5 of 20 N m are below 80 % each, 80.6 % together
     assert rows["Axia80", 1].holds is Holds.AXIS_BY_AXIS
@@ -81,6 +82,51 @@ def test_the_worst_load_of_several_decides() -> None:
     assert (row.holds, row.load) == (Holds.EXCEEDED, "push")
     alone = next(row for row in rank_sensors([STANCE], sensor_catalogue(), margin=0.0).sensors if row.sensor == "3713A")
     assert (alone.holds, alone.load) == (Holds.HELD, "stance")
+
+
+def _errors_of_load(*loads: LoadCase) -> dict[str, float]:
+    rows = rank_sensors(loads, sensor_catalogue(), margin=0.0).sensors
+    return {row.name: row.error_of_load_percent for row in rows if row.error_of_load_percent is not None}
+
+
+@pytest.mark.parametrize(
+    ("load", "alike"),
+    [
+        # along its lever but for the digits that are typed
+        (
+            LoadCase(name="pull", force_N=(127.8, 54.7, 9.2), lever_m=(0.02556, 0.01094, 0.00184)),
+            LoadCase(name="pull", force_N=(127.8, 54.7, 9.2)),
+        ),
+        (
+            LoadCase(name="press", force_N=(0.0, 0.0, 500.0), lever_m=(1e-6, 0.0, 0.0)),
+            LoadCase(name="press", force_N=(0.0, 0.0, 500.0)),
+        ),
+        (
+            LoadCase(name="turn", force_N=(1e-3, 0.0, 0.0), moment_Nm=(0.0, 5.0, 0.0)),
+            LoadCase(name="turn", moment_Nm=(0.0, 5.0, 0.0)),
+        ),
+    ],
+)
+def test_an_error_is_not_related_to_what_is_negligible(load: LoadCase, alike: LoadCase) -> None:
+    """A moment by rounding, or a force beside a moment, gives the errors and the order of none."""
+    error, none = _errors_of_load(load), _errors_of_load(alike)
+    assert len(error) >= 5
+    assert list(error) == list(none)
+    assert error == pytest.approx(none, rel=1e-4)
+
+
+def test_the_error_is_related_to_the_largest_of_all_loads() -> None:
+    """A small load beside a large one does not decide: the mini45 errs by 20.3 N of 500 N and 0.35 N m of 5 N m."""
+    touch = LoadCase(name="touch", force_N=(0.0, 0.0, 1.0), lever_m=(0.0, 0.01, 0.0))
+    assert _errors_of_load(STANCE, touch) == _errors_of_load(STANCE)
+    assert _errors_of_load(touch)["mini45"] == pytest.approx(100 * 0.35 / 0.01)
+
+
+@pytest.mark.parametrize("force", [(1.0, 2.0), (1.0, 2.0, float("nan")), (1e-300, 0.0, 0.0)])
+def test_a_force_of_python_is_checked(force: tuple[float, ...]) -> None:
+    """As one that is typed."""
+    with pytest.raises(SensorError, match="force_N.2: expected|the load: expected a load of 1e-09 to 1e"):
+        choose_sensor(force=force)  # type: ignore[arg-type]
 
 
 def test_a_sum_of_shares_below_one_saturates_no_channel() -> None:
@@ -157,6 +203,8 @@ def test_the_command(run: Run, tmp_path: Path) -> None:
         (("--force", "0,0"), "expected three numbers x,y,z"),
         (("--force", "0,0,nan"), "expected three numbers x,y,z"),
         (("--force", "0,0,0"), "expected a load that is not zero"),
+        (("--force", "1e-300,0,0"), "expected a load of 1e-09 to 1e+12 N or N m"),
+        (("--force", "1e308,0,0", "--lever", "0,1e10,0"), "in its largest component, got inf"),
         (("loads.toml", "--force", "0,0,1"), "got both"),
     ],
 )

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base.errors import SensorError
 from forcetorque.sensor.choice.principles import (
     PrincipleSensor,
     Stimulus,
@@ -61,8 +62,10 @@ def test_a_half_bridge_has_no_zero_drift_and_a_quarter_bridge_has() -> None:
     assert quarter.zero_drift() == pytest.approx(
         np.linalg.solve(quarter.sensed, np.full(6, strain)), rel=1e-6, abs=1e-6
     )
-    # the half bridge of silicon loses gain: Table 1.1, 9 % of its resistance per degree
-    assert half.gain_per_degC(LOAD) == pytest.approx(-0.09, rel=1e-3)
+    # the linear gauge (1.9), (1.10) has no term of strain times temperature, which its gain would drift by
+    assert half.gain_per_degC(LOAD) is quarter.gain_per_degC(LOAD) is None
+    warm, zero = half.read(np.stack([LOAD, 0.0 * LOAD]), 1.0)
+    assert warm - zero == pytest.approx(half.read(LOAD[None], 0.0)[0])
 
 
 def test_noise_of_gauges_by_hand() -> None:
@@ -111,6 +114,21 @@ def test_a_load_that_closes_the_gap_has_no_reading() -> None:
     assert row.noise_N is not None
     assert "capacitive" not in {curve.principle for curve in curves}
     assert "piezoelectric" in {curve.principle for curve in curves}
+
+
+def test_a_load_that_saturates_the_converter_has_no_reading() -> None:
+    """By hand: half of 16 bits in 3.3 V over a gain of 113 is 14.6 mV, 2.5 V times 130 / 2 a strain of 90e-6."""
+    strain = 1.65 * (1.0 - 2.0**-15) / 113 / (2.5 * 130 / 2)
+    sensor = SENSORS["silicon gauges, half bridge"]
+    along_z = float(np.abs(sensor.sensed[:, 2]).max())
+    (within, beyond) = (np.array([[0.0, 0.0, share * strain / along_z, 0.0, 0.0, 0.0]]) for share in (0.999, 1.001))
+    assert sensor.read(within, 0.0)[0] == pytest.approx(within[0], rel=1e-6, abs=1e-6)
+    with pytest.raises(SensorError, match="half bridge: expected bridge voltages from -0.0146 to 0.0146 V"):
+        sensor.read(beyond, 0.0)
+    rows = {row.principle: row for row in compare_principles(np.array([0.0, 0.0, 20000.0, 0.0, 0.0, 0.0]))[0]}
+    assert rows["silicon gauges, half bridge"].nonlinearity_percent is None
+    assert rows["foil gauges, half bridge"].nonlinearity_percent is None
+    assert rows["piezoelectric"].nonlinearity_percent is not None
 
 
 def test_unknown_numbers_are_empty() -> None:

@@ -20,6 +20,7 @@ from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.export.ros2_parameters import raw_unit, ros2_parameters
 from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.formats.icub_matrix import encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.results.answer import Answer
@@ -64,6 +65,11 @@ class ExportedCalibration(Row):
         return f"({force}) N, ({moment}) N m"
 
     @property
+    def measured(self) -> tuple[str, ...]:
+        """The components that it measures; rows of the others are zeros, which say nothing of the load."""
+        return tuple(np.array(WRENCH_COMPONENTS)[measured_components(self.matrix)])
+
+    @property
     def fitted_text(self) -> str:
         """The fitted loads with their units; beyond them nothing was seen of the sensor."""
         if self.fitted_minimum is None or self.fitted_maximum is None:
@@ -73,16 +79,19 @@ class ExportedCalibration(Row):
             for component, low, high, unit in zip(
                 WRENCH_COMPONENTS, self.fitted_minimum, self.fitted_maximum, WRENCH_UNITS, strict=True
             )
+            if component in self.measured
         ]
         return f"{self.sensor}: fitted loads, outside which it extrapolates: {', '.join(ranges)}"
 
     def components(self) -> Iterator[dict[str, object]]:
-        """Give a flat line per component.
+        """Give a flat line per measured component.
 
         Yields:
             The lines.
         """
         for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
+            if component not in self.measured:
+                continue
             line: dict[str, object] = {
                 "calibration": self.calibration,
                 "sensor": self.sensor,
@@ -181,6 +190,8 @@ def _matrix_table(entry: ExportedCalibration, *, is_secondary: bool) -> Table:
     rounding = [] if entry.full_scale is None else ["full scale", "rounding at most"]
     lines = []
     for k, component in enumerate(COMPONENTS):
+        if WRENCH_COMPONENTS[k] not in entry.measured:
+            continue
         line = [component, *(f"{value:.3f}" for value in shown[k]), f"{entry.offset[k]:.3f}"]
         if entry.full_scale is not None and entry.largest_rounding_error is not None:
             line += [str(entry.full_scale[k]), f"{entry.largest_rounding_error[k]:.1e}"]
@@ -193,7 +204,7 @@ def _matrix_table(entry: ExportedCalibration, *, is_secondary: bool) -> Table:
 
 
 def write_calibration_table(path: Path | str, calibrations: Iterable[Calibration]) -> None:
-    """Write one row per component of every sensor; on any error the file keeps what it held before.
+    """Write one row per measured component of every sensor; on any error the file keeps what it held before.
 
     A row holds sensor, serial, component, unit (N or N m), the coefficient of every raw channel in that
     unit per count (`c0_per_count`, ...) and the offset in that unit: component = coefficients raw + offset. For a
@@ -221,7 +232,8 @@ def write_calibration_table(path: Path | str, calibrations: Iterable[Calibration
         sensor, matrix, offset = calibration.sensor, calibration.matrix.tolist(), calibration.offset.tolist()
         empty = [""] * (len(channels) - len(matrix[0]))
         own = {(v.name, v.unit): v for v in calibration.variables}
-        for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
+        for k in np.flatnonzero(measured_components(calibration.matrix)):
+            component, unit = WRENCH_COMPONENTS[k], WRENCH_UNITS[k]
             cells = [sensor.name, sensor.serial, component, unit, *matrix[k], *empty, offset[k]]
             for key in variables:
                 cells += [float(own[key].coefficients[k]), own[key].reference_value] if key in own else ["", ""]
@@ -233,8 +245,8 @@ def write_coefficient_table(path: Path | str, calibrations: Iterable[Calibration
     """Write one row per variable of every sensor; on any error the file keeps what it held before.
 
     A row holds sensor, serial, variable, unit, reference_value and what one unit above that value adds to
-    fx fy fz (N) and tx ty tz (N m). Every number reads back exactly. A sensor without variables has no row:
-    its coefficients are zero.
+    fx fy fz (N) and tx ty tz (N m), empty for a component that it does not measure. Every number reads back exactly.
+    A sensor without variables has no row: its coefficients are zero.
 
     Args:
         path: File to write or to replace, in an existing folder.
@@ -244,7 +256,13 @@ def write_coefficient_table(path: Path | str, calibrations: Iterable[Calibration
         FormatError: If no calibration has a variable.
     """
     rows = [
-        [c.sensor.name, c.sensor.serial, v.name, v.unit, v.reference_value, *v.coefficients.tolist()]
+        [
+            *(c.sensor.name, c.sensor.serial, v.name, v.unit, v.reference_value),
+            *(
+                value if own else ""
+                for value, own in zip(v.coefficients.tolist(), measured_components(c.matrix), strict=True)
+            ),
+        ]
         for c in calibrations
         for v in c.variables
     ]
@@ -268,6 +286,8 @@ def exported(
 ) -> Export:
     """Compute what a file holds of calibrations; the options are those of the command."""
     _require_linear(calibrations, form)
+    if form in {ExportFormat.ICUB_MATRIX, ExportFormat.WHOLEBODYDYNAMICS, ExportFormat.ROS2}:
+        _require_six_components(calibrations, form)
     writes: Callable[[Path], None]
     if form is ExportFormat.ICUB_MATRIX:
         entries, writes = _icub_matrix(*next(iter(calibrations.items())), full_scale)
@@ -363,23 +383,25 @@ def write_archive(path: Path, calibration: Calibration) -> None:
     """Write an archive of NumPy (`.npz`), which holds numbers and text and no pickled objects.
 
     `sensor = np.load(path)`, then `raw @ sensor["matrix"].T + sensor["offset"]` is the wrench; with variables
-    `(values - sensor["reference_values"]) @ sensor["coefficients"].T` is added, values of shape (n, v).
+    `(values - sensor["reference_values"]) @ sensor["coefficients"].T` is added, values of shape (n, v). The wrench has
+    the components that the sensor measures, named in `components`.
 
     Args:
         path: File to write or to replace.
         calibration: The calibration.
     """
     model, sensor, content = calibration.model, calibration.sensor, io.BytesIO()
+    measured = measured_components(model.matrix)
     np.savez(
         content,
-        matrix=model.matrix,
-        offset=model.offset,
-        coefficients=model.coefficients,
+        matrix=model.matrix[measured],
+        offset=model.offset[measured],
+        coefficients=model.coefficients[measured],
         reference_values=model.reference_values,
         variables=np.array([variable.name for variable in calibration.variables], dtype=np.str_),
         variable_units=np.array([variable.unit for variable in calibration.variables], dtype=np.str_),
-        components=np.array(WRENCH_COMPONENTS),
-        units=np.array(WRENCH_UNITS),
+        components=np.array(WRENCH_COMPONENTS)[measured],
+        units=np.array(WRENCH_UNITS)[measured],
         raw_unit=np.array(raw_unit(calibration)),
         sensor=np.array(sensor.name),
         serial=np.array(sensor.serial),
@@ -396,6 +418,17 @@ def _require_linear(calibrations: Mapping[str, Calibration], form: ExportFormat)
             raise FormatError(
                 f"{name}: expected a linear calibration for --to {form}, which has no place for quadratic terms; "
                 "fit again with `calibrate --linear`, from Python with nonlinear=False"
+            )
+
+
+def _require_six_components(calibrations: Mapping[str, Calibration], form: ExportFormat) -> None:
+    """Refuse what would be read as a load of zero."""
+    for name, calibration in calibrations.items():
+        measured = measured_components(calibration.matrix)
+        if not measured.all():
+            raise FormatError(
+                f"{name}: expected a sensor of six components for --to {form}, whose readers take the others for zero, "
+                f"got {component_names(measured)}; --to csv and --to numpy name the components"
             )
 
 

@@ -201,7 +201,7 @@ class Calibration(StoredTable):
             ),
         )
         shares = None if self.posterior is None else self.posterior.learnt_shares()
-        learnt = "" if shares is None else f"<p>{_learnt(shares)}</p>"
+        learnt = "" if shares is None else f"<p>{_learnt(shares, measured_components(self.matrix))}</p>"
         return html_warnings(self.warnings) + html_table(table) + learnt
 
     def save(self, path: Path | str, *, force: bool = False) -> None:
@@ -312,8 +312,8 @@ class Calibration(StoredTable):
         return secondary_matrix(self.matrix, self.prior.matrix)
 
 
-def _learnt(shares: FloatArray) -> str:
-    each = ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in zip(WRENCH_COMPONENTS, shares, strict=True))
+def _learnt(shares: FloatArray, measured: BoolArray) -> str:
+    each = ", ".join(f"{WRENCH_COMPONENTS[k]} {100.0 * shares[k]:.0f} %" for k in np.flatnonzero(measured))
     return f"learnt of each load: {each}; the rest the prior decides"
 
 

@@ -18,6 +18,7 @@ from forcetorque.base.arrays import (
     require_shape,
 )
 from forcetorque.base.errors import FitError, ShapeError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
 
 
@@ -166,6 +167,18 @@ def measured_components(matrix: FloatArray) -> BoolArray:
         Whether it measures each; shape (6,).
     """
     return (matrix != 0.0).any(axis=1)
+
+
+def component_names(measured: BoolArray) -> str:
+    """Name components of a wrench.
+
+    Args:
+        measured: Whether each is measured; shape (6,).
+
+    Returns:
+        Their names in order, such as `fx, fz`.
+    """
+    return ", ".join(name for name, own in zip(WRENCH_COMPONENTS, measured, strict=True) if own)
 
 
 _WORST_CONDITION = 1e12

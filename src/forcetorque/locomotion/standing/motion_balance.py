@@ -24,8 +24,9 @@ from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
 )
 from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, IntervalBalance, RobotBalance
 from forcetorque.locomotion.standing.support_phases import SupportPhases, phases_of_contacts, support_phases
-from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
+from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since, usable_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
+from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
@@ -62,18 +63,69 @@ def balance_by_motion(experiment: Experiment, options: BalanceOptions) -> Iterat
 
     Raises:
         ExperimentError: If the file has no sole, every interval is to be ignored, or a joint that carries a mass was
-            not logged.
+            not logged, or no such joint moves, or thresholds are stated and not every sole has a stream.
     """
     refuse_without_soles(experiment)
+    _refuse_unused(experiment, options)
+    on_sole = _soles_by_link(experiment)
     intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
     if not intervals:
         raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
     for interval in intervals:
         with stated_in(f"interval {interval.label!r}"):
-            yield _over(experiment, interval, options)
+            yield _over(experiment, interval, options, on_sole)
 
 
-def _over(experiment: Experiment, interval: Interval, options: BalanceOptions) -> IntervalBalance:
+def unused_forces(experiment: Experiment) -> str | None:
+    """Say which logged forces are not used, since another sole has none.
+
+    Args:
+        experiment: The experiment, with soles.
+
+    Returns:
+        A sentence; None where every sole has a stream, or none.
+    """
+    entries = experiment.section(SOLES)
+    streams = [entry.stream for entry in entries if entry.stream is not None]
+    without = [entry.sole.frame for entry in entries if entry.stream is None]
+    if not streams or not without:
+        return None
+    return (
+        f"{experiment.name}: the forces of {', '.join(streams)} are not used, as {', '.join(without)} has no stream; "
+        "which feet are down is as the intervals state"
+    )
+
+
+def _refuse_unused(experiment: Experiment, options: BalanceOptions) -> None:
+    """Refuse options that nothing is done with."""
+    entries = experiment.section(SOLES)
+    if options.height_band_m is not None:
+        raise ExperimentError("--height-band: expected force sensors for (5.22), got --by-motion; leave it out")
+    default = BalanceOptions()
+    stated = (options.touch, options.release, options.dwell_s) != (default.touch, default.release, default.dwell_s)
+    if stated and any(entry.stream is None for entry in entries):
+        raise ExperimentError(
+            "--touch, --release, --dwell: expected a stream of vertical_force in every [[sole]], which they apply to, "
+            "got soles without: the intervals state which feet are down; leave them out"
+        )
+
+
+def _soles_by_link(experiment: Experiment) -> dict[str, str]:
+    """Frame of the sole by link: of the soles, and of links that are fixed to one sole alone."""
+    frames = [entry.sole.frame for entry in experiment.section(SOLES)]
+    # no sensor is read, so none cuts a foot
+    links = build_tree(replace(experiment.model, sensors={}), frames[0]).frames
+    by_link = {frame: frame for frame in frames}
+    for link, (body, _) in links.items():
+        on = [frame for frame in frames if links[frame][0] == body]
+        if len(on) == 1:
+            by_link[link] = on[0]
+    return by_link
+
+
+def _over(
+    experiment: Experiment, interval: Interval, options: BalanceOptions, on_sole: Mapping[str, str]
+) -> IntervalBalance:
     entries = experiment.section(SOLES)
     soles = [entry.sole for entry in entries]
     frames = [sole.frame for sole in soles]
@@ -81,20 +133,22 @@ def _over(experiment: Experiment, interval: Interval, options: BalanceOptions) -
     support = interval.support
     if support is None:
         raise ExperimentError("expected a support frame, or contact_links with an IMU, got neither")
-    touched = _touched(experiment, interval, support)
-    if beside := [link for link in touched if link not in frames]:
-        return _not_determined(experiment, interval, soles, beside, weight_N)
-    rooted = [sole for sole in soles if isinstance(support, MovingSupport) or sole.frame == support.frame]
-    samples = _samples(experiment, interval, rooted[0])
+    links = _touched(experiment, interval, support)
+    stream = _joint_stream(experiment, soles[0])
+    if beside := [link for link in links if link not in on_sole]:
+        return _not_determined(experiment, interval, soles, beside, weight_N, stream)
+    touched = {on_sole[link] for link in links}
+    rooted = [sole for sole in soles if isinstance(support, MovingSupport) or sole.frame == on_sole[support.frame]]
+    samples = padded_samples(experiment.recording, stream, interval, experiment.processing.smoothing)
     stamp_ns = samples.stamp_ns[samples.inside]
     time_s = seconds_since(stamp_ns, experiment.recording.start_ns)
-    logged = _logged(experiment, entries, stamp_ns)
+    logged = _logged(experiment, entries, stream, stamp_ns)
     down: BoolArray = np.tile([frame in touched for frame in frames], (len(stamp_ns), 1))
     known = np.ones(len(stamp_ns), dtype=np.bool_)
     if logged is not None:
         by_forces = support_phases(logged, time_s, options.thresholds(weight_N))
         down, known = by_forces.down, by_forces.known
-    bearing = {sole.frame: _on_sole(experiment, support, sole, soles, samples) for sole in rooted}
+    bearing = {sole.frame: _on_sole(experiment, support, sole, soles, stream, samples) for sole in rooted}
     net = np.full(len(stamp_ns), np.nan)
     for sole, here in zip(soles, down.T, strict=True):
         if sole.frame in bearing:
@@ -150,10 +204,14 @@ def _touched(experiment: Experiment, interval: Interval, support: Support | Movi
 
 
 def _not_determined(
-    experiment: Experiment, interval: Interval, soles: Sequence[Sole], links: Sequence[str], weight_N: float
+    experiment: Experiment,
+    interval: Interval,
+    soles: Sequence[Sole],
+    links: Sequence[str],
+    weight_N: float,
+    stream: Stream,
 ) -> IntervalBalance:
     """An interval in which something else bears the robot too."""
-    stream = next(iter(experiment.recording.joint_signals("position").values()))[0]
     stamp_ns = stream.stamp_ns[usable_samples(stream.stamp_ns)]
     stamp_ns = stamp_ns[interval.holds(stamp_ns)]
     time_s = seconds_since(stamp_ns, experiment.recording.start_ns)
@@ -175,8 +233,8 @@ def _not_determined(
     )
 
 
-def _samples(experiment: Experiment, interval: Interval, sole: Sole) -> PaddedSamples:
-    """The instants of the stream of the first joint that carries a mass."""
+def _joint_stream(experiment: Experiment, sole: Sole) -> Stream:
+    """The stream of the first joint that carries a mass, at whose instants is computed."""
     logged = experiment.recording.joint_signals("position")
     tree = build_tree(experiment.model, sole.frame)
     needed = required_joints_of(Question(tree=tree, contacts=(sole.contact,), equations=()))
@@ -186,8 +244,13 @@ def _samples(experiment: Experiment, interval: Interval, sole: Sole) -> PaddedSa
             f"the motion of the robot needs the positions of {', '.join(missing)}, which carry a mass and no stream "
             "holds; log them, or state where they are held, as fixed = { " + missing[0] + " = 0.0 } of [robot]"
         )
+    if not needed:
+        raise ExperimentError(
+            "the motion of the robot needs a joint that moves a mass and was logged, got a robot whose joints are all "
+            "held; leave those out of fixed of [robot] that the log has"
+        )
     stream, _ = logged[needed[0]]
-    return padded_samples(experiment.recording, stream, interval, experiment.processing.smoothing)
+    return stream
 
 
 def _on_sole(
@@ -195,19 +258,18 @@ def _on_sole(
     support: Support | MovingSupport,
     sole: Sole,
     soles: Sequence[Sole],
+    stream: Stream,
     samples: PaddedSamples,
 ) -> _OnSole:
     """What one sole bears if it bears the robot alone."""
     rooted = replace(support, frame=sole.frame) if isinstance(support, MovingSupport) else support
-    tree = build_tree(experiment.model_on(rooted), sole.frame)
+    tree = build_tree(experiment.model_on(rooted), rooted.frame)
     question = Question(tree=tree, contacts=(sole.contact,), equations=())
-    needed = required_joints_of(question)
-    stream, _ = experiment.recording.joint_signals("position")[needed[0]]
     joints, root = robot_motion_at(
         experiment.recording,
         experiment.model,
         rooted,
-        needed,
+        required_joints_of(question),
         stream,
         samples.stamp_ns,
         processing=experiment.processing,
@@ -224,7 +286,7 @@ def _on_sole(
 
 
 def _logged(
-    experiment: Experiment, entries: Sequence[ExperimentSole], stamp_ns: IntArray
+    experiment: Experiment, entries: Sequence[ExperimentSole], joints: Stream, stamp_ns: IntArray
 ) -> dict[str, FloatArray] | None:
     """Logged vertical forces by sole at the instants; None where not every sole has a stream of them."""
     if any(entry.stream is None for entry in entries):
@@ -232,6 +294,7 @@ def _logged(
     forces = {}
     for entry in entries:
         stream = experiment.recording.stream(entry.stream or "")
+        require_overlap(joints, stream)
         forces[entry.sole.frame] = interpolate(stream, stream.signal("vertical_force").values, stamp_ns)[:, 0]
     return forces
 

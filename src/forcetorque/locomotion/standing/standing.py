@@ -21,7 +21,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.formats.sample_table import SampleSpan, write_samples
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, balance_of_forces, balance_of_sensors
 from forcetorque.locomotion.standing.interval import BalanceOptions, IntervalBalance
-from forcetorque.locomotion.standing.motion_balance import balance_by_motion
+from forcetorque.locomotion.standing.motion_balance import balance_by_motion, unused_forces
 from forcetorque.locomotion.standing.result import (
     FootPressureRow,
     PendulumRow,
@@ -60,12 +60,12 @@ class Balance(DrawnResult):
     """Names of the experiments that are counted."""
     weight_N: float | None
     """Weight of the robot; None where it is unknown, or robots differ."""
-    contact_threshold_N: float
-    """Force that a contact reaches."""
-    release_N: float
-    """Force above which it lasts."""
-    dwell_s: float
-    """Shortest contact, and shortest pause, that counts."""
+    contact_threshold_N: float | None
+    """Force that a contact reaches; None where only intervals state contacts."""
+    release_N: float | None
+    """Force above which it lasts; None where only intervals state contacts."""
+    dwell_s: float | None
+    """Shortest contact, and shortest pause, that counts; None where only intervals state contacts."""
     least_load_N: float
     """Load below which there is no centre of pressure."""
     phases: tuple[SupportPhaseRow, ...]
@@ -111,12 +111,15 @@ class Balance(DrawnResult):
             yield table_of(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
         if self.pendulum:
             yield table_of(self.pendulum, "acceleration of the centre of mass by (5.22), beside that of the joints")
-        yield (
-            f"a foot is down while it bears more than {self.release_N:.3g} N "
-            f"and reaches {self.contact_threshold_N:.3g} N"
-            + (f", for {self.dwell_s:g} s at least" if self.dwell_s else "")
-            + (f"; no centre of pressure below {self.least_load_N:.3g} N" if self.feet else "")
-        )
+        rule = "a foot is down as the intervals state"
+        if self.contact_threshold_N is not None:
+            rule = (
+                f"a foot is down while it bears more than {self.release_N:.3g} N "
+                f"and reaches {self.contact_threshold_N:.3g} N"
+                + (f", for {self.dwell_s:g} s at least" if self.dwell_s else "")
+                + (", without a stream as the intervals state" if self.by_motion else "")
+            )
+        yield (rule + (f"; no centre of pressure below {self.least_load_N:.3g} N" if self.feet else ""))
 
     def write(self, path: Path | str, *, force: bool = False) -> int:
         """Write every sample: the columns of `IntervalBalance.columns`, a row per instant.
@@ -184,6 +187,8 @@ def balance(
             warnings.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
             continue
         names[mark] = content.name
+        if by_motion and isinstance(content, Experiment) and (unused := unused_forces(content)) is not None:
+            warnings.append(unused)
         warnings += [
             f"{content.name}: {sensor}: no offset was removed, so that forces and points include its offset; "
             "give a calibration, or an interval for calibration"
@@ -218,6 +223,7 @@ def _summed_up(
     require_support(
         [interval.phases for interval in intervals], [interval.forces for interval in intervals], thresholds
     )
+    by_forces = not by_motion or any(interval.logged_net_N is not None for interval in intervals)
     robots = [(interval, interval.robot) for interval in intervals if interval.robot is not None]
     refused = tuple(dict.fromkeys(words for interval in intervals for words in interval.refused))
     phases = tuple(phase_rows(intervals))
@@ -225,9 +231,9 @@ def _summed_up(
     return Balance(
         experiments=names,
         weight_N=weight_N,
-        contact_threshold_N=thresholds.contact_threshold_N,
-        release_N=thresholds.release_N,
-        dwell_s=thresholds.dwell_s,
+        contact_threshold_N=thresholds.contact_threshold_N if by_forces else None,
+        release_N=thresholds.release_N if by_forces else None,
+        dwell_s=thresholds.dwell_s if by_forces else None,
         least_load_N=options.least_load_N(intervals[0].weight_N),
         phases=phases,
         feet=feet,
@@ -274,9 +280,10 @@ def _warnings(feet: Sequence[FootPressureRow]) -> Iterator[str]:
 
 
 def _fingerprint(intervals: Sequence[IntervalBalance]) -> str:
-    """Mark of instants and forces, by which a recording is known under another name."""
+    """Mark of instants, forces and points, by which a recording is known under another name."""
     digest = hashlib.sha256()
     for interval in intervals:
-        for values in (interval.stamp_ns, *interval.forces.values()):
+        points = [] if interval.robot is None else [interval.robot.pressure.points]
+        for values in (interval.stamp_ns, *interval.forces.values(), interval.net_N, *points):
             digest.update(np.ascontiguousarray(values).tobytes())
     return digest.hexdigest()

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError
 from forcetorque.sensor.catalogue import Axes, CatalogueSensor
-from forcetorque.sensor.choice.load_case import LoadCase
+from forcetorque.sensor.choice.load_case import LoadCase, considerable_sizes
 from forcetorque.sensor.choice.principles import compare_principles
 from forcetorque.sensor.choice.result import Holds, SensorChoice, SensorRow
 
@@ -98,7 +98,9 @@ def _rows(sensor: CatalogueSensor, loads: Sequence[LoadCase], wrench: FloatArray
             combined_percent=100.0 * float(combined.max()),
             error_force_N=_largest(error, 0),
             error_moment_Nm=_largest(error, 3),
-            error_of_load_percent=None if error is None else 100.0 * max(_relative(error, load) for load in wrench),
+            error_of_load_percent=None
+            if error is None
+            else 100.0 * _relative(error, wrench, calibration.range.components()),
             resolution_force_N=_largest(step, 0),
             resolution_moment_Nm=_largest(step, 3),
             bandwidth_hz=sensor.bandwidth_hz,
@@ -113,9 +115,9 @@ def _largest(values: FloatArray | None, first: int) -> float | None:
     return None if values is None else float(values[first : first + 3].max())
 
 
-def _relative(error: FloatArray, wrench: FloatArray) -> float:
-    """Largest error over the load, of force and of moment; what the load does not have is left out."""
-    sizes = [float(np.linalg.norm(wrench[part])) for part in (slice(3), slice(3, 6))]
+def _relative(error: FloatArray, wrench: FloatArray, range_: FloatArray) -> float:
+    """Largest error over the largest load, of force and of moment; of a negligible part over the range."""
+    parts = zip((slice(3), slice(3, 6)), considerable_sizes(wrench), strict=True)
     return max(
-        float(error[part].max()) / size for part, size in zip((slice(3), slice(3, 6)), sizes, strict=True) if size
+        float((error[part] / range_[part] if size is None else error[part] / size).max()) for part, size in parts
     )

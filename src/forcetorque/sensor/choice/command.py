@@ -58,7 +58,7 @@ def choose_sensor(
     from forcetorque.base.errors import ForceTorqueError
     from forcetorque.sensor.catalogue import catalogue_with
     from forcetorque.sensor.choice.choice import rank_sensors
-    from forcetorque.sensor.choice.load_case import LoadCase, read_load_cases
+    from forcetorque.sensor.choice.load_case import load_case, read_load_cases
 
     stated = force is not None or moment is not None
     if stated and not any((*(force or ()), *(moment or ()))):
@@ -70,7 +70,7 @@ def choose_sensor(
         )
     zero = (0.0, 0.0, 0.0)
     if loads is None:
-        loads = [LoadCase(name="the load", force_N=force or zero, lever_m=lever or zero, moment_Nm=moment or zero)]
+        loads = [load_case("the load", force=force or zero, lever=lever or zero, moment=moment or zero)]
     cases = read_load_cases(loads) if isinstance(loads, Path | str) else loads
     return rank_sensors(cases, catalogue_with(catalogue), margin=margin)
 

@@ -7,14 +7,20 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.errors import ForceTorqueError, SensorError
 from forcetorque.base.toml_file import Finite, Table, Text, read_toml
+from forcetorque.base.validation_text import first_error
 
 Three = tuple[Finite, Finite, Finite]
+
+_LEAST, _MOST = 1e-9, 1e12
+"""Loads beyond these are errors of the unit, and their squares soon no numbers; N, N m."""
+_SHORTEST_M, _LONGEST_M = 1e-3, 1.0
+"""Lever below which the moment of a load is negligible, and above which its force is (chosen)."""
 
 
 class LoadCase(Table):
@@ -33,6 +39,14 @@ class LoadCase(Table):
     def _some_load(self) -> LoadCase:
         if not any((*self.force_N, *self.moment_Nm)):
             raise PydanticCustomError("no_load", "expected a force_N or moment_Nm that is not zero")
+        with np.errstate(over="ignore", invalid="ignore"):
+            largest = float(np.abs(self.wrench).max())
+        if not _LEAST <= largest <= _MOST:
+            raise PydanticCustomError(
+                "no_sensor_load",
+                "expected a load of {least} to {most} N or N m in its largest component, got {largest}",
+                {"least": f"{_LEAST:g}", "most": f"{_MOST:g}", "largest": f"{largest:g}"},
+            )
         return self
 
     @property
@@ -40,6 +54,44 @@ class LoadCase(Table):
         """What the sensor bears, about the origin of its frame; shape (6,); N, N m."""
         force = np.array(self.force_N)
         return np.concatenate([force, np.array(self.moment_Nm) + np.cross(self.lever_m, force)])
+
+
+def load_case(name: str, *, force: Three, lever: Three, moment: Three) -> LoadCase:
+    """Give a load of numbers that no file has checked.
+
+    Args:
+        name: Name.
+        force: Force; N.
+        lever: Point at which it acts; m.
+        moment: Moment beside that of the force; N m.
+
+    Returns:
+        The load.
+
+    Raises:
+        SensorError: If one is not three finite numbers, or the load none that a sensor could hold.
+    """
+    try:
+        return LoadCase(name=name, force_N=force, lever_m=lever, moment_Nm=moment)
+    except ValidationError as error:
+        raise SensorError(first_error(error, whole=name)) from error
+
+
+def considerable_sizes(wrenches: FloatArray) -> tuple[float | None, float | None]:
+    """Give the largest force and the largest moment of loads.
+
+    Args:
+        wrenches: Loads; shape (n, 6), not all zero; N, N m.
+
+    Returns:
+        The norms, N and N m; None for one that is negligible beside the other: a moment below that of the force at
+        1 mm, or a force below that of the moment at 1 m.
+    """
+    force, moment = (float(np.linalg.norm(part, axis=1).max()) for part in (wrenches[:, :3], wrenches[:, 3:]))
+    return (
+        None if force * _LONGEST_M < moment else force,
+        None if moment < force * _SHORTEST_M else moment,
+    )
 
 
 class LoadCaseFile(Table):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_last_axis
 from forcetorque.base.errors import SensorError
+from forcetorque.sensor.choice.load_case import considerable_sizes
 from forcetorque.sensor.choice.result import PrincipleCurve, PrincipleRow
 from forcetorque.sensor.elastic import Bending, ElasticElement
 from forcetorque.sensor.electronics import HALF_BRIDGE, QUARTER_BRIDGE, Bridge
@@ -92,7 +94,9 @@ class Channel:
     temperature_by: str
     """What the temperature acts on, or why that is not known."""
     temperature_known: bool = True
-    """Whether the model has all that the temperature acts on."""
+    """Whether the model has all by which the temperature acts on the zero."""
+    gain_drift_known: bool = True
+    """Whether it has all by which it acts on the gain."""
     leaking: PiezoelectricGauge | None = None
     """The crystal whose charge leaks; None where a constant load is read for ever."""
 
@@ -110,14 +114,28 @@ def _bridge_channel(name: str, gauge: ResistiveGauge, bridge: Bridge, electronic
     volts = electronics.excitation
     thermal = math.sqrt(4.0 * BOLTZMANN * ROOM_K * gauge.resistance * BANDWIDTH_HZ)
     rounding = electronics.adc.step / electronics.amplifier_gain / math.sqrt(12.0)
-    compensated = bridge.is_temperature_compensated
+    zero = "equal gauges at one temperature cancel" if bridge.is_temperature_compensated else "resistance of one gauge"
+    adc, gain = electronics.adc, electronics.amplifier_gain
+    lowest, highest = (float(adc.voltage(count)) / gain for count in (adc.lowest, adc.highest))
+
+    def signal(strain: Any, degC: Any) -> FloatArray:
+        # the linear gauge has no term of strain times temperature, so both act by themselves
+        output = volts * np.asarray(bridge.ratio(gauge, strain) + bridge.ratio(gauge, 0.0, degC))
+        if (output < lowest).any() or (output > highest).any():
+            raise SensorError(
+                f"{name}: expected bridge voltages from {lowest:.3g} to {highest:.3g} V, which the converter holds, "
+                f"got {output.min():.3g} to {output.max():.3g} V"
+            )
+        return output
+
     return Channel(
         principle=name,
         stimulus=Stimulus.STRAIN,
-        signal=lambda strain, degC: volts * bridge.ratio(gauge, strain, degC),
+        signal=signal,
         noise=math.hypot(thermal, rounding),
         noise_by="Johnson noise of the bridge, rounding",
-        temperature_by="equal gauges at one temperature cancel" if compensated else "resistance of the one gauge",
+        temperature_by=f"{zero}; of the gain: not in the model",
+        gain_drift_known=False,
     )
 
 
@@ -261,7 +279,7 @@ class PrincipleSensor(ArrayRecord):
             Measured loads; shape (n, 6); N, N m.
 
         Raises:
-            SensorError: If a load leaves what the channels can sense, such as one that closes a gap.
+            SensorError: If a load leaves what the channels can sense: it closes a gap, or saturates a converter.
         """
         loads = np.asarray(wrench, dtype=np.float64)
         require_last_axis(loads, name="wrench", length=6)
@@ -286,7 +304,7 @@ class PrincipleSensor(ArrayRecord):
 
     def gain_per_degC(self, wrench: FloatArray) -> float | None:
         """Change of the reading of a load per degree, over the load, without that of the zero; None if not known."""
-        if not self.channel.temperature_known:
+        if not (self.channel.temperature_known and self.channel.gain_drift_known):
             return None
         load, part = wrench[None], _loaded(wrench)
         warm, cold = (
@@ -336,14 +354,13 @@ def compare_principles(wrench: FloatArray) -> tuple[tuple[PrincipleRow, ...], tu
     """
     resonance, rows, curves = resonance_hz(Y_ELEMENT, CARRIED_KG), [], []
     for sensor in principle_sensors():
-        noise, drift, crystal, gain = sensor.noise(), sensor.zero_drift(), sensor.channel.leaking, None
+        noise, drift, crystal = sensor.noise(), sensor.zero_drift(), sensor.channel.leaking
         time_constant_s = math.inf if crystal is None else crystal.time_constant
-        try:
+        error = gain = None
+        with suppress(SensorError):
             error = sensor.read(wrench[None], 0.0)[0] - wrench
             gain = sensor.gain_per_degC(wrench)
             curves.append(_curve(sensor, wrench))
-        except SensorError:
-            error = None
         rows.append(
             PrincipleRow(
                 principle=sensor.channel.principle,
@@ -364,13 +381,13 @@ def compare_principles(wrench: FloatArray) -> tuple[tuple[PrincipleRow, ...], tu
 
 
 def _relative(error: FloatArray, wrench: FloatArray) -> float:
-    parts = [(np.linalg.norm(error[part]), np.linalg.norm(wrench[part])) for part in (slice(3), slice(3, 6))]
-    return max(float(wrong / size) for wrong, size in parts if size)
+    parts = zip((slice(3), slice(3, 6)), considerable_sizes(wrench[None]), strict=True)
+    return max(float(np.linalg.norm(error[part])) / size for part, size in parts if size is not None)
 
 
 def _loaded(wrench: FloatArray) -> slice:
-    """The force, or the moment where there is none."""
-    return slice(3) if wrench[:3].any() else slice(3, 6)
+    """The force, or the moment where the force is negligible."""
+    return slice(3, 6) if considerable_sizes(wrench[None])[0] is None else slice(3)
 
 
 _RATE_HZ = 10.0

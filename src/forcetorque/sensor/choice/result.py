@@ -22,7 +22,7 @@ class Holds(StrEnum):
     AXIS_BY_AXIS = "axis by axis"
     """Every axis stays below the limit, all together do not: whether a channel saturates is not known."""
     EXCEEDED = "exceeded"
-    """An axis passes the limit."""
+    """An axis passes the limit, the range less the margin."""
 
 
 class SensorRow(Row):
@@ -49,7 +49,9 @@ class SensorRow(Row):
     error_moment_Nm: Annotated[float | None, Shown("error", "N m", digits=3)]
     """Largest moment error by the stated accuracy."""
     error_of_load_percent: Annotated[float | None, Shown("of the load", "%", digits=1)]
-    """The larger of force error over force and moment error over moment, under the load where it is largest."""
+    """The larger of force error over the largest force of all loads and moment error over the largest moment; of a
+    negligible part, a moment below that of the force at 1 mm or a force below that of the moment at 1 m, over the
+    range."""
     resolution_force_N: Annotated[float | None, Shown("step", "N", digits=3)]
     """Coarsest step of a force; null where none is stated."""
     resolution_moment_Nm: Annotated[float | None, Shown("step", "N m", digits=4)]
@@ -82,14 +84,14 @@ class PrincipleRow(Row):
     noise_Nm: Annotated[float | None, Shown("noise at least", "N m", digits=5)]
     """Largest standard deviation of a moment."""
     nonlinearity_percent: Annotated[float | None, Shown("nonlinear", "%", digits=3)]
-    """Error of a linear reading under the load, as a share of it: the larger of force and moment; null where the load
-    leaves what the principle can sense."""
+    """Error of a linear reading under the load, as a share of it: the larger of force and moment, without a negligible
+    part; null where the load leaves what the principle can sense: a gap closes, a converter saturates."""
     temperature_force_N_per_degC: Annotated[float | None, Shown("zero drift", "N/degC", digits=2)]
     """Size of the force that warming of all channels by one degree is read as; null where the model has none."""
     temperature_moment_Nm_per_degC: Annotated[float | None, Shown("zero drift", "N m/degC", digits=3)]
     """Size of the moment."""
     gain_percent_per_degC: Annotated[float | None, Shown("gain drift", "%/degC", digits=3)]
-    """Change of the reading of the load per degree, as a share of the load."""
+    """Change of the reading of the load per degree, as a share of the load; null where the model has none."""
     lost_percent_per_minute: Annotated[float, Shown("lost in a minute", "%", digits=1)]
     """Share of a constant load that is no longer read after a minute."""
     from_hz: Annotated[float, Shown("from", "Hz", digits=4)]
