@@ -22,6 +22,8 @@ ANSWERS = (
     Answer(subject="arm_ft", verdict="0.12 N, NOTHING LOST", concern=Concern.UNCERTAIN),
     Answer(subject="l_leg_ft", verdict="USE"),
     Answer(subject="tool", verdict="1.20 kg"),
+    Answer(subject="a log", verdict="2000 samples of LEFT FT"),
+    Answer(subject="patch", verdict="12 OF 16 TAXELS HAVE A CURVE", concern=Concern.BAD),
 )
 
 
@@ -54,14 +56,15 @@ def _shown(monkeypatch: pytest.MonkeyPatch, *, terminal: bool) -> str:
 
 
 def test_each_verdict_has_its_colour_on_a_terminal(environment: pytest.MonkeyPatch) -> None:
-    """Red, yellow and green, the worst first; a number has none, and the text is that of a pipe."""
+    """Red, yellow and green, the worst first; numbers and names have none, and the text is that of a pipe."""
     text = _shown(environment, terminal=True)
     assert re.findall(r"\033\[1;(\d+)m([^\033]*)\033\[0m", text) == [
         ("31", "DO NOT USE"),
+        ("31", "12 OF 16 TAXELS HAVE A CURVE"),
         ("33", "NOTHING LOST"),
         ("32", "USE"),
     ]
-    assert text.count("\033") == 6
+    assert text.count("\033") == 8
     assert re.sub(r"\033\[[\d;]*m", "", text) == _shown(environment, terminal=False)
 
 

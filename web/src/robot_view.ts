@@ -59,7 +59,7 @@ export class RobotView extends View3D {
   /** Room of the robot over postures of the whole recording. */
   private reach(): Box3 {
     const count = Math.min(POSTURES, Math.max(1, this.data.samples));
-    const postures = Array.from({ length: count }, (_, k) => this.data.keySample(Math.floor((k * this.data.samples) / count)));
+    const postures = Array.from({ length: count }, (_, k) => this.data.keySample(Math.floor((k * this.data.samples) / count), POSTURES));
     const room = new Box3();
     let poses = new Map<string, Pose>();
     for (const sample of new Set(postures)) {

@@ -57,10 +57,13 @@ export class SceneData {
     return values;
   }
 
-  /** First sample of the block of postures that holds a sample: known without unpacking the block. */
-  keySample(sample: number): number {
+  /** First sample of the block of postures that holds a sample, known without unpacking the block; the sample itself
+   *  where there are fewer than some number of blocks, whose first samples would not tell where the robot goes. */
+  keySample(sample: number, fewest: number): number {
     const { positions } = this.scene;
-    return positions.packed_bytes === null ? sample : sample - (sample % this.rows(positions).rowsOfBlock);
+    if (positions.packed_bytes === null) return sample;
+    const rows = this.rows(positions).rowsOfBlock;
+    return this.samples < fewest * rows ? sample : sample - (sample % rows);
   }
 
   private rows(ref: ArrayRef): PackedArray {

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -63,7 +64,7 @@ def demo(
     """
     from forcetorque.app.python.experiment import load_experiment
     from forcetorque.results.answer import answer_text
-    from forcetorque.results.terminal.output import start_logging, width
+    from forcetorque.results.terminal.output import shows_colours, start_logging, width
 
     log = start_logging()
     log.info("simulating an arm for 120 s")
@@ -75,7 +76,7 @@ def demo(
     calibration.save(result)
     log.info("evaluating on the second half")
     answers = run.evaluate({str(result): calibration}).answers()
-    typer.echo(answer_text(tuple(answers), width(), str(file)), nl=False)
+    typer.echo(answer_text(tuple(answers), width(), str(file), coloured=shows_colours(sys.stdout)), nl=False)
     for name, (force, moment) in _errors_of_pushes(mounted, {"prior": factory, "new": calibration.matrix}).items():
         typer.echo(
             f"{name} matrix, push of {_PUSH_N:.0f} N that was not recorded: {force:.2f} N, {moment:.3f} N m wrong"

@@ -74,7 +74,8 @@ def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str,
     panels[-1].set_xlabel("time, s")
     figure.align_ylabels()
     peaks = {name: np.nanmax(np.abs(values), initial=0.0) for name, values in torques.items()}
-    headline(figure, "Largest torques: " + ", ".join(f"{shown_name(n)} {peak:.3g} N m" for n, peak in peaks.items()))
+    largest = max(peaks, key=lambda name: float(peaks[name]))
+    headline(figure, f"Largest torque: {peaks[largest]:.3g} N m at {shown_name(largest)}")
     keys = [(shown_name(name), look(number).key | {"linestyle": "-"}) for number, name in enumerate(positions)]
     legend_below(figure, keys)
     return figure

@@ -264,11 +264,15 @@ def _draw(
 def _message(joints: Sequence[str], torques: Mapping[str, FloatArray], truth: FloatArray | None) -> str:
     """Which estimate errs least; without a reference, the largest torque."""
     if truth is not None:
+        known = np.isfinite(truth) & np.isfinite(np.stack(list(torques.values()))).all(axis=0)
+        truth = np.where(known, truth, np.nan)  # one set of samples for all, else their order says nothing
         errors = {name: rmse for name, torque in torques.items() if (rmse := _rmse(torque, truth)) is not None}
         if not errors:
-            return "No sample has both an estimate and its reference"
+            return "No sample has all estimates and their reference"
         best = min(errors, key=errors.__getitem__)
         return f"{shown_name(best)} errs {'least, ' if len(errors) > 1 else ''}by {_Nm(errors[best])} RMSE"
+    if not any(np.isfinite(torque).any() for torque in torques.values()):
+        return "No sample has an estimate"
     peaks = {name: np.nanmax(np.abs(torque), axis=0, initial=0.0) for name, torque in torques.items()}
     name = max(peaks, key=lambda name: float(peaks[name].max()))
     joint = int(peaks[name].argmax())

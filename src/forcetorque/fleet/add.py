@@ -14,6 +14,7 @@ from pydantic import Field
 from forcetorque.base.errors import ChangingFileError, ExperimentError, MissingFileError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.input_files import stated_in
 from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
 from forcetorque.fleet.failures import forget_failures
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
@@ -146,6 +147,8 @@ def _added(
     there = {sensor.serial: dataset.present(sensor.serial) for sensor in experiment.sensors}
     for sensor in experiment.sensors:
         others = [one for one in there[sensor.serial] if not (replace and one in own)]
+        with stated_in(str(source.path)):
+            sensor.require_six_components("a dataset")
         _refuse_other_robot(source, experiment, sensor, others, options)
     changed = [one for one in own if one.recording != digest]
     if not replace:
@@ -218,7 +221,6 @@ def _refuse_other_robot(
     there: Sequence[RecordFile],
     options: AddOptions,
 ) -> None:
-    sensor.require_six_components("a dataset")
     robot = options.robot or experiment.model.name
     other = next((one.robot for one in there if one.robot != robot), None)
     if other is not None:

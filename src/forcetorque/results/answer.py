@@ -45,8 +45,8 @@ _COLOURS = {
     Concern.UNCERTAIN: TERMINAL["caution"],
     Concern.BAD: TERMINAL["bad"],
 }
-_CAPITALS = re.compile(r"\b[A-Z]{2,}(?:[ -][A-Z]{2,})*\b")
-"""The words of a verdict that are coloured: the first in capitals."""
+_CAPITALS = re.compile(r"^(\s*(?:[\d.]+ \S+, )?)((?:\d+ )?[A-Z]{2,}(?:[ -](?:[A-Z]+|\d+))*)\b")
+"""The words of a verdict that are coloured: capitals at its beginning or after a number; later ones may be names."""
 
 _WORD = re.compile(r"""(?:'[^']*'|"[^"]*"|\S)+""")
 """A word of a command, in quotes where it holds spaces."""
@@ -145,7 +145,7 @@ def _headline(answer: Answer, width: int, coloured: bool) -> str:
     fits = gap >= 2
     verdict = answer.verdict if fits else _indented(answer.verdict, width)
     if coloured:
-        verdict = _CAPITALS.sub(rf"\033[1;{_COLOURS[answer.concern]}m\g<0>\033[0m", verdict, count=1)
+        verdict = _CAPITALS.sub(rf"\1\033[1;{_COLOURS[answer.concern]}m\2\033[0m", verdict, count=1)
     return f"{answer.subject}{' ' * gap}{verdict}" if fits else f"{wrapped(answer.subject, width)}\n{verdict}"
 
 
