@@ -242,16 +242,19 @@ def read_dataset(root: Path) -> LeRobotDataset:
     )
 
 
-def frame_batches(dataset: LeRobotDataset, file: Path, labels: tuple[str, ...]) -> Iterator[tuple[Any, Any, int]]:
+def frame_batches(
+    dataset: LeRobotDataset, file: Path, labels: tuple[str, ...], *, episode: int | None = None
+) -> Iterator[tuple[Any, Any]]:
     """Give frames of a file, some at a time.
 
     Args:
         dataset: The dataset.
         file: One of its files.
         labels: Elements that are read.
+        episode: Number of an episode that is looked for; frames of others may be left out.
 
     Yields:
-        Column of episode numbers, batch of Arrow with a column for each element, and number of the first row.
+        Column of episode numbers, and batch of Arrow with frame numbers and a column for each element.
 
     Raises:
         FormatError: If the file is damaged, or lacks a feature.
@@ -269,10 +272,10 @@ def frame_batches(dataset: LeRobotDataset, file: Path, labels: tuple[str, ...]) 
                 f"got {known_names(feature.name, there)}"
             )
         sources.append(source)
-    start = 0
-    for batch in columnar_batches(file, [*_required(file, there), *sources]):
-        yield batch.column(0), batch.select(range(1, 2 + len(sources))), start
-        start += len(batch)
+    required = _required(file, there)
+    holding = None if episode is None else (required[0], episode)
+    for batch in columnar_batches(file, [*required, *sources], holding=holding):
+        yield batch.column(0), batch.select(range(1, 2 + len(sources)))
 
 
 def _required(file: Path, there: set[str]) -> tuple[str, str]:

@@ -311,12 +311,13 @@ def columnar_rows(file: Path, layout: TableLayout) -> Rows:
     )
 
 
-def columnar_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
+def columnar_batches(file: Path, columns: Sequence[str], *, holding: tuple[str, int] | None = None) -> Iterator[Any]:
     """Give some columns of a file of Parquet or Arrow, some rows at a time.
 
     Args:
         file: The file.
         columns: Their names.
+        holding: Column and number; row groups whose statistics exclude the number are left out.
 
     Returns:
         Batches of Arrow.
@@ -324,7 +325,7 @@ def columnar_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
     Raises:
         FormatError: If it is damaged.
     """
-    return _columnar_batches(file, *_opened(file), columns)
+    return _columnar_batches(file, *_opened(file), columns, holding)
 
 
 def columnar_columns(file: Path) -> list[str]:
@@ -417,10 +418,15 @@ def _require_columns(name: str, layout: TableLayout, names: Sequence[str]) -> li
     return columns
 
 
-def _columnar_batches(file: Path, table: Any, flat: FlatColumns, columns: Sequence[str]) -> Iterator[Any]:
+def _columnar_batches(
+    file: Path, table: Any, flat: FlatColumns, columns: Sequence[str], holding: tuple[str, int] | None = None
+) -> Iterator[Any]:
     sources, start = flat.sources(columns), 0
     try:
         for group in range(table.metadata.num_row_groups):  # one at a time: a request for all makes Arrow hold them all
+            if holding is not None and not isinstance(table, ArrowFile) and _excludes(table, group, *holding):
+                start += table.metadata.row_group(group).num_rows
+                continue
             for batch in table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=sources):
                 yield flat.flattened(batch, columns, partial(_shifted_row, file, start))
                 start += len(batch)
@@ -428,6 +434,16 @@ def _columnar_batches(file: Path, table: Any, flat: FlatColumns, columns: Sequen
         raise
     except _READ_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
+
+
+def _excludes(table: Any, group: int, column: str, number: int) -> bool:
+    """Whether no row of a group of a Parquet file has a number in a column, by the statistics of the group."""
+    chunk = table.metadata.row_group(group).column(table.schema_arrow.names.index(column))
+    # columns of structures in front of it move the place; then nothing is left out
+    statistics = chunk.statistics if chunk.path_in_schema == column else None
+    if statistics is None or not statistics.has_min_max:
+        return False
+    return bool(number < statistics.min or number > statistics.max)
 
 
 def _damaged(name: Path | str, error: BaseException) -> FormatError:
