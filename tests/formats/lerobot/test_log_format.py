@@ -18,7 +18,7 @@ from forcetorque.formats.lerobot.dataset import dataset_of_file, read_dataset
 from forcetorque.formats.lerobot.log_format import LeRobotFormat, LeRobotLog
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import format_name, recognised_format
-from forcetorque.formats.tabular.row_readers import columnar_batches
+from forcetorque.formats.tabular.row_readers import columnar_file
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
 from tests.formats.lerobot.datasets import FPS, WRENCH, tool_episodes, write_dataset
@@ -61,8 +61,8 @@ def test_row_groups_without_the_episode_are_left_out(tmp_path: Path) -> None:
     for options in ({}, {"row_group_size": 50}, {"write_statistics": False}):
         if options:
             pq.write_table(whole, file, **options)
-        batches = columnar_batches(file, ["episode_index"], holding=("episode_index", 1))
-        lengths.append(sum(map(len, batches)))
+        _, batches = columnar_file(file)
+        lengths.append(sum(map(len, batches(["episode_index"], holding=("episode_index", 1)))))
         np.testing.assert_array_equal(read(root, 1).streams[0].signals["wrench"].values, expected)
     assert lengths == [30, 100, 120]
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -311,13 +311,12 @@ def columnar_rows(file: Path, layout: TableLayout) -> Rows:
     )
 
 
-def columnar_batches(file: Path, columns: Sequence[str], *, holding: tuple[str, int] | None = None) -> Iterator[Any]:
+def columnar_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
     """Give some columns of a file of Parquet or Arrow, some rows at a time.
 
     Args:
         file: The file.
         columns: Their names.
-        holding: Column and number; row groups whose statistics exclude the number are left out.
 
     Returns:
         Batches of Arrow.
@@ -325,7 +324,24 @@ def columnar_batches(file: Path, columns: Sequence[str], *, holding: tuple[str, 
     Raises:
         FormatError: If it is damaged.
     """
-    return _columnar_batches(file, *_opened(file), columns, holding)
+    return _columnar_batches(file, *_opened(file), columns)
+
+
+def columnar_file(file: Path) -> tuple[tuple[str, ...], Callable[..., Iterator[Any]]]:
+    """Open a file of Parquet or Arrow, for whoever looks at its columns first.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Names of its columns, of lists those of the elements; and what gives batches of Arrow of some of them. Its
+        argument `holding` is a column and a number: row groups whose statistics exclude the number are left out.
+
+    Raises:
+        FormatError: If it is damaged.
+    """
+    table, flat = _opened(file)
+    return flat.names, partial(_columnar_batches, file, table, flat)
 
 
 def columnar_columns(file: Path) -> list[str]:
