@@ -41,6 +41,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
 	$(BIN)/python -m benchmarks.c3d_files --json build/benchmarks/c3d_files.json
 	$(BIN)/python -m benchmarks.bags --json build/benchmarks/bags.json
+	$(BIN)/python -m benchmarks.arm_logs --json build/benchmarks/arm_logs.json
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.model_errors --json build/benchmarks/model_errors.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.planned_errors --json build/benchmarks/planned_errors.json

@@ -27,7 +27,7 @@ from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overweight_loads, reference_doubts
 from forcetorque.payload.result import WeighedLoad
 from forcetorque.recording.recording import Use
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import plus_minus
 from tests.scenes.wrist_postures import write_postures
 
@@ -168,7 +168,7 @@ def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path
     assert answer.why[0] == "3 of 40 samples disagree with the others"
     assert answer.why[1].startswith("bias of 'contact', the last of 2 power cycles")
     assert answer.step.startswith("look at 'contact', which disagrees: contact is the likely cause")
-    assert answer.command == typed("inspect", EXPERIMENT)
+    assert answer.command == typed("inspect", FIRST_EXPERIMENT)
 
 
 @pytest.mark.long

@@ -276,7 +276,7 @@ def _file_frames(
     dataset: LeRobotDataset, file: Path, episodes: tuple[Episode, ...], labels: tuple[str, ...]
 ) -> Iterator[tuple[Episode, FloatArray]]:
     blocks = EpisodeBlocks(file, episodes)
-    for numbers, batch, _ in frame_batches(dataset, file, labels):
+    for numbers, batch in frame_batches(dataset, file, labels):
         columns = [frame_numbers(batch.column(k)) for k in range(1, 1 + len(labels))]
         yield from blocks.add(whole_numbers(numbers), np.stack(columns, axis=1))
     blocks.require_complete()

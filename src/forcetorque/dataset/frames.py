@@ -30,7 +30,7 @@ def episode_frames(dataset: LeRobotDataset, labels: tuple[str, ...]) -> Iterator
     """
     for file, episodes in dataset.files():
         open_episodes = EpisodeBlocks(file, episodes)
-        for numbers, batch, _ in frame_batches(dataset, file, labels):
+        for numbers, batch in frame_batches(dataset, file, labels):
             columns = [frame_numbers(batch.column(k)) for k in range(1, 1 + len(labels))]
             yield from open_episodes.add(whole_numbers(numbers), np.stack(columns, axis=1))
         open_episodes.require_complete()

@@ -18,6 +18,7 @@ from forcetorque.formats.lerobot.dataset import dataset_of_file, read_dataset
 from forcetorque.formats.lerobot.log_format import LeRobotFormat, LeRobotLog
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import format_name, recognised_format
+from forcetorque.formats.tabular.row_readers import columnar_file
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
 from tests.formats.lerobot.datasets import FPS, WRENCH, tool_episodes, write_dataset
@@ -49,6 +50,21 @@ def test_an_episode_is_read(tmp_path: Path, version: str, variable_lists: bool) 
         (stream,) = read(root, number).streams
         np.testing.assert_array_equal(stream.signals["wrench"].values, frames["observation.wrench"])
         assert len(stream) == len(frames["observation.wrench"])
+
+
+def test_row_groups_without_the_episode_are_left_out(tmp_path: Path) -> None:
+    """By their statistics; where a file has none, or groups hold several episodes, the same frames are read."""
+    root = write_dataset(tmp_path / "d", EPISODES)
+    file = root / "data" / "chunk-000" / "file-000.parquet"
+    whole, lengths = pq.read_table(file), []
+    expected = EPISODES[1]["observation.wrench"]
+    for options in ({}, {"row_group_size": 50}, {"write_statistics": False}):
+        if options:
+            pq.write_table(whole, file, **options)
+        _, batches = columnar_file(file)
+        lengths.append(sum(map(len, batches(["episode_index"], holding=("episode_index", 1)))))
+        np.testing.assert_array_equal(read(root, 1).streams[0].signals["wrench"].values, expected)
+    assert lengths == [30, 100, 120]
 
 
 def test_times_are_made_up_and_say_so(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import recognised_format
+from forcetorque.formats.ur_rtde.consistency import turned_by
 from forcetorque.formats.ur_rtde.log_format import MomentPoint, UrRtdeFormat, UrRtdeLog
 from forcetorque.inspection.draft.draft import draft_experiment
 from tests.formats.ur_rtde.recordings import GRAVITY, RATE_HZ, Tool, accelerometer, recorded, write_binary, write_text
@@ -177,3 +178,13 @@ def test_files_of_the_recorders_are_read(data_dir: Path, name: str) -> None:
     assert np.abs(_left(reading, TOOL).mean(axis=0)).max() < 0.02
     assert len(reading.streams[0]) in (479, 448)
     assert GRAVITY < 9.82
+
+
+def test_a_huge_force_does_not_hide_the_axes_by_an_error() -> None:
+    """Damaged files hold them; without one the rotation is found."""
+    rng = np.random.default_rng(1)
+    raw = rng.normal(size=(50, 6))
+    wrench = raw[:, [1, 0, 2, 4, 3, 5]] * [1, -1, 1, 1, -1, 1]
+    np.testing.assert_allclose(turned_by(raw, wrench), [0.0, 0.0, -90.0], atol=1e-6)
+    wrench[7, 0] = 1e308
+    assert turned_by(100.0 * raw, wrench) is None

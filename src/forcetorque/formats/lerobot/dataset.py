@@ -21,7 +21,7 @@ from typing import Any
 from forcetorque.base.errors import FormatError, known_names, quoted
 from forcetorque.base.input_file import read_text, require_file
 from forcetorque.formats.tabular.list_columns import element_name
-from forcetorque.formats.tabular.row_readers import columnar_batches, columnar_columns
+from forcetorque.formats.tabular.row_readers import columnar_file
 
 INFO = "meta/info.json"
 """What makes a folder a dataset."""
@@ -242,22 +242,26 @@ def read_dataset(root: Path) -> LeRobotDataset:
     )
 
 
-def frame_batches(dataset: LeRobotDataset, file: Path, labels: tuple[str, ...]) -> Iterator[tuple[Any, Any, int]]:
+def frame_batches(
+    dataset: LeRobotDataset, file: Path, labels: tuple[str, ...], *, episode: int | None = None
+) -> Iterator[tuple[Any, Any]]:
     """Give frames of a file, some at a time.
 
     Args:
         dataset: The dataset.
         file: One of its files.
         labels: Elements that are read.
+        episode: Number of an episode that is looked for; frames of others may be left out.
 
     Yields:
-        Column of episode numbers, batch of Arrow with a column for each element, and number of the first row.
+        Column of episode numbers, and batch of Arrow with frame numbers and a column for each element.
 
     Raises:
         FormatError: If the file is damaged, or lacks a feature.
     """
     require_file(file, f"the frames of episodes of {dataset.root}")
-    known, there = dataset.labels, set(columnar_columns(file))
+    names, batches = columnar_file(file)
+    known, there = dataset.labels, set(names)
     sources = []
     for label in labels:
         feature, k = known[label]
@@ -269,10 +273,10 @@ def frame_batches(dataset: LeRobotDataset, file: Path, labels: tuple[str, ...]) 
                 f"got {known_names(feature.name, there)}"
             )
         sources.append(source)
-    start = 0
-    for batch in columnar_batches(file, [*_required(file, there), *sources]):
-        yield batch.column(0), batch.select(range(1, 2 + len(sources))), start
-        start += len(batch)
+    required = _required(file, there)
+    holding = None if episode is None else (required[0], episode)
+    for batch in batches([*required, *sources], holding=holding):
+        yield batch.column(0), batch.select(range(1, 2 + len(sources)))
 
 
 def _required(file: Path, there: set[str]) -> tuple[str, str]:
@@ -392,11 +396,11 @@ def _episodes_30(dataset: LeRobotDataset) -> Iterator[Episode]:
     columns = ("episode_index", "length", "data/chunk_index", "data/file_index")
     for file in episode_files(dataset):
         require_file(file, "the episodes of a LeRobot dataset")
-        there = columnar_columns(file)
+        there, batches = columnar_file(file)
         for name in columns:
             if there.count(name) != 1:
                 raise FormatError(f"{file}: expected one column {name!r}; {known_names(name, there)}")
-        for batch in columnar_batches(file, columns):
+        for batch in batches(columns):
             for row in zip(*(batch.column(k).to_pylist() for k in range(len(columns))), strict=True):
                 index, frames, chunk, number = (_whole(*one) for one in zip(row, columns, strict=True))
                 places = {"chunk_index": chunk, "file_index": number}

@@ -131,7 +131,7 @@ def _sketch(dataset: LeRobotDataset, path: Path, episodes: Sequence[Episode]) ->
     extents = {label: Extent() for label in labels}
     rows, stopped, wanted = 0, None, pa.array([episode.index for episode in episodes], pa.int64())
     for file in dict.fromkeys(episode.file for episode in episodes):
-        for numbers, batch, _ in frame_batches(dataset, file, labels):
+        for numbers, batch in frame_batches(dataset, file, labels):
             chosen = batch.filter(pc.is_in(numbers, wanted))
             for k, extent in enumerate(extents.values(), start=1):
                 extent.add(chosen.column(k))
@@ -188,15 +188,14 @@ def _read_stream(dataset: LeRobotDataset, episode: Episode, entry: LeRobotStream
 
 def _episode_batches(dataset: LeRobotDataset, episode: Episode, labels: tuple[str, ...]) -> Iterator[Any]:
     frame = 0
-    for numbers, batch, start in frame_batches(dataset, episode.file, labels):
+    for numbers, batch in frame_batches(dataset, episode.file, labels, episode=episode.index):
         chosen = batch.filter(pc.equal(numbers, episode.index))
         frames = frame_numbers(chosen.column(0))
         wrong = np.flatnonzero(frames != np.arange(frame, frame + len(frames)))
         if len(wrong):
-            place = f"{episode.file}: episode {episode.index}: rows {start + 1} to {start + len(batch)}"
             raise FormatError(
-                f"{place}: frame_index: expected {frame + int(wrong[0])}, got {frames[wrong[0]]:g}: frames are missing "
-                "or in another order, so frame_index / fps is not even"
+                f"{episode.file}: episode {episode.index}: frame_index: expected {frame + int(wrong[0])}, got "
+                f"{frames[wrong[0]]:g}: frames are missing or in another order, so frame_index / fps is not even"
             )
         frame += len(frames)
         arrays = [chosen.column(k) for k in range(1, 1 + len(labels))]

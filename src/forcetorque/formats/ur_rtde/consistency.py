@@ -69,8 +69,12 @@ def turned_by(raw: FloatArray | None, wrench: FloatArray) -> FloatArray | None:
     if raw is None or not _is_of_sensor(raw):
         return None
     finite = np.isfinite(raw).all(axis=1) & np.isfinite(wrench).all(axis=1)
-    own, other = _about_mean(wrench[finite, FORCE]), _about_mean(raw[finite, FORCE])
-    left, sizes, right = np.linalg.svd(own.T @ other)
+    with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
+        own, other = _about_mean(wrench[finite, FORCE]), _about_mean(raw[finite, FORCE])
+        product = own.T @ other
+    if not np.isfinite(product).all():
+        return None
+    left, sizes, right = np.linalg.svd(product)
     if not sizes[1] > _AGREES * sizes[0] > 0.0:  # the force moves along one line
         return None
     turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right

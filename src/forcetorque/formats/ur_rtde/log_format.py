@@ -144,7 +144,7 @@ def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str,
         _undetermined(table, fields)
     ):
         return table
-    return table.model_copy(update={"moment_about": _agreeing_point(table, fields)})
+    return table.model_copy(update={"moment_about": _agreeing_point(table, fields, _flange_pose(table, fields))})
 
 
 def _undetermined(table: UrRtdeLog, fields: RecordedFields) -> list[str]:
@@ -265,16 +265,16 @@ def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> dict
     return {point: _along_flange(logged, pose, point) + weight for point in MomentPoint}
 
 
-def _agreeing_point(table: UrRtdeLog, fields: RecordedFields) -> MomentPoint | None:
+def _agreeing_point(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> MomentPoint | None:
     raw = fields.values.get("ft_raw_wrench")
     if table.reading == "ft_raw_wrench" or raw is None:
         return None
-    point = agreeing_point(raw, _points(table, fields, _flange_pose(table, fields)))
+    point = agreeing_point(raw, _points(table, fields, pose))
     return None if point is None else MomentPoint(point)
 
 
 def _require_no_contradiction(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> None:
-    agreeing = None if table.moment_about is None else _agreeing_point(table, fields)
+    agreeing = None if table.moment_about is None else _agreeing_point(table, fields, pose)
     if agreeing not in (None, table.moment_about):
         raise FormatError(
             f"{table.path}: moment_about: expected {agreeing}, about which the moment of actual_TCP_force changes as "
@@ -304,7 +304,8 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
     if table.reading == "ft_raw_wrench":
         assumed.append("along the axes of the flange")
     elif table.moment_about is not None:
-        agrees = ", as ft_raw_wrench in the log" if _agreeing_point(table, fields) is table.moment_about else ""
+        is_agreeing = _agreeing_point(table, fields, pose) is table.moment_about
+        agrees = ", as ft_raw_wrench in the log" if is_agreeing else ""
         assumed.append(f"moment about the {table.moment_about}{agrees}")
     return LoggedWrist(
         controller="ur",
