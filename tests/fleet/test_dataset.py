@@ -239,8 +239,8 @@ def test_newer_version_and_damaged_files_are_named(added: Path, tmp_path: Path) 
     folder = Path(shutil.copytree(added, tmp_path / "dataset"))
     file = next(folder.rglob("*.parquet"))
     whole = pq.read_table(file)
-    pq.write_table(whole.replace_schema_metadata({"schema": "forcetorque/dataset/2"}), file)
-    with pytest.raises(FormatError, match=r"expected a dataset of the form .*, got forcetorque/dataset/2, of a newer"):
+    pq.write_table(whole.replace_schema_metadata({"schema": "forcetorque/dataset/99"}), file)
+    with pytest.raises(FormatError, match=r"expected a dataset of the form .*, got forcetorque/dataset/99, of a newer"):
         fleet_table_of(folder)
     pq.write_table(whole.replace_schema_metadata({}), file)
     with pytest.raises(FormatError, match="got another Parquet file"):
@@ -304,14 +304,66 @@ def test_records_survive_a_file(added: Path) -> None:
     assert {column.name for column in schema_of(SensorRecord)} == set(SensorRecord.model_fields)
 
 
+@pytest.fixture
+def in_rows(added: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The same dataset with a row for every few seconds of an interval."""
+    monkeypatch.setattr("forcetorque.fleet.dataset._ROW_WINDOWS", 5)
+    dataset = Dataset(tmp_path / "rows")
+    for record in Dataset(added).records(Dataset(added).files):
+        dataset.write(record, OPTIONS)
+    return dataset.folder
+
+
+def test_a_long_record_has_several_rows(added: Path, in_rows: Path) -> None:
+    """All of them are one record; rows after the first have blocks of moments and the recording, so sums count once."""
+    whole, divided = Dataset(added), Dataset(in_rows)
+    records = divided.records(divided.files)
+    assert records == whole.records(whole.files)
+    files = [in_rows / file.path for file in divided.files]
+    fitted = [file for file in files if pq.read_metadata(file).num_rows > 1]
+    assert len(fitted) == len(CALIBRATION)
+    for file in fitted:
+        rows = pq.read_table(file).to_pylist()
+        assert pq.read_metadata(file).num_row_groups == len(rows)
+        assert all(row["moments"]["intervals"] for row in rows)
+        assert len({row["recording"] for row in rows}) == 1
+        named = {name for row in rows[1:] for name, value in row.items() if value not in (None, [])}
+        assert named == {"recording", "moments"}
+        assert {name for row in rows[1:] for name, value in row["moments"].items() if value not in (None, [])} == {
+            "intervals"
+        }
+        pq.write_table(pq.read_table(file), file)  # in one row group, as other programs write it
+    assert divided.records(divided.files) == records
+
+
+def test_rows_of_several_recordings_in_one_file_are_refused(in_rows: Path) -> None:
+    """Such as files that another program joined; also where only the first columns are read."""
+    dataset = Dataset(in_rows)
+    first, second = (in_rows / file.path for file in dataset.files[:2])
+    pq.write_table(pa.concat_tables([pq.read_table(first), pq.read_table(second)]), first)
+    with pytest.raises(FormatError, match=rf"{first.name}: .* got rows of several recordings; remove it and add again"):
+        dataset.records(dataset.files)
+    with pytest.raises(FormatError, match="rows of several recordings"):
+        fleet_table_of(in_rows)
+
+
+def test_a_dataset_of_the_first_form_is_read(added: Path, tmp_path: Path) -> None:
+    """In which every record is one row."""
+    folder = Path(shutil.copytree(added, tmp_path / "first"))
+    records = Dataset(added).records(Dataset(added).files)
+    for file in folder.rglob("*.parquet"):
+        pq.write_table(pq.read_table(file).replace_schema_metadata({"schema": "forcetorque/dataset/1"}), file)
+    assert Dataset(folder).records(Dataset(folder).files) == records
+
+
 @pytest.mark.long
-def test_duckdb_and_polars_read_it(added: Path) -> None:
-    """As it is: partitions as columns, blocks as nested ones."""
+def test_duckdb_and_polars_read_it(added: Path, in_rows: Path) -> None:
+    """As it is: partitions as columns, blocks as nested ones, several rows of a long record."""
     duckdb = pytest.importorskip("duckdb")
     polars = pytest.importorskip("polars")
-    pattern = f"{added}/*/*/*/*.parquet"
+    pattern = f"{in_rows}/*/*/*/*.parquet"
     (count, blocks), *_ = duckdb.sql(
-        f"select count(*), sum(len(moments.intervals)) from read_parquet('{pattern}', hive_partitioning=true) "
+        f"select count(identity), sum(len(moments.intervals)) from read_parquet('{pattern}', hive_partitioning=true) "
         f"where sensor = '{SERIAL}'"
     ).fetchall()
     records = Dataset(added).records(Dataset(added).files)
@@ -319,7 +371,8 @@ def test_duckdb_and_polars_read_it(added: Path) -> None:
     assert (count, blocks) == (len(FILES), kept)
     frame = polars.read_parquet(pattern, hive_partitioning=True)
     assert frame["sensor"].unique().to_list() == [SERIAL]
-    assert frame.explode("findings").height >= len(FILES)
+    assert frame["findings"].list.len().sum() == sum(len(record.findings) for record in records)
+    assert frame["identity"].count() == len(FILES) < frame.height
 
 
 def test_commands(added: Path, recorded: Path, tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

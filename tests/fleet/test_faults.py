@@ -170,7 +170,7 @@ def test_a_dataset_of_a_newer_form_is_left_alone(days: Path) -> None:
     (one,) = Dataset(folder).present()
     file = folder / one.path
     newer = file.with_name(file.name.replace(one.options, "0123abcd"))
-    pq.write_table(pq.read_table(file).replace_schema_metadata({"schema": "forcetorque/dataset/2"}), newer)
+    pq.write_table(pq.read_table(file).replace_schema_metadata({"schema": "forcetorque/dataset/99"}), newer)
     file.unlink()
     with pytest.raises(FormatError, match="of a newer version of forcetorque; install that version"):
         add_recording(source, folder, OPTIONS)

@@ -14,15 +14,17 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import IO, Any, Final, Self
 from urllib.parse import quote, unquote
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from forcetorque.base.arrow import require_small_parquet
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, OutputError, known_names
 from forcetorque.base.output_file import temporary_beside
+from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
@@ -34,6 +36,10 @@ from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, pa
 
 _NAME: Final = re.compile(r"(?P<path>[0-9a-f]{12})-(?P<recording>[0-9a-f]{20})-(?P<options>[0-9a-f]{8})\.parquet")
 _METADATA: Final = (("schema", SCHEMA),)
+_READ: Final = (SCHEMA, "forcetorque/dataset/1")
+"""Forms that are read: in the first, a file has one row however long the recording is."""
+_ROW_WINDOWS: Final = 1800
+"""Windows of a second in the blocks of one row: half an hour, since a row is written from memory as a whole."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
@@ -275,10 +281,18 @@ class Dataset:
             with pq.ParquetFile(path) as parquet:
                 _require_version(path, parquet.schema_arrow.metadata or {})
                 require_small_parquet(path, parquet.metadata, parquet.schema.names)
-                (row,) = rows_of(SensorRecord, parquet.read(columns=list(columns)))
+                # rows after the first have only blocks of moments
+                groups = range(parquet.num_row_groups if "moments" in columns else 1)
+                row = _one_record(
+                    [
+                        row
+                        for group in groups
+                        for row in rows_of(SensorRecord, parquet.read_row_group(group, columns=list(columns)))
+                    ]
+                )
         except FileNotFoundError:
             raise MissingFileError(f"{path}: expected a file of the dataset, it was removed meanwhile") from None
-        except (pa.ArrowException, ValueError, KeyError, OSError) as error:
+        except (pa.ArrowException, ValueError, KeyError, TypeError, OSError) as error:
             if isinstance(error, FormatError):
                 raise
             words = " ".join(str(error).split())
@@ -336,13 +350,11 @@ class Dataset:
             OutputError: If it cannot be written, such as on a full disk; nothing is left of it then.
         """
         target = self.folder / RecordFile.of(record, options).path
-        columns = columns_of(SensorRecord, [record], _METADATA)
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             with temporary_beside(target) as temporary:
                 with temporary.open("wb") as stream:
-                    # a dictionary of numbers that do not repeat takes time and twenty times their memory
-                    pq.write_table(columns, stream, compression="zstd", use_dictionary=False)
+                    _write_rows(stream, record)
                     stream.flush()
                     # otherwise a power cut after the rename can leave an empty file
                     os.fsync(stream.fileno())
@@ -355,9 +367,46 @@ class Dataset:
         return target
 
 
+def _one_record(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Columns of a record whose further blocks are in the rows after the first."""
+    record, *others = rows
+    for other in others:
+        if any(value for name, value in other.items() if name not in ("recording", "moments")):
+            raise ValueError("rows of several recordings")
+        if "moments" in other:
+            record["moments"]["intervals"] += other["moments"]["intervals"]
+    return record
+
+
+def _write_rows(stream: IO[bytes], record: SensorRecord) -> None:
+    """Write a record row by row, each a row group, so that what is written does not fill the memory."""
+    schema = schema_of(SensorRecord, _METADATA)
+    # a dictionary of numbers that do not repeat takes time and twenty times their memory
+    with pq.ParquetWriter(stream, schema, compression="zstd", use_dictionary=False) as writer:
+        for row in _rows(record):
+            writer.write_table(columns_of(SensorRecord, [row], _METADATA))
+            if row.moments is not None:
+                forget_pages(block.model for block in row.moments.intervals)
+
+
+def _rows(record: SensorRecord) -> Iterator[SensorRecord]:
+    """A record as rows: the first has all but further blocks of moments, the others have these and the recording."""
+    if record.moments is None:
+        yield record
+        return
+    blocks = record.moments.intervals
+    row_numbers = (np.cumsum([len(block.time_s) for block in blocks]) - 1) // _ROW_WINDOWS
+    starts = np.flatnonzero(np.diff(row_numbers, prepend=-1)).tolist()
+    moments, row = record.moments, record
+    for first, last in zip(starts, [*starts[1:], len(blocks)], strict=True):
+        yield row.model_copy(update={"moments": moments.model_copy(update={"intervals": blocks[first:last]})})
+        moments = RecordingMoments.model_construct(**dict.fromkeys(RecordingMoments.model_fields))
+        row = SensorRecord.model_construct(**dict.fromkeys(SensorRecord.model_fields) | {"recording": record.recording})
+
+
 def _require_version(path: Path, metadata: Mapping[bytes, bytes]) -> None:
     got = metadata.get(b"schema", b"").decode(errors="replace")
-    if got == SCHEMA:
+    if got in _READ:
         return
     family, _, version = got.rpartition("/")
     own_family, _, own = SCHEMA.rpartition("/")

@@ -20,7 +20,7 @@ from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts, doubts_of_intervals, doubts_of_samples
 from forcetorque.calibration.moments import recording_moments
-from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined, pairwise_sum
+from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
@@ -35,7 +35,7 @@ from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
-SCHEMA: Final = "forcetorque/dataset/1"
+SCHEMA: Final = "forcetorque/dataset/2"
 """Name and version of the form of a file."""
 
 
@@ -268,10 +268,14 @@ def _record(run: SensorRun, findings: Sequence[Finding], reduced: _Reduced, code
 def _prior_error(
     run: SensorRun, moments: RecordingMoments | None, evaluation: StoredEvaluation | None
 ) -> PriorError | None:
-    parts = [] if moments is None else [interval.moments for interval in joined(moments.intervals)]
-    blocks = () if evaluation is None else evaluation.blocks
-    for label in dict.fromkeys(block.interval for block in blocks):
-        parts.append(pairwise_sum([block.moments for block in blocks if block.interval == label]))
+    fitted = () if moments is None else moments.intervals
+    evaluated = () if evaluation is None else evaluation.blocks
+    blocks: dict[tuple[Use, str], list[Moments]] = {}
+    for one in fitted:
+        blocks.setdefault((Use.CALIBRATION, one.interval.label), []).append(one.moments)
+    for block in evaluated:
+        blocks.setdefault((Use.VALIDATION, block.interval), []).append(block.moments)
+    parts = list(map(pairwise_sum, blocks.values()))
     if run.sensor.prior is None or not parts:
         return None
     return PriorError.of(WrenchModel(matrix=run.sensor.prior, offset=np.zeros(6)), parts)

@@ -251,9 +251,10 @@ def _columns(file: Any, widths: Mapping[str, int], counters: Sequence[str]) -> d
         return of(file.read().combine_chunks())
     rows = {name: RowsOnDisk(dtype=np.int64) for name in counters}
     rows |= {name: RowsOnDisk((width,)) for name, width in widths.items()}
-    for batch in file.iter_batches(batch_size=_BATCH):
-        for name, numbers in of(pa.Table.from_batches([batch]).combine_chunks()).items():
-            rows[name].append(numbers)
+    for group in range(file.num_row_groups):  # Arrow holds all groups that one iteration has read until its end
+        for batch in file.iter_batches(batch_size=_BATCH, row_groups=[group]):
+            for name, numbers in of(pa.Table.from_batches([batch]).combine_chunks()).items():
+                rows[name].append(numbers)
     return {name: written.mapped() for name, written in rows.items()}
 
 
