@@ -51,7 +51,9 @@ export class ServedBlock implements Block {
       }
       if (request.status !== 206) throw refused(this.url, request.status);
       const text = request.responseText;
-      this.keep(from, to, Uint8Array.from(text, (letter) => letter.charCodeAt(0) & 255));
+      const bytes = new Uint8Array(text.length);
+      for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k); // the low byte is the byte that was sent
+      this.keep(from, to, bytes);
     }
     return this.bytes.slice(start, end);
   }
