@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.progress import TimeLeft
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.packing import (
     LEAST_STEPS,
@@ -88,7 +91,7 @@ def test_a_calibration_is_a_linear_map_of_the_first_series_where_it_is_one(built
     """With an offset for each power cycle it takes next to no bytes; with a quadratic term it is packed whole."""
     prior = read_array(built.block, built.scene.sensors[0].wrenches[-1].values).astype(np.float64)
     assert built.scene.sensors[0].wrenches[-1].role == "measured"
-    coupling = 0.02 * np.random.default_rng(4).normal(size=(6, 6)) * np.divide.outer(_steps(prior), _steps(prior))
+    coupling = 0.02 * np.random.default_rng(4).normal(size=(6, 6)) * np.divide.outer(_steps(prior.T), _steps(prior.T))
     values = prior @ (np.eye(6) + coupling).T + 3.0
     values[len(values) // 2 :] += 5.0
     if not linear:
@@ -104,7 +107,7 @@ def test_a_calibration_is_a_linear_map_of_the_first_series_where_it_is_one(built
         assert fitted.base == base
         rest += back @ np.reshape(fitted.matrix, (6, 6)).T
         assert (fitted.packed_bytes or 0) < 0.1 * (base.packed_bytes or 0)
-    steps = _steps(values)
+    steps = _steps(values.T)
     assert (np.abs(rest - values) < 1.1 * steps).all()
     assert (np.abs(np.nanmean(rest - values, axis=0)) < 0.1 * steps).all(), "rounding is no bias"
 
@@ -154,6 +157,17 @@ def test_noise_takes_fewer_bytes_than_its_numbers() -> None:
     """A quarter of 32 bits, where a step is a quarter of the noise."""
     values = np.random.default_rng(2).normal(size=(SAMPLES, 6))
     assert len(pack(values)) < 0.25 * 4 * values.size
+
+
+def test_progress_is_told_of_a_scene_that_takes_long(built: BuiltScene, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line for every array but the first where each is due, none of a scene that is packed at once."""
+    lines: list[str] = []
+    packed(built, lines.append)
+    assert lines == []
+    monkeypatch.setattr("forcetorque.viewer.packing.TimeLeft", partial(TimeLeft, every_s=0.0))
+    packed(built, lines.append)
+    assert len(lines) > 3
+    assert all(re.fullmatch(r"packing the page: \d+ %, \d+ s left", line) for line in lines)
 
 
 def test_a_packed_scene_has_the_same_arrays(built: BuiltScene) -> None:

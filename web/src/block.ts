@@ -9,11 +9,6 @@ export interface Block {
   read(start: number, end: number): Uint8Array;
 }
 
-/** Bytes that came from a server. */
-export function blockOfBytes(bytes: ArrayBuffer): Block {
-  return { byteLength: bytes.byteLength, read: (start, end) => new Uint8Array(bytes.slice(start, end)) };
-}
-
 /** Bytes that the page holds as base64, of which no more is decoded than is read. */
 export function blockOfBase64(text: string): Block {
   const padding = text.endsWith("==") ? 2 : text.endsWith("=") ? 1 : 0;

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene's header and block: inside the page, or fetched in pieces from the server that sent it.
+// The scene's header and block: inside the page, or on the server that sent it.
 
-import { blockOfBase64, blockOfBytes, type Block } from "./block";
-import type { Scene } from "./scene_types";
-
-const PIECE_BYTES = 4 * 1024 * 1024;
-
-/** How much has come; total is 0 while unknown. */
-export type Progress = (loaded: number, total: number) => void;
+import { blockOfBase64, type Block } from "./block";
+import type { ArrayRef, Scene } from "./scene_types";
+import { ServedBlock, type Progress, type Range } from "./served_block";
 
 /** Read the header in the page. */
 export function readHeader(): Scene {
@@ -20,43 +16,37 @@ export function readHeader(): Scene {
   return scene;
 }
 
-/** Read the block: base64 in the page, or the file that the page names. */
-export async function readBlock(progress: Progress): Promise<Block> {
+/** Read the block: base64 in the page, or the file that the page names, of which comes first what is shown first. */
+export async function readBlock(scene: Scene, progress: Progress): Promise<Block> {
   const element = document.getElementById("data");
   if (!element) throw new Error('the page holds no data: expected a script element with id "data"');
   const url = element.dataset["url"];
-  if (url) return blockOfBytes(await fetchInPieces(url, progress));
+  if (url) {
+    const block = await ServedBlock.at(url);
+    await block.fetch(shownFirst(scene).map(rangeOf), progress);
+    return block;
+  }
   const block = blockOfBase64(element.textContent ?? "");
   element.textContent = "";
   return block;
 }
 
-async function fetchInPieces(url: string, progress: Progress): Promise<ArrayBuffer> {
-  progress(0, 0);
-  const first = await fetchPiece(url, 0);
-  if (first.status === 200) {
-    const whole = await first.arrayBuffer();
-    progress(whole.byteLength, whole.byteLength);
-    return whole;
-  }
-  const total = Number(/\/(\d+)$/.exec(first.headers.get("Content-Range") ?? "")?.[1] ?? Number.NaN);
-  if (!Number.isFinite(total)) throw new Error(`${url}: the server sent a piece without saying how long the whole is`);
-  const bytes = new Uint8Array(total);
-  let place = 0;
-  for (let answer = first; ; answer = await fetchPiece(url, place)) {
-    const piece = new Uint8Array(await answer.arrayBuffer());
-    if (piece.length === 0 || place + piece.length > total) {
-      throw new Error(`${url}: expected ${total - place} more bytes at most, got ${piece.length}`);
-    }
-    bytes.set(piece, place);
-    place += piece.length;
-    progress(place, total);
-    if (place === total) return bytes.buffer;
-  }
+/** Fetch what the first view did not need, so that the page no longer depends on the server. */
+export async function readRest(block: Block): Promise<void> {
+  // a server that has ended by then is no error before something is looked at that has not come
+  if (block instanceof ServedBlock) await block.fetch([[0, block.byteLength]]).catch(() => undefined);
 }
 
-async function fetchPiece(url: string, start: number): Promise<Response> {
-  const answer = await fetch(url, { headers: { Range: `bytes=${start}-${start + PIECE_BYTES - 1}` } });
-  if (!answer.ok) throw new Error(`${url}: the server answered ${answer.status} ${answer.statusText}`);
-  return answer;
+/** Arrays of the first view, without postures, of which it reads a block. */
+function shownFirst({ time_s, sensors: [first] }: Scene): ArrayRef[] {
+  const series = first?.wrenches ?? [];
+  return [time_s, ...series.flatMap(({ values, deviation }) => [values, values.base, deviation])].filter(
+    (ref) => ref !== null && ref !== undefined,
+  );
+}
+
+const BYTES = { float32: 4, float64: 8, uint32: 4 } as const;
+
+function rangeOf({ offset, packed_bytes, dtype, shape }: ArrayRef): Range {
+  return [offset, offset + (packed_bytes ?? BYTES[dtype] * shape.reduce((product, length) => product * length, 1))];
 }

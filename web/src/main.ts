@@ -12,7 +12,7 @@ import { Frames } from "./frames";
 import { openHook } from "./hook";
 import { listen, releaseAfterMouse } from "./keyboard";
 import { layout, type Panels } from "./layout";
-import { readBlock, readHeader } from "./load";
+import { readBlock, readHeader, readRest } from "./load";
 import { marksPanel } from "./marks_panel";
 import { fromFragment, keepAddress } from "./permalink";
 import { PlaneView } from "./planes";
@@ -43,7 +43,7 @@ async function start(): Promise<boolean> {
   try {
     const scene = readHeader();
     document.title ||= scene.title;
-    const block = await readBlock((loaded, total) => {
+    const block = await readBlock(scene, (loaded, total) => {
       if (total > 0) [bar.max, bar.value] = [total, loaded];
     });
     performance.mark("read");
@@ -51,6 +51,7 @@ async function start(): Promise<boolean> {
     performance.mark("drawn");
     waiting.remove();
     document.documentElement.dataset["ready"] = "true";
+    void readRest(block);
     return true;
   } catch (error) {
     waiting.replaceChildren(`This page cannot be shown. ${error instanceof Error ? error.message : String(error)}`);
@@ -87,6 +88,9 @@ function build(data: SceneData): void {
   const say = (text: string): void => {
     panels.status.textContent = text;
   };
+  window.addEventListener("error", ({ error }) => {
+    if (error instanceof Error) say(error.message); // such as of a server that has ended
+  });
   const panels: Panels = layout(data, store, () => transport(data, store, say));
   (document.getElementById("viewer") ?? document.body).append(panels.app);
   const maker = new CloudMaker(data);

@@ -153,6 +153,7 @@ def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
         range(len(ordered)),
         [f"{row.gravity_by}\n±{row.plus_minus:g} {row.unit}" for row in ordered],
     )
+    headline(figure, _requirement_6(ordered))
     legend_below(
         figure,
         [
@@ -164,6 +165,16 @@ def reference_error_figure(grades: Sequence[GradeRow]) -> Figure:
         ],
     )
     return figure
+
+
+def _requirement_6(rows: Sequence[GradeRow]) -> str:
+    """How many grades meet the limits, and the least error."""
+    met = sum(row.largest_force_N <= FORCE_LIMIT_N and row.largest_moment_Nm <= MOMENT_LIMIT_NM for row in rows)
+    best = min(rows, key=lambda row: row.largest_moment_Nm)
+    return (
+        f"{met} of {len(rows)} grades meet requirement 6, {FORCE_LIMIT_N:g} N and {MOMENT_LIMIT_NM:g} N m; least error "
+        f"of the moment: {best.largest_moment_Nm:.2g} N m by {best.gravity_by} of ±{best.plus_minus:.3g} {best.unit}"
+    )
 
 
 def _draw_errors(panel: Axes, errors: FloatArray, limit: float, label: str) -> None:

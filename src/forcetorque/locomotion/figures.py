@@ -22,6 +22,7 @@ from forcetorque.results.figures import (
     ROW_INCHES,
     Look,
     draw_over_time,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -74,8 +75,22 @@ def balance_figure(interval: IntervalBalance) -> Figure:
             _draw_points(panel, interval.robot.zero_moment_point, len(interval.feet) + 1)
         _draw_points(panel, interval.robot.pressure.points, len(interval.feet))
         _plane(panel, f"robot, in {interval.robot.frame}")
+    headline(figure, _feet_bear(interval))
     legend_below(figure, _keys(interval))
     return figure
+
+
+def _feet_bear(interval: IntervalBalance) -> str:
+    """The mean load while a foot is down, and how many centres of pressure lie off their sole."""
+    borne = interval.net_N[interval.phases.known & interval.phases.down.any(axis=1)]
+    if not len(borne):
+        return "No foot is down"
+    load = f"The feet bear {borne.mean():.4g} N"
+    if interval.weight_N is not None:
+        load += f", {borne.mean() - interval.weight_N:+.1f} N from the weight"
+    beyond = [foot.beyond_m for foot in interval.feet if foot.sole.outline is not None]
+    points = np.concatenate([one[np.isfinite(one)] for one in beyond]) if beyond else np.empty(0)
+    return f"{load}; {100.0 * (points > 0.0).mean():.2g} % of the points lie off their sole" if len(points) else load
 
 
 def _draw_loads(panel: Axes, interval: IntervalBalance) -> None:

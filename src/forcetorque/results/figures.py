@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import io
 import math
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
@@ -69,8 +70,8 @@ LONGEST_NAME = 60
 _LEGEND_ROW_INCHES, _KEY_INCHES = 0.22, 0.82
 """Height of a row of a legend, and width of what stands beside its text; inch."""
 
-_HEADLINE_INCHES, _HEADLINE_POINTS = 0.3, 11.0
-"""Height of the line of a message and size of its letters; inch and points."""
+_HEADLINE_INCHES, _HEADLINE_POINTS, _HEADLINE_LETTERS = 0.3, 11.0, 100
+"""Height of a line of a message, size of its letters, and how many of them a line holds; inch and points."""
 
 _HUES = COLOURS[: len(CALIBRATIONS)]
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
@@ -221,14 +222,15 @@ def two_digits(value: float) -> str:
 
 
 def headline(figure: Figure, message: str) -> None:
-    """Write what a figure shows above all panels, at the left, and make the figure higher by this line.
+    """Write what a figure shows above all panels, at the left, and make the figure higher by its lines.
 
     Args:
         figure: The figure.
         message: The message, with names as `shown_name` gives them.
     """
-    figure.set_figheight(figure.get_figheight() + _HEADLINE_INCHES)
-    figure.suptitle(message, x=0.01, horizontalalignment="left", fontsize=_HEADLINE_POINTS, fontweight="bold")
+    lines = textwrap.wrap(message, _HEADLINE_LETTERS, break_long_words=False)
+    figure.set_figheight(figure.get_figheight() + _HEADLINE_INCHES * len(lines))
+    figure.suptitle("\n".join(lines), x=0.01, horizontalalignment="left", fontsize=_HEADLINE_POINTS, fontweight="bold")
 
 
 def legend_below(
@@ -462,8 +464,21 @@ def rms_words(wrenches: FloatArray) -> str | None:
     Returns:
         Such as `1.2 N, 0.03 N m`; None where no wrench is whole.
     """
+    sizes = rms_sizes(wrenches)
+    return None if sizes is None else f"{sizes[0]:.3g} N, {sizes[1]:.3g} N m"
+
+
+def rms_sizes(wrenches: FloatArray) -> tuple[float, float] | None:
+    """Compute the root mean squares of the norms of force and moment.
+
+    Args:
+        wrenches: Wrenches; shape (n, 6); N, N m; NaN in gaps.
+
+    Returns:
+        That of forces, in N, and that of moments, in N m; None where no wrench is whole.
+    """
     whole = wrenches[np.isfinite(wrenches).all(axis=1)]
     if not len(whole):
         return None
-    force, moment = (np.sqrt((whole[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
-    return f"{force:.3g} N, {moment:.3g} N m"
+    force, moment = (float(np.sqrt((whole[:, part] ** 2).sum(axis=1).mean())) for part in FORCE_AND_MOMENT)
+    return force, moment

@@ -14,6 +14,7 @@ from forcetorque.results.figures import (
     LIMIT_LINE,
     REFERENCE_COLOUR,
     ROW_INCHES,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -23,6 +24,7 @@ from forcetorque.results.figures import (
     thinned_line,
 )
 from forcetorque.results.visual_roles import LIMIT
+from forcetorque.sensor.answers import response_answer
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -170,7 +172,7 @@ def response_figure(response: Response) -> Figure:
     grid = figure.add_gridspec(rows, 1)
     if response.curve is not None:
         third = grid[0].subgridspec(1, 3)
-        _bode([figure.add_subplot(third[k]) for k in range(3)], response.curve, response)
+        _bode([figure.add_subplot(third[k]) for k in range(3)], response.curve)
     if decays:
         quarter = grid[int(curved) :].subgridspec(decay_rows, _COLUMNS)
         for k, decay in enumerate(decays):
@@ -182,11 +184,13 @@ def response_figure(response: Response) -> Figure:
     if curved:
         keys.append(("95 % interval", {"color": _MEASURED.colour, "linewidth": 6.0, "alpha": 0.25}))
         keys.append(("coherence of chance, 95 %", {"color": REFERENCE_COLOUR, "linestyle": ":"}))
+    name = shown_name(f"{response.sensor}, {response.signal}")
+    headline(figure, f"{name}: {response_answer(response).verdict}")
     legend_below(figure, keys)
     return figure
 
 
-def _bode(panels: list[Axes], curve: ResponseCurve, response: Response) -> None:
+def _bode(panels: list[Axes], curve: ResponseCurve) -> None:
     driven = np.asarray(curve.driven) > 0.0
     frequency, value = curve.frequency_hz[driven], (curve.real + 1j * curve.imaginary)[driven]
     size, radius = np.abs(value), curve.radius_95[driven]
@@ -211,7 +215,6 @@ def _bode(panels: list[Axes], curve: ResponseCurve, response: Response) -> None:
     for panel, label in zip(panels, ("gain", "phase, deg", "coherence"), strict=True):
         panel.set_ylabel(label)
         panel.set_xlabel("frequency, Hz")
-    panels[0].set_title(shown_name(f"{response.sensor}, {response.signal}"), loc="left")
 
 
 def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:

@@ -20,6 +20,7 @@ from forcetorque.results.figures import (
     SMALL_PANEL_POINTS,
     draw_over_time,
     drawable,
+    headline,
     in_figure_style,
     instants,
     legend_below,
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 
 _TAXEL, _NORMAL = look(1), look(0)
 _ARROW_MM = 10.0
+_UNIT = 1e-3
+"""Largest difference of the length of a unit normal from 1: files give few digits."""
 
 
 @in_figure_style
@@ -73,10 +76,20 @@ def skin_layout_figure(positions: FloatArray, normals: Mapping[str, FloatArray])
         _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), places, arrows, title=name)
         for column, plane in enumerate(PLANES):
             _draw_plane(figure.add_subplot(grid[row, column + 2]), places[:, plane], arrows[:, plane], plane)
+    headline(figure, _unit_normals(normals))
     normal_key = {"color": _NORMAL.colour, "linestyle": "-"}
     taxel_key = {"color": _TAXEL.colour, "linestyle": "none", "marker": "o", "markerfacecolor": "none"}
     legend_below(figure, [("taxels", taxel_key), (f"normals, {_ARROW_MM:g} mm long", normal_key)])
     return figure
+
+
+def _unit_normals(normals: Mapping[str, FloatArray]) -> str:
+    """How many normals have a direction, by what they are."""
+    lengths = {name: np.linalg.norm(vectors, axis=1) for name, vectors in normals.items()}
+    return "Normals of length 1: " + ", ".join(
+        f"{(np.abs(length - 1.0) < _UNIT).sum()} of {len(length)} {shown_name(name)}"
+        for name, length in lengths.items()
+    )
 
 
 def _draw_space(panel: Any, places: FloatArray, arrows: FloatArray, *, title: str) -> None:
@@ -146,6 +159,9 @@ def taxel_figure(picture: TaxelPicture) -> Figure:
         (one, picture.names[0]),
     ):
         panel.set_title(shown_name(title), loc="left")
+    least, most = (one(picture.fall.max(axis=0)) for one in (np.min, np.max))
+    highest = 1e-3 * float(picture.pressure.max())
+    headline(figure, f"At up to {highest:.3g} kPa the taxels fall by {least:.0f} to {most:.0f} counts")
     legend_below(
         figure,
         [
@@ -220,9 +236,24 @@ def skin_wrench_figure(picture: SkinWrenchPicture, reference: FloatArray | None 
     field, lines = figure.subplots(1, 2, width_ratios=(2.0, 3.0))
     _draw_field(figure, field, picture)
     _draw_forces(lines, picture, reference)
+    headline(figure, _force_message(picture, reference))
     keys = [(shown_name(name), _style(k)) for k, name in enumerate(picture.forces)]
     legend_below(figure, [*keys, *([] if reference is None else [("true force", _REFERENCE)])])
     return figure
+
+
+def _force_message(picture: SkinWrenchPicture, reference: FloatArray | None) -> str:
+    """What errs least; without a reference, the largest force."""
+    what = "force" if reference is None else "RMS error"
+    sizes = {
+        name: np.nanmax(force) if reference is None else np.sqrt(np.nanmean((force - reference) ** 2))
+        for name, force in picture.forces.items()
+        if np.isfinite(force).any()
+    }
+    if not sizes:
+        return "No force is known"
+    best = (max if reference is None else min)(sizes, key=sizes.__getitem__)
+    return f"{'Largest' if reference is None else 'Least'} {what}: {sizes[best]:.3g} N ({shown_name(best)})"
 
 
 def _draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> None:
@@ -278,6 +309,9 @@ def skin_event_figure(pictures: Sequence[SkinEventPicture]) -> Figure:
         sizes = drawable(picture.heuristic, name=f"{picture.stream}: heuristic", shape=(len(seconds),))
         time, lines = thinned_line(seconds, sizes[:, None])
         draw_over_time(panel, time, lines[:, 0], look(k), turn=k, count=len(pictures))
+    largest = max(pictures, key=lambda picture: float(np.nanmax(picture.heuristic, initial=0.0)))
+    value = float(np.nanmax(largest.heuristic, initial=0.0))
+    headline(figure, f"Largest heuristic, not newtons: {value:.3g} ({shown_name(largest.stream)})")
     panel.set_xlabel("time, s")
     panel.set_ylabel("heuristic, not newtons")
     panel.set_ylim(bottom=0.0)

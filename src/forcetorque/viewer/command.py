@@ -104,7 +104,7 @@ def view(
         log.info("%s", note)
     shown = View.of(built)
     if output is not None:
-        shown = shown.model_copy(update={"file": str(output), "file_bytes": write_view(output, built)})
+        shown = shown.model_copy(update={"file": str(output), "file_bytes": write_view(output, built, log.info)})
         for layout in view_files(output)[1:]:
             log.info("layout for Foxglove written to %s", layout)
     if video is not None:
@@ -136,7 +136,7 @@ def _serve(
     from forcetorque.viewer.scene_builder import View
 
     log = start_logging()
-    served = packed(built)
+    served = packed(built, log.info)
     page = page_of(served, data_url=DATA_URL, annotations_url=ANNOTATIONS_URL)
     session = Session(path, built, log.info)
     try:  # around all of it: who reads the address may interrupt before the command waits

@@ -25,6 +25,7 @@ from pydantic import ValidationError
 
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.progress import Progress
 from forcetorque.base.validation_text import first_error
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
 from forcetorque.viewer.packing import packed
@@ -93,13 +94,16 @@ def page_of(
     return "".join(page).encode()
 
 
-def write_page(path: Path, built: BuiltScene, *, assets: Traversable | None = None) -> int:
+def write_page(
+    path: Path, built: BuiltScene, *, assets: Traversable | None = None, progress: Progress = lambda _: None
+) -> int:
     """Write the page as one file that works offline, also from disk.
 
     Args:
         path: File to write or to replace.
         built: The scene.
         assets: Folder of the template and the bundle; that of the package if None.
+        progress: As of `packed`.
 
     Returns:
         Its size; bytes.
@@ -112,7 +116,7 @@ def write_page(path: Path, built: BuiltScene, *, assets: Traversable | None = No
             f"{path}: expected at most {MOST_SAMPLES} samples for one file, got {built.scene.samples}; leave out "
             "--output to look at all of them from this machine"
         )
-    page = page_of(packed(built), assets=assets)
+    page = page_of(packed(built, progress), assets=assets)
     write_bytes_atomically(path, page)
     return len(page)
 

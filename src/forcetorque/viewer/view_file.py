@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from forcetorque.base.progress import Progress
 from forcetorque.viewer.page import write_page
 from forcetorque.viewer.scene_builder import BuiltScene
 
@@ -46,12 +47,13 @@ def require_writer(path: Path) -> None:
         typestore(path)
 
 
-def write_view(path: Path, built: BuiltScene) -> int:
+def write_view(path: Path, built: BuiltScene, progress: Progress = lambda _: None) -> int:
     """Write a scene as the ending of the file says: `.rrd`, `.mcap` with a layout beside it, else the page.
 
     Args:
         path: File to write or to replace.
         built: The scene.
+        progress: As of `viewer.packing.packed`, for the page.
 
     Returns:
         Size of the file; bytes.
@@ -70,4 +72,4 @@ def write_view(path: Path, built: BuiltScene) -> int:
         size = write_mcap(path, log)
         write_layout(path, log)
         return size
-    return write_page(path, built)
+    return write_page(path, built, progress=progress)

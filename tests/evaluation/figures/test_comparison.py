@@ -45,6 +45,19 @@ def test_the_legend_states_the_difference(drawn: list[Figure]) -> None:
     ]
 
 
+def test_the_title_names_what_errs_least_in_force_and_in_moment(drawn: list[Figure]) -> None:
+    """By hand, for one calibration, for two that are each better in one, and where a component is always absent."""
+    force, moment = (REFERENCE + np.eye(6)[k] * size for k, size in ((0, 2.0), (5, 0.5)))
+    comparison_figure(TIME, REFERENCE, {"ex situ": force})
+    comparison_figure(TIME, REFERENCE, {"ex situ": force, "in situ": moment})
+    comparison_figure(TIME, REFERENCE, {"ex situ": np.where(np.arange(6) == 1, np.nan, force)})
+    assert [figure.get_suptitle() for figure in drawn] == [
+        "RMS error: force 2 N, moment 0 N m",
+        "Least RMS error: force 0 N (in situ), moment 0 N m (ex situ)",
+        "No sample has all six components",
+    ]
+
+
 @pytest.mark.long
 def test_agreement_hides_neither() -> None:
     """A candidate equal to the reference is seen between its dashes, and the reference is not covered."""

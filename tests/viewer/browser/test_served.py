@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -13,24 +15,70 @@ from forcetorque.viewer.page import ViewerServer, page_of
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
+if TYPE_CHECKING:
+    from playwright.sync_api import Request
+
 pytestmark = [pytest.mark.browser, pytest.mark.long]
 
-PIECE_BYTES = 4 * 1024 * 1024
+PIECE_BYTES = 1 << 18
+NO_REST = """const before = window.fetch;
+window.fetch = (...all) =>
+    document.documentElement.dataset.ready ? Promise.reject(new Error("the server has ended")) : before(...all);"""
+"""Nothing comes any more that is not waited for."""
 
 
-def test_data_come_in_pieces(visit: Visit, tmp_path: Path) -> None:
-    """All of a block that is longer than a piece arrives, and nothing is asked for twice."""
-    long = arm_scene(tmp_path, samples=20_000)
-    pieces = -(-len(long.built.block) // PIECE_BYTES)
-    assert pieces > 1
+@pytest.fixture
+def long(tmp_path: Path) -> Arm:
+    """A scene of some pieces."""
+    scene = arm_scene(tmp_path, samples=20_000)
+    assert len(scene.built.block) > 4 * PIECE_BYTES
+    return scene
+
+
+@pytest.mark.parametrize("script", [NO_REST, ""], ids=["on demand", "the rest later"])
+def test_data_come_in_pieces_first_those_that_are_shown(visit: Visit, long: Arm, script: str) -> None:
+    """Numbers are the library's, before and after the rest has come; no byte comes twice."""
+    total = len(long.built.block)
+    ranges: list[tuple[int, int]] = []
+
+    def note(request: Request) -> None:
+        if request.url.endswith("data.bin"):
+            first, last = request.headers["range"].removeprefix("bytes=").split("-")
+            ranges.append((int(first), min(int(last) + 1, total)))
+
     with ViewerServer(page_of(long.built, data_url="data.bin"), long.built.block, None) as server:
-        page = visit.go(server.url)
+        page = visit.blank(offline=False)
+        page.on("request", note)
+        page.add_init_script(script)
+        page.goto(server.url)
+        page.evaluate("window.ft.ready")
+        while not script and sum(end - start for start, end in ranges) < total:
+            page.wait_for_timeout(20)
+        before = len(ranges)
         page.evaluate("window.ft.show(19999)")
-        assert page.evaluate("window.ft.sample()") == 19_999
         hand = page.evaluate("window.ft.linkPoses(19999).hand[3]")
     assert hand == pytest.approx(long.link_pose("hand", 19_999)[0, 3], abs=1e-6)
-    assert sum(url.endswith("data.bin") for url in visit.requests) == pieces
-    assert len(visit.requests) == pieces + 1
+    ordered = sorted(ranges)
+    assert [end <= start for (_, end), (start, _) in pairwise(ordered)] == [True] * (len(ordered) - 1)
+    if script:
+        assert sum(end - start for start, end in ranges) < total, "what is not shown has not come"
+    else:
+        assert len(ranges) == before, "nothing was missing"
+        assert (ordered[0][0], ordered[-1][1]) == (0, total)
+
+
+@pytest.mark.parametrize("kind", ["fetch", "xhr"])
+def test_a_server_that_has_ended_is_named(visit: Visit, long: Arm, kind: str) -> None:
+    """Who waits for what does not come learns what to do."""
+    with ViewerServer(page_of(long.built, data_url="data.bin"), long.built.block, None) as server:
+        page = visit.blank(offline=False)
+        page.route(
+            "**/data.bin", lambda route: route.abort() if route.request.resource_type == kind else route.continue_()
+        )
+        page.goto(server.url)
+        page.get_by_role("alert").get_by_text("the server does not answer; start the command again").wait_for()
+    assert visit.errors, "the browser reports it too"
+    visit.errors.clear()
 
 
 def test_saved_samples_are_written_beside_the_experiment(visit: Visit, arm: Arm) -> None:

@@ -25,11 +25,13 @@ from forcetorque.results.figures import (
     draw_over_time,
     drawable,
     drawable_each,
+    headline,
     in_figure_style,
     instants,
     legend_below,
     looks,
     new_figure,
+    rms_sizes,
     rms_words,
     shown_name,
     text_inches,
@@ -90,8 +92,22 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
     for panel in panels[2::3]:
         panel.set_xlabel("time, s")
     figure.align_ylabels()
+    headline(figure, _message({name: values - known for name, values in by_name.items()}))
     legend_below(figure, keys)
     return figure
+
+
+def _message(errors: Mapping[str, FloatArray]) -> str:
+    """What errs least in force, and what in moment."""
+    known = {name: sizes for name, error in errors.items() if (sizes := rms_sizes(error)) is not None}
+    if not known:
+        return "No sample has all six components"
+    texts = []
+    for k, (quantity, unit) in enumerate((("force", "N"), ("moment", "N m"))):
+        best = min(known, key=lambda name: known[name][k])
+        source = f" ({shown_name(best)})" if len(errors) > 1 else ""
+        texts.append(f"{quantity} {known[best][k]:.3g} {unit}{source}")
+    return f"{'Least RMS error' if len(errors) > 1 else 'RMS error'}: {', '.join(texts)}"
 
 
 def _difference(error: FloatArray) -> str:
@@ -155,6 +171,7 @@ def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> 
         (f"{shown_name(name)}: {_size(values)}, {_effective(correlations[name])}", by_look[name].key)
         for name, values in by_name.items()
     ]
+    headline(figure, _message(by_name))
     legend_below(figure, [*keys, ("ρ of white noise: 95 % lie within", _BAND)], title=_MEANING)
     return figure
 
