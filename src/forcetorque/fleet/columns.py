@@ -21,7 +21,6 @@ UNITS: Final[Mapping[str, str]] = MappingProxyType(
         "raw": "count",
         "extreme_raw": "count",
         "full_scale": "count",
-        "load_full_scale": "N, N m",
         "limit_counts": "count",
         "reference": "N, N m",
         "flattening": "N, N m",

@@ -211,7 +211,8 @@ class DaskPool:
         except ImportError:
             raise MissingExtraError(f"--dask needs dask.distributed: {install_line('fleet')}") from None
         try:
-            client: Any = Client(self.address, timeout=_WAIT_S, set_as_default=False)
+            connect: Any = Client  # without types of its own
+            client = connect(self.address, timeout=_WAIT_S, set_as_default=False)
         except (OSError, ValueError, TimeoutError) as error:
             raise ForceTorqueError(
                 f"--dask {self.address}: expected the scheduler of a Dask cluster, none answered within {_WAIT_S:g} s "
