@@ -386,7 +386,7 @@ def _write_rows(stream: IO[bytes], record: SensorRecord) -> None:
         for row in _rows(record):
             writer.write_table(columns_of(SensorRecord, [row], _METADATA))
             if row.moments is not None:
-                forget_pages(block.model for block in row.moments.intervals)
+                forget_pages(block.model for block in row.moments.intervals if block.model is not None)
 
 
 def _rows(record: SensorRecord) -> Iterator[SensorRecord]:

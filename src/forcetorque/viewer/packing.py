@@ -154,8 +154,8 @@ class _Rest:
 def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
     """What a linear map of other wrenches leaves; None where it leaves more than constants."""
     table, other = _columns(values), _columns(base)
-    known = np.isfinite(other).all(axis=0)
-    both: BoolArray = known & np.isfinite(table).all(axis=0)
+    known: BoolArray = np.asarray(np.isfinite(other).all(axis=0))
+    both: BoolArray = np.asarray(known & np.isfinite(table).all(axis=0))
     changes = both[1:] & both[:-1]
     lost = np.isfinite(table[:, ~known]).any()  # a value that the map of an absent one would hide
     if lost or changes.sum() < _FEWEST * len(table):
@@ -175,8 +175,7 @@ def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
 
 def _linear_map(before: FloatArray, after: FloatArray) -> FloatArray:
     """Least squares by the normal equations: who uses the map sees what it leaves."""
-    matrix: FloatArray = np.linalg.lstsq(before @ before.T, before @ after.T, rcond=None)[0].T
-    return matrix
+    return np.asarray(np.linalg.lstsq(before @ before.T, before @ after.T, rcond=None)[0].T, dtype=np.float64)
 
 
 def _columns(values: npt.NDArray[Any]) -> FloatArray:
@@ -286,7 +285,7 @@ def _filled(table: FloatArray, absent: BoolArray) -> FloatArray:
     last = np.maximum.accumulate(np.where(absent, -1, np.arange(table.shape[1])), axis=1)
     first = np.argmax(~absent, axis=1)[:, None]
     filled = np.take_along_axis(table, np.where(last < 0, first, last), axis=1)
-    return np.where(absent.all(axis=1)[:, None], 0.0, filled)
+    return np.where(np.asarray(absent.all(axis=1))[:, None], 0.0, filled)
 
 
 def _steps(filled: FloatArray) -> FloatArray:
