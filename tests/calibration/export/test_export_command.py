@@ -138,6 +138,7 @@ def test_the_offset_of_several_sessions_is_said_to_be_the_last(run: Run, tmp_pat
 
 
 def test_warnings_of_the_fit_are_named(run: Run, leg: Path, tmp_path: Path) -> None:
+    """A fault of the bench goes with every file that is made of its calibration."""
     fault = "SIM001: positions 4 and 9 are swapped"
     doubted = make_calibration().model_copy(update={"warnings": (fault,)})
     done = run(_written(tmp_path / "doubted.json", doubted), "--to", "icub-matrix", "-o", tmp_path / "matrix.txt")
