@@ -216,3 +216,20 @@ def test_contradictions_are_refused(axis: Path, old: str, new: str, words: str) 
     edit(axis, old, new)
     with pytest.raises(ForceTorqueError, match=words):
         calibrate_sensor(_run(axis)[1], code_version="test", created="now")
+
+
+def test_the_lines_of_the_page_are_read(tmp_path: Path) -> None:
+    """They state a load cell along fz whose log is in newtons; nothing reads those without its sensor."""
+    page = (Path(__file__).resolve().parents[2] / "docs/calibration/arm.md").read_text(encoding="utf-8")
+    lines = page.split("## A sensor of fewer components")[1].split("```toml\n")[1].split("```")[0]
+    head = (
+        'schema = "forcetorque/experiment/1"\nname = "foot"\nload = { frame = "foot_ft", motion = "none" }\n'
+        '[recording]\nformat = "tabular"\npath = "."\n'
+    )
+    (tmp_path / "log.csv").write_text("time,fz\n" + "".join(f"{0.01 * k},{-40.0 - k}\n" for k in range(300)))
+    (tmp_path / "foot.toml").write_text(f'{head}{lines}[[interval]]\nlabel = "all"\nuse = "ignore"\nstart_s = 0.0\n')
+    experiment = load_experiment(tmp_path / "foot.toml")
+    (sensor,) = experiment.sensors
+    assert sensor.prior is not None
+    assert np.array_equal(measured_components(sensor.prior), np.arange(6) == 2)
+    assert experiment.recording.stream("foot").signal("raw").values[:2].ravel().tolist() == [-40.0, -41.0]
