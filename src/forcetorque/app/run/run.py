@@ -449,7 +449,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         way.answers = tuple(without)
     if fitted.joint is not None:
         at_once = f"{len(fitted.calibrations)} sensors are fitted at once, as by `calibrate --jointly`"
-        way.answers = tuple(replace(one, why=(*one.why[:1], at_once, *one.why[1:])) for one in way.answers)
+        way.answers = tuple(replace(one, why=(at_once, *one.why)) for one in way.answers)
     way.answers = _with_double_support(way)
     forbidden = [use for use in uses if use.decision == "do not use"]
     if forbidden:
