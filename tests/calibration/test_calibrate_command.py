@@ -66,8 +66,29 @@ def test_the_answer_counts_many_intervals(arm: Path, run: Run) -> None:
         calibration_answer(calibration, None, "made.json", saved=True, doubtful=False).why[0]
         for calibration in (fitted, campaign)
     )
-    assert f"samples of {interval.label}: residual" in one
+    assert f"{fitted.provenance.means} means of 1 s of {interval.label}: residual" in one
     assert several == one.replace(f"of {interval.label}:", "of 200 intervals:")
+
+
+def test_a_fit_to_fewer_means_than_unknowns_states_no_residual(arm: Path, run: Run) -> None:
+    """Four means fit any sensor exactly; a residual of zero would be no measure of its noise."""
+    run("calibrate", PARQUET, "-o", "made.json", "--format", "json").result()
+    fitted = read_calibration("made.json")
+    assert fitted.posterior is not None
+    unknowns = fitted.posterior.mean.shape[1]
+    words = [
+        calibration_answer(
+            fitted.model_copy(update={"provenance": fitted.provenance.model_copy(update={"means": count})}),
+            None,
+            "made.json",
+            saved=True,
+            doubtful=False,
+        ).why[0]
+        for count in (unknowns, unknowns + 1)
+    ]
+    assert "too few to leave a residual" in words[0]
+    assert "residual 0.0" not in words[0]
+    assert "(RMS of the norm)" in words[1]
 
 
 def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:

@@ -15,6 +15,7 @@ from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.evaluation.evaluation import validation_errors
+from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, UNMEASURED, use_verdicts
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.experiment import Experiment
@@ -149,6 +150,26 @@ def test_load_cell_is_calibrated_and_evaluated(axis: Path, run: Run) -> None:
     assert mine.excitation_Nm > 0.0
 
 
+def test_verdict_names_the_components_that_are_not_measured(axis: Path) -> None:
+    """Their cross-talk is most of the error, which no recording lowers; without it the cause is another."""
+    with axis.open("a", encoding="utf-8") as file:
+        file.write('\n[[load_case]]\nname = "push"\nforce_N = 20.0\nradius_m = 0.2\n')
+        file.write('offset = "tared"\nforce_error_N = 0.01\n')
+    _, own = _run(axis)
+    calibration = calibrate_sensor(own, code_version="test", created="now")
+    (verdict,) = use_verdicts(own, {"cell.json": calibration})
+    remedies = [reason.remedy for reason in verdict.reasons]
+    assert verdict.decision == "do not use"
+    assert remedies.count(UNMEASURED) == 2  # of the error that is measured, and that is predicted
+    posterior = calibration.posterior
+    assert posterior is not None
+    mean = np.where(np.arange(posterior.mean.shape[1]) == 2, posterior.mean, 0.0)
+    alone = calibration.model_copy(update={"posterior": posterior.model_copy(update={"mean": mean})})
+    (verdict,) = use_verdicts(own, {"cell.json": alone})
+    assert LOOK_FOR_CAUSE in [reason.remedy for reason in verdict.reasons]
+    assert UNMEASURED not in [reason.remedy for reason in verdict.reasons]
+
+
 def test_inspect_says_what_it_cannot_test(axis: Path) -> None:
     """No fault is named where six components would be needed; a reading that runs backwards is."""
     experiment, _ = _run(axis)
@@ -230,3 +251,20 @@ def test_contradictions_are_refused(axis: Path, old: str, new: str, words: str) 
     edit(axis, old, new)
     with pytest.raises(ForceTorqueError, match=words):
         calibrate_sensor(_run(axis)[1], code_version="test", created="now")
+
+
+def test_the_lines_of_the_page_are_read(tmp_path: Path) -> None:
+    """They state a load cell along fz whose log is in newtons; nothing reads those without its sensor."""
+    page = (Path(__file__).resolve().parents[2] / "docs/calibration/arm.md").read_text(encoding="utf-8")
+    lines = page.split("## A sensor of fewer components")[1].split("```toml\n")[1].split("```")[0]
+    head = (
+        'schema = "forcetorque/experiment/1"\nname = "foot"\nload = { frame = "foot_ft", motion = "none" }\n'
+        '[recording]\nformat = "tabular"\npath = "."\n'
+    )
+    (tmp_path / "log.csv").write_text("time,fz\n" + "".join(f"{0.01 * k},{-40.0 - k}\n" for k in range(300)))
+    (tmp_path / "foot.toml").write_text(f'{head}{lines}[[interval]]\nlabel = "all"\nuse = "ignore"\nstart_s = 0.0\n')
+    experiment = load_experiment(tmp_path / "foot.toml")
+    (sensor,) = experiment.sensors
+    assert sensor.prior is not None
+    assert np.array_equal(measured_components(sensor.prior), np.arange(6) == 2)
+    assert experiment.recording.stream("foot").signal("raw").values[:2].ravel().tolist() == [-40.0, -41.0]

@@ -140,3 +140,13 @@ def test_a_foot_of_which_the_gain_is_doubted_is_not_called_faulty(run: Run, data
     result = run("inspect", path, "--format", "json").result()
     assert "implausible_scale" in {finding["kind"] for finding in result["findings"]}
     assert "FAULT" not in run("inspect", path).out.splitlines()[0]
+
+
+def test_without_a_sensor_nothing_is_to_be_calibrated() -> None:
+    """A file of joints alone is looked at; one with a sensor goes its whole way."""
+    inspection = _inspection()
+    alone = inspection_answer(inspection.model_copy(update={"has_sensor": False}))
+    assert (alone.step, alone.command) == ("look at it, or state a [[sensor]] to calibrate", "view walk.toml")
+    with_sensor = inspection_answer(inspection)
+    assert "calibrate the sensors" in with_sensor.step
+    assert (with_sensor.command or "").startswith("run ")

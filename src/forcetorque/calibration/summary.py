@@ -50,11 +50,15 @@ def calibration_answer(
     labels = [interval.label for interval in source.intervals]
     intervals = ", ".join(labels) if len(labels) <= _MOST_INTERVALS else counted(len(labels), "interval")
     force, moment = (float(np.linalg.norm(calibration.residual_rms[part])) for part in FORCE_AND_MOMENT)
-    fitted = f"{source.samples} samples of {intervals}: residual {force:.2f} N, {moment:.3f} N m (RMS of the norm)"
+    fitted = f"{source.samples} samples" if source.means is None else f"{counted(source.means, 'mean')} of 1 s"
+    unknowns = 0 if calibration.posterior is None else calibration.posterior.mean.shape[1]
+    residual = f"residual {force:.2f} N, {moment:.3f} N m (RMS of the norm)"
+    if source.means is not None and source.means <= unknowns:
+        residual = f"too few to leave a residual, with {unknowns} unknowns per component: record longer"
     return Answer(
         subject=f"{sensor.name} ({sensor.serial}), {file}",
         verdict=("FITTED, WITH WARNINGS" if doubtful else "FITTED") if saved else "FITTED, NOT WRITTEN YET",
-        why=(fitted, *((learnt_words(learnt),) if learnt else ())),
+        why=(f"{fitted} of {intervals}: {residual}", *((learnt_words(learnt),) if learnt else ())),
         step="evaluate it on data that were not fitted",
         command=typed("evaluate", EXPERIMENT, "-c", file),
         concern=Concern.UNCERTAIN if doubtful else Concern.NONE,

@@ -267,6 +267,9 @@ def inspection_answer(inspection: Inspection) -> Answer:
     notes = [row.message for row in inspection.findings if is_about_all(row, inspection.duration_s)]
     source, is_experiment = inspection.source, inspection.source.endswith(".toml")
     begin, go_on = typed("init", source, "-o", "experiment.toml"), typed("run", source, "-o", "results")
+    step = _NEXT[is_experiment]
+    if not inspection.has_sensor:
+        step, go_on = "look at it, or state a [[sensor]] to calibrate", typed("view", source)
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
     in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
     spoiling = [event for event in grouped if event.spoils(in_use)]
@@ -289,7 +292,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
             subject=subject,
             verdict="REMARKS" if notes else "NOTHING FOUND",
             why=more,
-            step=_NEXT[is_experiment],
+            step=step,
             command=go_on if is_experiment else begin,
             concern=Concern.UNCERTAIN if notes else Concern.NONE,
         )
@@ -301,16 +304,16 @@ def inspection_answer(inspection: Inspection) -> Answer:
         subject=subject,
         verdict=f"{len(grouped)} EVENT{'S' * (len(grouped) > 1)}",
         why=(*shown, *((f"{rest} less harmful one(s)",) if rest else ()), bar, *more),
-        step=_step_of_events(spoiling) if is_experiment else _NEXT[False],
+        step=_step_of_events(spoiling, step) if is_experiment else step,
         command=(typed("init", "--resume", source) if spoiling else go_on) if is_experiment else begin,
         concern=Concern.UNCERTAIN,
     )
 
 
-def _step_of_events(spoiling: Sequence[Event]) -> str:
+def _step_of_events(spoiling: Sequence[Event], step: str) -> str:
     if spoiling:
         return "leave these events out of every [[interval]]"
-    return f"no interval has a sample of them that is used: {_NEXT[True]}"
+    return f"no interval has a sample of them that is used: {step}"
 
 
 def _most_harmful(grouped: Iterable[Event], in_use_s: Sequence[tuple[float, float]]) -> list[Event]:

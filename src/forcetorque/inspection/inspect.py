@@ -112,6 +112,8 @@ class Inspection(Result):
     """The calibration of the maker, where the file is one."""
     in_use_s: tuple[tuple[float, float], ...] = ()
     """Begin and end of the intervals for calibration and validation; s from the earliest stamp; none of a log."""
+    has_sensor: bool = Field(default=True, exclude=True, repr=False)
+    """Whether the experiment file states a sensor or skin; true of a log."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
@@ -185,7 +187,8 @@ def inspect_log(
     progress(f"reading {source}")
     unread = _without_experiment(source, log_format)
     if unread is None and calibration is None:
-        return _inspection(str(source), *_recorded(source, log_format, progress))
+        recording, findings, has_sensor = _recorded(source, log_format, progress)
+        return _inspection(str(source), recording, findings, has_sensor=has_sensor)
     if unread is not None and calibration is None:
         return unread
     if unread is not None or log_format is not None or recognised_format(source) is not None:
@@ -222,7 +225,9 @@ def inspected(
     return _inspection(source or str(experiment.file), experiment.recording, findings)
 
 
-def _inspection(source: str, recording: Recording, findings: Iterable[Finding]) -> Inspection:
+def _inspection(
+    source: str, recording: Recording, findings: Iterable[Finding], *, has_sensor: bool = True
+) -> Inspection:
     start, end = recording.span_ns
     return Inspection(
         source=source,
@@ -230,6 +235,7 @@ def _inspection(source: str, recording: Recording, findings: Iterable[Finding]) 
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
         clocks=clock_rows(recording.clocks),
+        has_sensor=has_sensor,
         in_use_s=tuple(
             ((one.start_ns - start) * 1e-9, (min(one.end_ns, end) - start) * 1e-9)
             for one in recording.intervals
@@ -277,7 +283,8 @@ def _prior(source: Path) -> PriorFile:
     return replace(file, notes=(words,))
 
 
-def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...]]:
+def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...], bool]:
+    """Recording and findings of a log or an experiment file, and as of `Inspection.has_sensor`."""
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
     log_format = recognised_format(source) if name is None else format_named(name)
@@ -287,24 +294,24 @@ def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recor
         findings = inspect_recording(recording)
         if isinstance(log_format, RobotLoggingFormat):
             findings = (*robot_findings(log_format.robot(source), recording), *findings)
-        return recording, findings
+        return recording, findings, True
     if source.is_dir():
         raise not_recognised(source)
     parsed = _parsed(source)
     patches = load_patches(source) if parsed.table(PATCHES) else None
     if patches is not None and not parsed.sensor:
-        return patches.recording, inspect_patches(patches)
+        return patches.recording, inspect_patches(patches), True
     if patches is None and not parsed.sensor:
         recording = load_experiment(source, Purpose.DISPLAY).recording
-        return recording, inspect_recording(recording)
+        return recording, inspect_recording(recording), False
     try:
         experiment = load_experiment(source)
     except RecordingError:
         recording = load_tried_clocks(source)
         if all(clock.undetermined is None for clock in recording.clocks):
             raise
-        return recording, inspect_recording(recording)
-    return experiment.recording, _of_experiment(experiment, patches, progress=progress)
+        return recording, inspect_recording(recording), True
+    return experiment.recording, _of_experiment(experiment, patches, progress=progress), True
 
 
 def _of_experiment(

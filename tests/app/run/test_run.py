@@ -290,16 +290,21 @@ def test_the_robot_s_file_is_written_only_of_a_sensor_that_may_be_used(folder: P
 
 @pytest.mark.long
 @pytest.mark.real_data
-def test_sensors_of_a_standing_leg_are_fitted_all_at_once(run: Run, tmp_path: Path) -> None:
-    """One of them cannot be fitted alone, and has no verdict; nobody takes the result for usable."""
+def test_sensors_of_a_standing_leg_are_fitted_all_at_once(tmp_path: Path) -> None:
+    """One of them cannot be fitted alone, and has no verdict, with the reason; nobody takes the result for usable."""
     file = Path(__file__).parents[3] / "examples" / "15_icub_yoga_jointly.toml"
-    outcome = run("run", file, "-o", tmp_path / "out", "--no-report", "--format", "json")
-    result = json.loads(outcome.out)
-    assert outcome.code == 1
-    assert "4 of 4 sensors, all at once" in result["stages"][2]["text"]
-    assert {Path(name).name for name in result["files"]} >= {"l_leg_ft_sensor_SN217.json", "r_leg_ft_sensor_SN026.json"}
-    assert {use["sensor"] for use in result["load_cases"]} == {"r_leg_ft_sensor", "r_foot_ft_sensor"}
-    assert result["stages"][3]["text"].count("no verdict") == 2
+    result = forcetorque.run(file, tmp_path / "out", with_report=False)
+    assert result.exit_code == 1
+    assert "4 of 4 sensors, all at once" in result.stages[2].text
+    assert {Path(name).name for name in result.files} >= {"l_leg_ft_sensor_SN217.json", "r_leg_ft_sensor_SN026.json"}
+    assert {use.sensor for use in result.load_cases} == {"r_leg_ft_sensor", "r_foot_ft_sensor"}
+    assert result.stages[3].text.count("no verdict") == 2
+    answers = list(result.answers())
+    without = [one for one in answers if one.verdict.startswith("NO VERDICT: ")]
+    assert len(without) == 2
+    assert all(len(one.verdict) > len("NO VERDICT: ") and one.verdict[12:] in one.why[1] for one in without)
+    assert len(answers) == 4
+    assert all("4 sensors are fitted at once, as by `calibrate --jointly`" in one.why for one in answers)
 
 
 @pytest.mark.long

@@ -137,6 +137,21 @@ def test_the_offset_of_several_sessions_is_said_to_be_the_last(run: Run, tmp_pat
         assert ("its offset is of the last session, 'friday'" in done.err) == (session is not None)
 
 
+def test_warnings_of_the_fit_are_named(run: Run, leg: Path, tmp_path: Path) -> None:
+    """A fault of the bench goes with every file that is made of its calibration."""
+    fault = "SIM001: positions 4 and 9 are swapped"
+    doubted = make_calibration().model_copy(update={"warnings": (fault,)})
+    done = run(_written(tmp_path / "doubted.json", doubted), "--to", "icub-matrix", "-o", tmp_path / "matrix.txt")
+    assert done.code == 0
+    first, why, *_ = done.out.splitlines()
+    assert first.endswith("WRITTEN AS icub-matrix, WITH WARNINGS")
+    assert fault in why
+    assert "doubted.json: fitted with the warning: " in done.err
+    sound = run(leg, "--to", "icub-matrix", "-o", tmp_path / "sound.txt")
+    assert "fitted with the warning" not in sound.err
+    assert "WITH WARNINGS" not in sound.out
+
+
 def test_full_scales_can_be_kept(run: Run, leg: Path, tmp_path: Path) -> None:
     """Six given full scales stand in the file; one that cannot hold its row is refused with the smallest that can."""
     output = tmp_path / "matrix.txt"

@@ -95,6 +95,24 @@ def test_a_table_of_a_sensor_alone_asks_for_the_sensor_alone(tmp_path: Path, mak
     assert [row.kind for row in inspect_log(tmp_path / "x.toml").findings] == []
 
 
+@pytest.mark.parametrize(("components", "offered"), [(("fz",), True), (("fx", "fy", "fz"), True), ((), False)])
+def test_a_sensor_of_fewer_components_is_offered(tmp_path: Path, components: tuple[str, ...], offered: bool) -> None:
+    """Its columns are not taken for a sensor, and the answer and the file say so; the offered lines are read."""
+    names = ("time", *components, "shoulder", "elbow")
+    rows = np.column_stack([0.01 * np.arange(300), np.random.default_rng(5).normal(size=(300, len(names) - 1))])
+    log = _written(tmp_path, "\n".join([",".join(names), *(",".join(map(str, row)) for row in rows)]))
+    draft = draft_experiment(log, tmp_path / "x.toml", urdf=tmp_path / "robot.urdf")
+    (answer,) = draft.answers()
+    assert any("not read: of a load cell or a sensor of three axes" in why for why in answer.why) is offered
+    assert ('# quantity = "raw"' in draft.content) is offered
+    if offered:
+        lines = draft.content.replace("# [[recording", "[[recording")
+        for key in ("quantity", "columns", "units"):
+            lines = re.sub(rf"^# {key} = ", f"{key} = ", lines, flags=re.MULTILINE)
+        signal = tomllib.loads(lines)["recording"]["stream"][0]["signal"][-1]
+        assert signal == {"quantity": "raw", "columns": list(components), "units": ["counts"] * len(components)}
+
+
 NAMES = ("t", "fx", "fy", "fz", "tx", "ty", "tz")
 
 

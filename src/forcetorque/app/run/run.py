@@ -437,7 +437,9 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
             if fitted.joint is None:
                 raise
             subject = f"{name} ({campaign.sensor.serial}), {Path(entry.file).name}"
-            without.append(Answer(subject=subject, verdict="NO VERDICT", why=(str(error),), concern=Concern.UNCERTAIN))
+            reason = str(error).partition("; ")[0]  # the rest is a remedy, which why has
+            verdict = f"NO VERDICT: {reason}"
+            without.append(Answer(subject=subject, verdict=verdict, why=(str(error),), concern=Concern.UNCERTAIN))
     way.uses = tuple(uses)
     if evaluations:
         evaluation = Evaluation.together(evaluations)
@@ -445,6 +447,9 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         way.answers = (*evaluation.answers(), *without)
     elif without:
         way.answers = tuple(without)
+    if fitted.joint is not None:
+        at_once = f"{len(fitted.calibrations)} sensors are fitted at once, as by `calibrate --jointly`"
+        way.answers = tuple(replace(one, why=(at_once, *one.why)) for one in way.answers)
     way.answers = _with_double_support(way)
     forbidden = [use for use in uses if use.decision == "do not use"]
     if forbidden:

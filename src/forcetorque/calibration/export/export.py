@@ -23,9 +23,12 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.formats.icub_matrix import encode_matrix, serial_number_in_name, write_matrix_file
-from forcetorque.results.answer import Answer
+from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Table, WrenchValues
+
+_MOST_WARNINGS = 2
+"""Warnings about the fit that an answer names; `warnings` has all."""
 
 
 class ExportedCalibration(Row):
@@ -57,6 +60,8 @@ class ExportedCalibration(Row):
     """icub-matrix: full scale; N, N m."""
     largest_rounding_error: WrenchValues | None = None
     """icub-matrix: largest error that rounding the matrix makes anywhere in the fitted raw range; N, N m."""
+    fit_warnings: tuple[str, ...] = ()
+    """Warnings that the calibration holds about its data, such as a fault of the bench."""
 
     @property
     def offset_text(self) -> str:
@@ -157,9 +162,11 @@ class Export(Result):
         for entry in self.calibrations:
             yield Answer(
                 subject=f"{entry.sensor} ({entry.serial})",
-                verdict=f"{'WRITTEN AS' if self.file else 'FOR'} {self.format.value}",
-                why=(f"offset: {self.offset_handling}", entry.fitted_text),
+                verdict=f"{'WRITTEN AS' if self.file else 'FOR'} {self.format.value}"
+                f"{', WITH WARNINGS' if entry.fit_warnings else ''}",
+                why=(*entry.fit_warnings[:_MOST_WARNINGS], f"offset: {self.offset_handling}", entry.fitted_text),
                 written=(self.file,) if self.file else (),
+                concern=Concern.UNCERTAIN if entry.fit_warnings else Concern.NONE,
             )
 
     def blocks(self) -> Iterator[Table | str]:
@@ -459,13 +466,15 @@ def _entry(
         session=calibration.sessions[-1].name if len(calibration.sessions) > 1 else None,
         variables={variable.name: variable.coefficients for variable in calibration.variables},
         variables_stored=variables_stored,
+        fit_warnings=calibration.warnings,
         fitted_minimum=None if calibration.validity.loads is None else calibration.validity.loads.minimum,
         fitted_maximum=None if calibration.validity.loads is None else calibration.validity.loads.maximum,
     )
 
 
 def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
-    """What the file does not hold, or the robot does not take from it."""
+    """What was wrong with the fitted data, and what the file does not hold or the robot does not take from it."""
+    yield from (f"{entry.calibration}: fitted with the warning: {warning}" for warning in entry.fit_warnings)
     if not entry.offset_stored:
         yield f"{entry.calibration}: offset {entry.offset_text}: {form.offset_handling}"
     if entry.session is not None:

@@ -317,6 +317,7 @@ def _provenance(recordings: Sequence[RecordingMoments], *, code_version: str, cr
         experiment="; ".join(dict.fromkeys(recording.experiment for recording in recordings)),
         intervals=tuple(interval.interval for interval in intervals),
         samples=sum(interval.samples for interval in intervals),
+        means=sum(len(interval.time_s) for interval in intervals),
         dropped=sum(interval.dropped for interval in intervals),
         unusable=UnusableCounts.total(interval.unusable for interval in intervals),
         inputs_sha256=_inputs(recordings),

@@ -9,6 +9,7 @@ from typing import Annotated, Final, Literal, Protocol
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
@@ -166,6 +167,11 @@ LOOK_FOR_CAUSE: Final = (
     "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
+UNMEASURED: Final = (
+    "Most of this error is what the components that the sensor does not measure add to those that it does: keep their "
+    "loads off the sensor, state the loads of the use as [[load_case]], or measure all six components."
+)
+"""About an error that follows from loads in components that a sensor of fewer than six does not measure."""
 KEEP_PRIOR: Final = (
     "Keep the prior matrix, which erred less on these data, until the cause is found: `forcetorque inspect` names "
     "contacts, steps, delays and losses; look for masses that the robot model lacks, too."
@@ -351,7 +357,10 @@ class LoadCaseAssessment:
             yield Reason(against=None, text=text)
         else:
             text += f"; the chance that it is within that is {100.0 * chance:.0f} %"
-            remedy = error_reduction_advice(self.after, self.case.requirement)
+            quantity, _ = largest_source(self.after, self.case.requirement)
+            size, part = getattr(self.after, quantity).typical, FORCE if quantity == "force" else MOMENT
+            unmeasured = self._is_unmeasured(self.case.wrench, part, size)
+            remedy = UNMEASURED if unmeasured else error_reduction_advice(self.after, self.case.requirement)
             yield Reason(against="data", text=text, remedy=remedy)
 
     @property
@@ -427,20 +436,22 @@ class LoadCaseAssessment:
         # a share of loads that hardly moved is no limit that an error can contradict
         limits_error = static is None or self.case.name != RECORDED
         expected = self._expected_there()
-        for quantity, unit, _ in self.quantities:
+        for quantity, unit, part in self.quantities:
             allowed = self.limits[quantity]
             error: MeasuredError = getattr(self.measured, quantity)
             if limits_error:
                 yield from self._constant(error, quantity, unit, allowed, self.loads[quantity])
+            unmeasured = self._is_unmeasured(self.measured.moved, part, error.rest)
+            cause = UNMEASURED if unmeasured else LOOK_FOR_CAUSE
             rest = f"on data that were not fitted its {quantity} error is {amount(error.rest, unit)} (RMS)"
             if error.rest_at_least > allowed and limits_error:
                 text = f"{rest} without the constant part, {amount(allowed, unit)} allowed"
-                yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
+                yield Reason(against="use", text=text, remedy=cause)
             elif expected is not None and error.rest_at_least > expected[quantity]:
                 text = (
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
-                yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
+                yield Reason(against="data", text=text, remedy=cause)
         if static is not None:
             yield Reason(against="data", text=f"{static}; evaluate it on data that move", remedy=VALIDATE_MOVING_LOADS)
 
@@ -456,6 +467,11 @@ class LoadCaseAssessment:
                 f'{amount(limit, unit)} allowed; tare it before use, and state offset = "tared" in [[load_case]]'
             )
             yield Reason(against="use", text=text, remedy=TARE)
+
+    def _is_unmeasured(self, loads: FloatArray, part: slice, error: float) -> bool:
+        """Whether most of a mean square error is what loads in components that are not measured add to the others."""
+        added = np.zeros_like(loads) if self.posterior is None else loads @ self.posterior.cross_talk.T
+        return float((added[:, part] ** 2).sum(axis=1).mean()) > 0.5 * error**2
 
     def _expected_there(self) -> dict[str, float] | None:
         """Error that is predicted, at most, at the loads of the validation data; noise that is slow included."""

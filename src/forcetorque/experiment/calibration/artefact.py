@@ -137,7 +137,7 @@ class Calibration(StoredTable):
     offset_standard_error: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None
     """Standard error of the offset, likewise; N, N m."""
     residual_rms: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
-    """Root mean square residual on the FITTED samples; N, N m."""
+    """Root mean square residual on what was FITTED, means over a second or samples; N, N m."""
     lambda_counts2: Lambda | None
     """Lambda of a thesis' type, convention of thesis (5.4); None where every row has its own, see `selection`, and for
     the generative model, which has none."""

@@ -70,6 +70,9 @@ class Provenance(StoredTable):
     """The fitted intervals."""
     samples: int = Field(ge=0)
     """Number of fitted samples."""
+    means: int | None = Field(default=None, ge=0)
+    """Number of their means over a second that the generative model was fitted to; None where single samples were, and
+    in earlier files."""
     dropped: int = Field(ge=0)
     """Samples of the intervals that were left out."""
     unusable: UnusableCounts = UnusableCounts()

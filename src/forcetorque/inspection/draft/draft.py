@@ -43,7 +43,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, relative
-from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names
+from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names, few_components
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
@@ -107,6 +107,8 @@ class Draft(Result):
     """Changes of a file that was taken up again."""
     notes: tuple[str, ...]
     """Findings about the log, and reasons for what is unknown."""
+    few_components: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
+    """Columns of a sensor of fewer than six components, which are not read; none where a sensor was found."""
     robot_file: str | None = None
     """URDF that was written from the log's own description; None for none."""
     sensor_files: tuple[str, ...] = ()
@@ -134,10 +136,17 @@ class Draft(Result):
             )
             return
         step = "fill in what is asked, then check the file" if count else "read the file, then go on"
+        few = (
+            f"{listed(self.few_components)} not read: of a load cell or a sensor of three axes, take the lines that "
+            "the file has as comments, and state its [[sensor]]"
+        )
         yield Answer(
             subject=self.file,
             verdict=f"{count} LINE{'S' * (count != 1)} TO FILL IN" if count else "COMPLETE",
-            why=self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",),
+            why=(
+                *(self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",)),
+                *((few,) if self.few_components else ()),
+            ),
             step=step,
             command=typed(*("inspect" if count else self._next).split(), self.file),
             written=(self.robot_file, *self.sensor_files),
@@ -269,6 +278,7 @@ def draft_experiment(
     for path, sensor in beside.items():
         other, *_ = _written(without_streams(log, others), (sensor,), priors, folder, model, robot)
         write_bytes_atomically(path, other.encode())
+    tables = [stream.table for stream in log.streams if stream.table is not None and stream.table.is_table]
     questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
     return Draft(
         file=str(file),
@@ -276,6 +286,7 @@ def draft_experiment(
         streams={} if recording is None else stream_rows(recording.streams),
         questions=questions,
         notes=notes,
+        few_components=() if found else tuple(column for table in tables for column in few_components(table).values()),
         robot_file=None if robot_file is None else str(robot_file),
         sensor_files=tuple(map(str, beside)),
         content=text,

@@ -282,8 +282,35 @@ def _signal_lines(
             question("units", "unit of each column"),
         ]
     elif rest:
-        lines += ["", remark(f"not read: {listed(rest)}")]
+        lines += ["", remark(f"not read: {listed(rest)}"), *_few_component_lines(sketch)]
     return lines
+
+
+def few_components(sketch: LogSketch) -> dict[str, str]:
+    """Find the columns of a sensor of fewer than six components, which is only read where the file says so.
+
+    Args:
+        sketch: The table.
+
+    Returns:
+        Columns by component, fx to tz; none where there are all six.
+    """
+    names = {read_heading(column.name).name.lower(): column.name for column in sketch.columns}
+    columns = {component: names[component] for component in WRENCH_COMPONENTS if component in names}
+    return columns if len(columns) < len(WRENCH_COMPONENTS) else {}
+
+
+def _few_component_lines(sketch: LogSketch) -> list[str]:
+    columns = few_components(sketch)
+    if not columns:
+        return []
+    components = toml_value(list(columns))
+    signal = ("quantity", "raw"), ("columns", list(columns.values())), ("units", ["counts"] * len(columns))
+    lines = ["[[recording.stream.signal]]", *(line(key, value) for key, value in signal)]
+    return [
+        remark(f"a load cell or a sensor of three axes is read so, by a [[sensor]] with components = {components}:"),
+        *(f"# {text}" for text in lines),
+    ]
 
 
 def _group_lines(
