@@ -31,6 +31,8 @@ def main() -> None:
 
     options = CorrectorOptions(quantity=HeldQuantity.WRENCH, policy=FaultPolicy.REFUSE)
     corrector = Corrector(read_calibration(arguments.calibration), options)
+    if corrector.variables[0]:
+        parser.error(f"the calibration needs {', '.join(corrector.variables[0])}, which a WrenchStamped lacks")
     rclpy.init()
     node = rclpy.create_node("forcetorque_live")
     publisher = node.create_publisher(WrenchStamped, arguments.output, 10)

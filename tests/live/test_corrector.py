@@ -140,6 +140,24 @@ def test_each_fault_is_named() -> None:
     assert status_text(0) == "ok"
 
 
+@pytest.mark.parametrize("offset", OffsetSource)
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_gravity_that_is_not_finite_is_a_fault_of_its_sample(offset: OffsetSource, bad: float) -> None:
+    """During a tare and after it: that sample alone has the fault, and the bias is learnt from the others."""
+    tool, rng = Tool(mass_kg=0.8, centre_m=np.array([0.01, 0.0, 0.05])), np.random.default_rng(0)
+    options = CorrectorOptions(offset=offset, tare_s=0.1, tool=tool, take_tool_off=True)
+    corrector, faulty = Corrector(make_calibration(), options), []
+    for k in range(100):
+        gravity = np.array([bad if k in (5, 50) else 0.0, 0.0, -9.81])
+        sample = corrector.correct(RAW + rng.normal(0.0, 1.0, 6), stamp_ns=k * 10 * MS, gravity=gravity)
+        if sample.status[0] & FAULTS:
+            faulty.append((k, sample.status[0] & FAULTS))
+        assert np.isfinite(sample.wrench).all() == (k not in (5, 50))
+    assert faulty == [(5, Status.NOT_FINITE), (50, Status.NOT_FINITE)]
+    assert np.isfinite(corrector.bias).all()
+    assert np.abs(corrector.bias).max() > 1.0 or offset is OffsetSource.FITTED
+
+
 @pytest.mark.parametrize("policy", FaultPolicy)
 def test_faults_are_treated_as_stated(policy: FaultPolicy) -> None:
     """A fault of one sensor leaves the other alone."""

@@ -20,14 +20,17 @@ from forcetorque.calibration.export.wholebodydynamics import from_calibration, w
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.live.choices import HeldQuantity, Input, OffsetSource
+from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.program_check import program_checks
 from forcetorque.live.result import LiveRun
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.settings import Settings
 from forcetorque.live.stated_source import make_run
+from forcetorque.live.tool import Tool
 from forcetorque.payload.robot_files.export import export_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.results.answer import Concern
 from tests.scenes.calibrations import make_calibration, make_variable
 
 DIGITS = 1e-6
@@ -56,13 +59,19 @@ def _stream(count: int = 40) -> str:
     return "\n".join([COLUMNS, *(",".join(map(repr, row)) for row in rows.tolist())]) + "\n"
 
 
-def _run(calibration: Calibration, checks: list[str], pose: Any = None, **stated: Any) -> LiveRun:
+def _run(
+    calibration: Calibration,
+    checks: list[str],
+    pose: Any = None,
+    text: str = "",
+    **stated: Any,
+) -> LiveRun:
     settings = Settings(
         form=Input.CSV, quantity=HeldQuantity.RAW, channels=("c1,c2,c3,c4,c5,c6",), stamp="t:s",
         variables=("temperature=T",) if calibration.variables else (), **stated,
     )  # fmt: skip
     with TemporaryFile() as file:
-        file.write(_stream().encode())
+        file.write((text or _stream()).encode())
         file.seek(0)
         source, correctors = make_run(settings, [calibration], descriptor=file.fileno(), warn=lambda _: None)
         programs = program_checks(checks, correctors, sensor_pose=pose)
@@ -76,14 +85,14 @@ def test_wholebodydynamics_corrects_as_the_calibration(tmp_path: Path) -> None:
     correction, file = from_calibration(calibration), tmp_path / "wbd.xml"
     write_groups(file, [correction])
     check = _run(calibration, [f"wholebodydynamics={file}"]).checks[0]
-    assert (check.samples, check.outside) == (40, 0)
+    assert (check.samples, check.outside) == (40, None)
     assert check.force_difference_N < DIGITS
     assert check.moment_difference_Nm < DIGITS
     plain = _with_posterior(make_calibration())
     correction = from_calibration(plain)
     write_groups(file, [correction])
-    result = _run(plain, [f"wholebodydynamics={file}"], offset=OffsetSource.TARE, tare_s=0.1)
-    assert result.checks[0].force_difference_N < DIGITS  # also after a tare
+    result = _run(plain, [f"wholebodydynamics={file}"])
+    assert (result.checks[0].samples, result.checks[0].outside) == (40, 0)
     write_groups(file, [replace(correction, offset=-correction.offset)])
     result = _run(plain, [f"wholebodydynamics={file}"])
     (check,) = result.checks
@@ -93,6 +102,12 @@ def test_wholebodydynamics_corrects_as_the_calibration(tmp_path: Path) -> None:
     assert 1e-4 < check.force_half_width_95_N < NORMAL_95 * 30e-4
     answer = next(result.answers())
     assert "40 of 40 samples beyond the interval" in " ".join(answer.why)
+    assert "wbd.xml" in answer.step
+    without = _run(make_calibration(), [f"wholebodydynamics={file}"])
+    assert (without.checks[0].samples, without.checks[0].outside) == (40, None)
+    answer = next(without.answers())
+    assert answer.concern is Concern.UNCERTAIN
+    assert "in 40 samples; no interval to judge by" in " ".join(answer.why)
 
 
 def _of_sensor(load: RobotLoad, path: Path, form: LoadFormat) -> str:
@@ -104,6 +119,7 @@ def _of_sensor(load: RobotLoad, path: Path, form: LoadFormat) -> str:
 TOOL: dict[str, Any] = {
     "tool_mass_kg": 0.8, "tool_centre_m": "0.01,-0.02,0.05", "take_tool_off": True, "gravity": "gx,gy,gz",
 }  # fmt: skip
+TAKEN_OFF = CorrectorOptions(tool=Tool(mass_kg=0.8, centre_m=np.zeros(3)), take_tool_off=True)
 CHANGES: dict[str, Callable[[str], str]] = {
     "gravity-filter": lambda text: text.replace("[0.0, 0.0, ", "[0.0, 0.0, -").replace("--", ""),
     "ur": lambda text: text.replace("(0.8,", "(0.9,"),
@@ -139,6 +155,53 @@ def test_loads_are_taken_off_as_the_tool(tmp_path: Path, form: str, direction: M
     assert check.outside > 30
 
 
+def _filter_file(folder: Path) -> str:
+    load = RobotLoad(
+        sensor="leg_ft", frame="ft", direction=make_calibration().sensor.measure_direction, mass=1.8,
+        centre_of_mass=np.array([0.01, -0.02, 0.05]), inertia=np.eye(3) * 0.01, bias=np.zeros(6),
+    )  # fmt: skip
+    return _of_sensor(load, folder / "filter.yaml", LoadFormat.GRAVITY_FILTER)
+
+
+def test_samples_without_gravity_are_not_compared(tmp_path: Path) -> None:
+    """Where it is zero or NaN; a file that is 1 kg off shows on the other samples; nothing else is claimed."""
+    entry, calibration = _filter_file(tmp_path), _with_posterior(make_calibration())
+    heading, *lines = _stream().splitlines()
+    for value in ("0", "nan"):
+        none = [",".join([*line.split(",")[:-3], *[value] * 3]) for line in lines]
+        result = _run(calibration, [entry], text="\n".join([heading, *none]) + "\n", **TOOL)
+        assert (result.checks[0].samples, result.checks[0].outside) == (0, None)
+        answer = next(result.answers())
+        assert "gravity-filter: no sample was compared" in " ".join(answer.why)
+        assert (answer.concern, "gravity" in answer.step) == (Concern.UNCERTAIN, True)
+        mixed = _run(calibration, [entry], text="\n".join([heading, *none[:20], *lines[20:]]) + "\n", **TOOL)
+        assert mixed.checks[0].samples == 20 == mixed.checks[0].outside
+        assert 1.0 < mixed.checks[0].force_difference_N < 9.81
+
+
+def test_the_frame_of_a_filter_is_that_of_the_reading(tmp_path: Path) -> None:
+    """Another one is refused; where none is stated, that it was not compared is said."""
+    entry, (corrector,) = _filter_file(tmp_path), [Corrector(make_calibration(), TAKEN_OFF)]
+    warnings: list[str] = []
+    program_checks([entry], [corrector], sensor_pose=None, warn=warnings.append)
+    assert "sensor_frame 'ft'" in warnings[0]
+    program_checks([entry], [corrector], sensor_pose=None, frame="ft", warn=warnings.append)
+    assert len(warnings) == 1
+    with pytest.raises(ForceTorqueError, match="expected 'ft_link', as --frame states, got 'ft'"):
+        program_checks([entry], [corrector], sensor_pose=None, frame="ft_link")
+
+
+def test_every_sensor_is_in_a_file(tmp_path: Path) -> None:
+    """One that no file has is named; a file for each is enough."""
+    both, files = [make_calibration(), make_calibration(name="other")], [tmp_path / "a.xml", tmp_path / "b.xml"]
+    for file, one in zip(files, both, strict=True):
+        write_groups(file, [from_calibration(one)])
+    entries, corrector = [f"wholebodydynamics={file}" for file in files], Corrector(both)
+    assert len(program_checks(entries, [corrector], sensor_pose=None)) == 2
+    with pytest.raises(ForceTorqueError, match="got none of other"):
+        program_checks(entries[:1], [corrector], sensor_pose=None)
+
+
 def test_what_a_check_needs_is_asked_for(tmp_path: Path) -> None:
     """Program, file, tool and pose, by name."""
     (tmp_path / "empty").write_text("", encoding="utf-8")
@@ -155,6 +218,13 @@ def test_what_a_check_needs_is_asked_for(tmp_path: Path) -> None:
     for entries, stated, pose, message in cases:
         with pytest.raises(ForceTorqueError, match=message):
             _run(calibration, entries, pose, **stated)
+    warm = tmp_path / "warm.xml"
+    write_groups(warm, [from_calibration(make_calibration(variables=(make_variable(),)))])
+    with pytest.raises(ForceTorqueError, match="FT_TEMPERATURE_COEFFICIENTS: expected a calibration with the variable"):
+        program_checks([f"wholebodydynamics={warm}"], [Corrector(calibration)], sensor_pose=None)
+    write_groups(warm, [from_calibration(calibration)])
+    with pytest.raises(ForceTorqueError, match="expected --offset fitted, got tare"):
+        _run(calibration, [f"wholebodydynamics={warm}"], offset=OffsetSource.TARE, tare_s=0.1)
     other = from_calibration(make_calibration(name="other"))
     write_groups(tmp_path / "wbd.xml", [other])
     with pytest.raises(ForceTorqueError, match="expected one of leg_ft, got other"):

@@ -31,6 +31,7 @@ from forcetorque.live.ros_topics import (
     topic_key,
 )
 from forcetorque.live.run import LiveLoop
+from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings
 from forcetorque.live.stated_source import make_run
 from forcetorque.live.zenoh_session import zenoh_session
@@ -166,9 +167,9 @@ def _joints(names: list[str], positions: list[float]) -> bytes:
     return bytes(types.serialize_cdr(message, JOINT_TYPE))
 
 
-def test_the_weight_of_a_tool_follows_from_joints(tmp_path: Path) -> None:
-    """Taken off in each posture, by positions that come in two messages; before they came a sample has a fault."""
-    urdf = tmp_path / "arm.urdf"
+def _tool(folder: Path) -> dict[str, Any]:
+    """A tool of 2 kg behind joint a about x and joint b about y."""
+    urdf = folder / "arm.urdf"
     urdf.write_text(
         """<robot name="arm"><link name="base"/><link name="upper"/><link name="ft_link"/>
         <joint name="a" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="1 0 0"/>
@@ -176,6 +177,14 @@ def test_the_weight_of_a_tool_follows_from_joints(tmp_path: Path) -> None:
         <joint name="b" type="revolute"><parent link="upper"/><child link="ft_link"/><axis xyz="0 1 0"/>
         <limit lower="-3" upper="3" effort="9" velocity="9"/></joint></robot>"""
     )
+    return {
+        "robot": urdf, "joints": "/joint_states", "base_gravity": "0,0,-9.81", "frame": "ft_link",
+        "tool_mass_kg": 2.0, "tool_centre_m": "0,0,0", "take_tool_off": True,
+    }  # fmt: skip
+
+
+def test_the_weight_of_a_tool_follows_from_joints(tmp_path: Path) -> None:
+    """Taken off in each posture, by positions that come in two messages; before they came a sample has a fault."""
     calibration = make_calibration(offset=np.zeros(6))
     sign = 1.0 if calibration.sensor.measure_direction.value.startswith("child") else -1.0
     weights = {(0.0, 0.0): [0.0, 0.0, -9.81], (np.pi / 2, 0.0): [0.0, -9.81, 0.0], (0.0, np.pi / 2): [9.81, 0.0, 0.0]}
@@ -191,12 +200,57 @@ def test_the_weight_of_a_tool_follows_from_joints(tmp_path: Path) -> None:
         return 1 + len(weights)
 
     result, session = _run(
-        send, robot=urdf, joints="/joint_states", base_gravity="0,0,-9.81", frame="ft_link", tool_mass_kg=2.0,
-        tool_centre_m="0,0,0", take_tool_off=True, calibration=calibration,
+        send, calibration=calibration, **_tool(tmp_path)
     )  # fmt: skip
     assert (result.sensors[0].device_errors, len(session.sent)) == (1, 3)
     for _, message, _ in session.sent:
         assert np.abs(read_wrench(message)[2]).max() < 1e-9
+
+
+_IN_G: dict[str, Any] = {
+    "robot": ARM_URDF, "joints": "/joint_states", "base_gravity": "0,0,-1", "frame": "tool", "tool_mass_kg": 1.0,
+    "tool_centre_m": "0,0,0", "take_tool_off": True,
+}  # fmt: skip
+
+
+def test_every_joint_must_have_come_lately(tmp_path: Path) -> None:
+    """A joint that is silent makes a fault, though another one comes; so does a position that is NaN."""
+    session, now = Loopback(), [0.0]
+    settings = Settings(ros2=("/ft/wrench",), **_tool(tmp_path))
+    source, (corrector,) = make_run(
+        settings, [make_calibration()], descriptor=0, warn=print, clock=lambda: now[0], ros=session
+    )
+    packets = (packet for packet in source.packets() if packet is not None)
+
+    def status(at_s: float, names: list[str], positions: list[float]) -> int:
+        now[0] = at_s
+        session.send("/joint_states", _joints(names, positions), None, JOINT_TYPE)
+        number = round(1e3 * at_s)
+        session.send("/ft/wrench", _wrench(10**6 * number), attachment(number, 0, PUBLISHER))
+        packet = next(packets)
+        return int(corrector.correct(packet.values, gravity=packet.gravity, faults=packet.faults).status[0])
+
+    assert status(1.0, ["a", "b"], [0.1, 0.2]) == 0
+    assert status(1.4, ["b"], [0.2]) == 0
+    assert status(1.6, ["b"], [0.2]) == Status.DEVICE
+    assert status(1.7, ["a"], [0.1]) == 0
+    assert status(1.8, ["a"], [np.nan]) == Status.NOT_FINITE
+    assert status(1.9, ["a"], [0.1]) == 0
+
+
+def test_stamps_that_begin_again_are_heard() -> None:
+    """As of `ros2 bag play --loop`, whose publisher counts on: after eight messages, at each of two turns."""
+
+    def send(session: Loopback) -> int:
+        for number in range(300):
+            stamp_ns = 10**9 + number % 100 * 10**7
+            session.send("/ft/wrench", _wrench(stamp_ns, values=PRIOR + number), attachment(number, 0, PUBLISHER))
+        return 300
+
+    result, session = _run(send)
+    assert len(session.sent) == 300 - 2 * 7
+    assert (result.packets.restarts, result.packets.backwards, result.packets.lost) == (2, 14, 0)
+    assert result.sensors[0].late == 14 == result.sensors[0].faulty
 
 
 @pytest.mark.parametrize(
@@ -211,6 +265,7 @@ def test_the_weight_of_a_tool_follows_from_joints(tmp_path: Path) -> None:
         ({"rate_hz": 10.0}, "--rate: not of --ros2"),
         ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "take_tool_off": True}, "got none of --robot, --joints"),
         ({"joints": "/joint_states"}, "got none of --robot, --base-gravity, --frame, --tool-mass"),
+        (_IN_G, "free fall of 9.7 to 9.9 m/s2, got one of 1"),
         ({"ros2": ()}, "expected one of --input"),
     ],
 )

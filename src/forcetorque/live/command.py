@@ -229,7 +229,7 @@ def live(
         source, correctors = make_run(
             settings, tuple(read.values()), descriptor=_STANDARD_INPUT, warn=log.warning, ros=ros
         )
-        checks = program_checks(check or [], correctors, sensor_pose=sensor_pose)
+        checks = program_checks(check or [], correctors, sensor_pose=sensor_pose, frame=frame, warn=log.warning)
         names = [one.sensor.name for one in read.values()]
         frames = source.frames if isinstance(source, RosSource) else {name: frame or name for name in names}
         outputs: list[Output] = []

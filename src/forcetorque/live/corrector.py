@@ -252,7 +252,7 @@ class Corrector:
     def _offsets(self, stamp_ns: int | None, gravity: Any, faulty: bool) -> None:
         """Weigh the tool, and learn the bias."""
         if self.options.tool is not None:
-            self._weigh(gravity)
+            faulty |= self._weigh(gravity)
         if self.options.offset is OffsetSource.FITTED:
             return
         if stamp_ns is None:
@@ -260,15 +260,22 @@ class Corrector:
         np.subtract(self._wrench, self._weight, out=self._unloaded)
         self._learn(stamp_ns, (self._status & FAULTS) == 0 if faulty else None)
 
-    def _weigh(self, gravity: Any) -> None:
+    def _weigh(self, gravity: Any) -> bool:
+        """Weigh the tool; give whether gravity is not finite, which is a fault of the sample."""
         if gravity is None:
             raise RecordingError("a tool needs gravity in the frame of the reading with every sample, got none")
         directions = np.asarray(gravity, dtype=np.float64)
         # every reading has a frame of its own
         if directions.size != 3 * len(self._per_gravity) or directions.shape[-1:] != (3,):
             raise ShapeError(f"gravity: expected shape ({len(self._per_gravity)}, 3), got {directions.shape}")
-        for k, matrix in enumerate(self._per_gravity):
-            self._weight[k] = matrix @ directions.reshape(-1, 3)[k]
+        faulty = False
+        for k, (matrix, direction) in enumerate(zip(self._per_gravity, directions.reshape(-1, 3), strict=True)):
+            if np.isfinite(direction).all():
+                self._weight[k] = matrix @ direction
+            else:
+                self._weight[k], faulty = np.nan, True
+                self._status[k] |= Status.NOT_FINITE
+        return faulty
 
     def _learn(self, stamp_ns: int, usable: BoolArray | None) -> None:
         """Add to a tare and to the tracked bias; without `usable` no sensor has a fault."""

@@ -38,19 +38,21 @@ class JointGravity:
         """Acceleration of free fall in the frame; shape (3,); m/s2; NaN until all joints on the way have come."""
         self._tree, self._frame, self._base_gravity = build_tree(model, model.root_link), frame, base_gravity
         self._positions = dict.fromkeys(joints_between(self._tree, frame), np.nan)
-        self.is_constant = not self._positions
-        """Whether no joint moves the frame."""
+        self._came_s = dict.fromkeys(self._positions, -math.inf)
         self._turn()
 
-    def add(self, names: Sequence[str], positions: Sequence[float]) -> bool:
+    @property
+    def oldest_s(self) -> float:
+        """When the joint on the way that is silent for longest came; s, by the clock of `add`; infinite without any."""
+        return min(self._came_s.values(), default=math.inf)
+
+    def add(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
         """Take positions in.
 
         Args:
             names: Joints, in any order; others than those on the way to the frame are left out.
             positions: Their positions; rad, or m where prismatic; none where the message has none.
-
-        Returns:
-            Whether all joints on the way are known, and one of them came now.
+            now_s: Time of their arrival; s of any clock.
         """
         came = {
             name: value if math.isfinite(value) else math.nan
@@ -59,8 +61,8 @@ class JointGravity:
         }
         if came:
             self._positions |= came
+            self._came_s |= dict.fromkeys(came, now_s)
             self._turn()
-        return bool(came) and bool(np.isfinite(self.vector).all())
 
     def _turn(self) -> None:
         joints = JointMotion.at_rest(tuple(self._positions), np.array([list(self._positions.values())]))

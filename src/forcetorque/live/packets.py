@@ -7,6 +7,8 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+
 from forcetorque.base.arrays import FloatArray
 from forcetorque.live.sample_status import Status
 
@@ -22,6 +24,10 @@ _LEARNT: Final = 0.0025
 """The same share by which the period itself moves: a quarter of the square of that above damps it critically."""
 _FARTHEST_RATE: Final = 0.1
 """Share by which the rate of the sender may be off the stated one."""
+_FIRST: Final = 256
+"""Stamps by which the period is learnt first."""
+_ALIKE: Final = 0.2
+"""Length of the mean unit vector from which on stamps have a period: of random ones it is longer in 1 run of 500."""
 _DOUBTFUL: Final = 2
 """Samples within which one that is too early shows that one before was only late, and nothing lost."""
 
@@ -61,9 +67,9 @@ class PacketCounts:
     late: int = 0
     """Packets that came after one with a higher number or a later stamp."""
     backwards: int = 0
-    """Packets in sequence whose stamp is older than the one before."""
+    """Packets in sequence whose stamp is older than that of an earlier one."""
     restarts: int = 0
-    """Times that the sender began to count again."""
+    """Times that the sender began its numbers or stamps again."""
     unreadable: int = 0
     """Lines or datagrams that are no sample: wrong types, wrong lengths."""
     oversized: int = 0
@@ -93,6 +99,31 @@ class PacketCounts:
                 setattr(self, name, own + added)
 
 
+def _period_of(stamps_ns: list[int], stated_ns: float) -> float | None:
+    """Period, ns, within a tenth of the stated one at which stamps lie best on a grid; None where at none they do."""
+    at = (np.array(stamps_ns) - stamps_ns[0]) / stated_ns
+    if np.ptp(at) > 4 * _FIRST:
+        return None
+    # the sum of unit vectors is largest where multiples of the period are the stamps; gaps do not matter to it
+    rates = np.linspace(1.0 - _FARTHEST_RATE, 1.0 + _FARTHEST_RATE, 4 * _FIRST)
+    alike = np.abs(np.exp(2j * np.pi * np.outer(1.0 / rates, at)).mean(axis=1))
+    best = int(alike.argmax())
+    return float(stated_ns * rates[best]) if alike[best] > _ALIKE else None
+
+
+@dataclass(slots=True)
+class _OldOnes:
+    """Old numbers or stamps in a row."""
+
+    last: int = 0
+    count: int = 0
+
+    def begin_again(self, old: int, follows: bool) -> bool:
+        """Whether so many old ones followed each other that they are new ones."""
+        self.last, self.count = old, self.count + 1 if follows else 1
+        return self.count >= _RESTARTED
+
+
 class PacketAccount:
     """Decides of each packet whether it is new, repeated or late, and counts those that are lost."""
 
@@ -110,8 +141,9 @@ class PacketAccount:
         self._highest: int | None = None
         self._stamp_ns: int | None = None
         self._missing: OrderedDict[int, None] = OrderedDict()
-        self._old, self._old_in_a_row = 0, 0
+        self._old_numbers, self._old_stamps = _OldOnes(), _OldOnes()
         self._behind, self._doubtful, self._since_gap = 0.0, 0, 0
+        self._first_ns: list[int] = []
 
     def add(self, packet: Packet) -> Status:
         """Count a packet.
@@ -127,14 +159,28 @@ class PacketAccount:
             self.counts.countable = True
             status = self._begin(packet.sequence) if packet.begins else self._by_number(packet.sequence)
             if not status and packet.stamp_ns is not None:
-                if self._stamp_ns is not None and packet.stamp_ns < self._stamp_ns:
-                    self.counts.backwards += 1
-                self._stamp_ns = packet.stamp_ns
+                self._follow_clock(packet.stamp_ns)
             return status
         if packet.stamp_ns is None:
             return Status(0)
         self.counts.countable = self._period_ns is not None
-        return self._by_time(packet.stamp_ns)
+        status = self._by_time(packet.stamp_ns)
+        if self._stated_ns is not None and len(self._first_ns) < _FIRST:
+            self._first_ns.append(packet.stamp_ns)
+            if len(self._first_ns) == _FIRST:
+                self._count_again(1e9 / self._stated_ns)
+        return status
+
+    def _count_again(self, rate_hz: float) -> None:
+        """Count the losses among the first stamps by the period that these have."""
+        if (period_ns := _period_of(self._first_ns, 1e9 / rate_hz)) is None:
+            return
+        again = PacketAccount(rate_hz)
+        again._period_ns = period_ns
+        for stamp_ns in self._first_ns:
+            again._by_time(stamp_ns)
+        self.counts.lost, self._period_ns, self._behind = again.counts.lost, again._period_ns, again._behind
+        self._doubtful, self._since_gap = again._doubtful, again._since_gap
 
     def _by_number(self, number: int) -> Status:
         highest = self._highest
@@ -147,11 +193,12 @@ class PacketAccount:
             return Status.REPEATED
         if step <= min(_FARTHEST, self._modulus // 2):
             self._skip(highest, step - 1)
-            self._highest, self._old_in_a_row = number, 0
+            self._highest = number
+            self._old_numbers.count = 0
             return Status(0)
         if step < self._modulus // 2:
             return self._begin(number)
-        again = self._begins_again(number, number == self._old + 1)
+        again = self._old_numbers.begin_again(number, number == self._old_numbers.last + 1)
         if number in self._missing:
             del self._missing[number]
             self.counts.lost -= 1
@@ -166,13 +213,21 @@ class PacketAccount:
         """Count from here on, as the sender does."""
         self.counts.restarts += 1
         self._missing.clear()
-        self._highest, self._old_in_a_row, self._stamp_ns = number, 0, None
+        self._highest, self._stamp_ns = number, None
+        self._old_numbers.count = self._old_stamps.count = 0
         return Status(0)
 
-    def _begins_again(self, old: int, follows: bool) -> bool:
-        """Whether so many old numbers or stamps followed each other that they are new ones."""
-        self._old, self._old_in_a_row = old, self._old_in_a_row + 1 if follows else 1
-        return self._old_in_a_row >= _RESTARTED
+    def _follow_clock(self, stamp_ns: int) -> None:
+        """Count stamps that step back while numbers go on, until they are those of a clock that began again."""
+        if self._stamp_ns is not None and stamp_ns < self._stamp_ns and not self._stamps_begin_again(stamp_ns):
+            self.counts.backwards += 1
+        elif stamp_ns != self._stamp_ns:
+            self._stamp_ns, self._old_stamps.count = stamp_ns, 0
+
+    def _stamps_begin_again(self, stamp_ns: int) -> bool:
+        again = self._old_stamps.begin_again(stamp_ns, stamp_ns > self._old_stamps.last)
+        self.counts.restarts += again
+        return again
 
     def _skip(self, highest: int, count: int) -> None:
         self.counts.lost += count
@@ -187,9 +242,8 @@ class PacketAccount:
             if stamp_ns == before:
                 self.counts.repeated += 1
                 return Status.REPEATED
-            if self._begins_again(stamp_ns, stamp_ns > self._old):
-                self.counts.restarts += 1
-                self._stamp_ns, self._old_in_a_row, self._behind = stamp_ns, 0, 0.0
+            if self._stamps_begin_again(stamp_ns):
+                self._stamp_ns, self._old_stamps.count, self._behind = stamp_ns, 0, 0.0
                 return Status(0)
             if not self._is_found():
                 self._behind -= 1.0
@@ -212,7 +266,7 @@ class PacketAccount:
             period_ns = self._period_ns * (1.0 + learnt)
             farthest_ns = _FARTHEST_RATE * self._stated_ns
             self._period_ns = min(max(period_ns, self._stated_ns - farthest_ns), self._stated_ns + farthest_ns)
-        self._stamp_ns, self._old_in_a_row = stamp_ns, 0
+        self._stamp_ns, self._old_stamps.count = stamp_ns, 0
         return Status(0)
 
     def _is_found(self) -> bool:

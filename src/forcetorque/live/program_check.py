@@ -2,7 +2,7 @@
 """Programs of robots on the live stream: the arithmetic that they do with the file they are given, beside ours.
 
 A program that corrects readings gets what the sensor sends. One that takes a load off gets the corrected reading with
-the weight of the tool in it. Neither knows the bias of a tare, so that is left out of the comparison.
+the weight of the tool in it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.export.wholebodydynamics import SensorCorrection, corrected, read_groups
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.live.choices import HeldQuantity
+from forcetorque.live.choices import HeldQuantity, OffsetSource
 from forcetorque.live.corrector import Corrected, Corrector
 from forcetorque.live.packets import Packet
 from forcetorque.live.result import LiveCheck
@@ -53,13 +53,13 @@ class ProgramCheck:
     """What it takes off at a gravity in the frame of the reading; shapes (3,), (6,); m/s2; N, N m."""
     samples: int = 0
     """Samples that were compared."""
-    outside: int = 0
-    """Samples with a component that differs by more than its interval."""
+    outside: int | None = 0
+    """Samples with a component that differs by more than its interval; None without a posterior."""
     _largest: FloatArray = field(default_factory=lambda: np.zeros(2))
     _half_width: FloatArray = field(default_factory=lambda: np.full(2, np.nan))
 
     def add(self, packet: Packet, sample: Corrected) -> None:
-        """Compare a sample; one with a fault is left out.
+        """Compare a sample; one with a fault, or for which the program gives no finite wrench, is left out.
 
         Args:
             packet: What came.
@@ -68,7 +68,7 @@ class ProgramCheck:
         k = self.place
         if sample.status[k] & FAULTS:
             return
-        ours = sample.wrench[k] + self.corrector.bias[k]
+        ours = sample.wrench[k]
         if self.correction is not None:
             theirs = corrected(self.correction, self._reading(packet), self._temperature(packet))
         elif self.weight is not None and packet.gravity is not None:
@@ -76,8 +76,12 @@ class ProgramCheck:
         else:
             return
         difference, half_width = np.abs(theirs - ours), sample.half_width[k]
+        if not np.isfinite(difference).all():
+            return
         self.samples += 1
-        self.outside += bool((difference > half_width).any())
+        if self.outside is not None:
+            judged = not np.isnan(half_width).any()
+            self.outside = self.outside + bool((difference > half_width).any()) if judged else None
         for half in range(2):
             worst = 3 * half + int(difference[3 * half : 3 * half + 3].argmax())
             if difference[worst] >= self._largest[half]:
@@ -100,7 +104,7 @@ class ProgramCheck:
             force_half_width_95_N=force_half,
             moment_difference_Nm=moment,
             moment_half_width_95_Nm=moment_half,
-            outside=self.outside,
+            outside=self.outside if self.samples else None,
         )
 
     def _reading(self, packet: Packet) -> FloatArray:
@@ -121,7 +125,12 @@ class ProgramCheck:
 
 
 def program_checks(
-    entries: Sequence[str], correctors: Sequence[Corrector], *, sensor_pose: Sequence[float] | None
+    entries: Sequence[str],
+    correctors: Sequence[Corrector],
+    *,
+    sensor_pose: Sequence[float] | None,
+    frame: str | None = None,
+    warn: Callable[[str], None] = lambda _: None,
 ) -> list[ProgramCheck]:
     """Read what programs are given.
 
@@ -129,12 +138,14 @@ def program_checks(
         entries: `PROGRAM=FILE`.
         correctors: Correctors of the run.
         sensor_pose: Pose of the sensor in the flange of an arm: x, y, z, roll, pitch, yaw; m, rad; None for none.
+        frame: Frame of the reading; None where it is not stated.
+        warn: Called with what could not be compared.
 
     Returns:
         A comparison for every sensor of every file.
 
     Raises:
-        RecordingError: If a program is not known, or what it needs is not stated.
+        RecordingError: If a program is not known, what it needs is not stated, or no file has one of the sensors.
     """
     checks: list[ProgramCheck] = []
     for entry in entries:
@@ -146,6 +157,9 @@ def program_checks(
             checks += _corrections(file, correctors)
         else:
             checks.append(_load(program, file, correctors, sensor_pose))
+        if program == LoadFormat.GRAVITY_FILTER:
+            _require_frame(file, frame, warn)
+    _require_all_sensors(checks, correctors)
     if sensor_pose is not None and not any(check.program in READABLE_ARMS for check in checks):
         raise RecordingError("--sensor-pose: expected --check with the file of an arm, got none")
     return checks
@@ -167,9 +181,31 @@ def _corrections(file: Path, correctors: Sequence[Corrector]) -> list[ProgramChe
             f"--check {_WHOLE_BODY}={file}: expected one of {', '.join(names)}, got {', '.join(corrections)}"
         )
     for check in checks:
-        if check.corrector.options.take_tool_off:
+        options, calibration = check.corrector.options, check.corrector.calibrations[check.place]
+        if options.take_tool_off:
             raise RecordingError(f"--check {_WHOLE_BODY}: it takes no tool off: expected no --take-tool-off")
+        if options.offset is not OffsetSource.FITTED:
+            raise RecordingError(
+                f"--check {_WHOLE_BODY}: it adds the fitted offset, whose error a tare takes off: expected --offset "
+                f"fitted, got {options.offset}"
+            )
+        has_temperature = "temperature" in check.corrector.variables[check.place]
+        if check.correction and check.correction.temperature_coefficients is not None and not has_temperature:
+            raise RecordingError(
+                f"--check {_WHOLE_BODY}={file}: {calibration.sensor.name} has FT_TEMPERATURE_COEFFICIENTS: expected a "
+                "calibration with the variable 'temperature', got one without; export this calibration again"
+            )
     return checks
+
+
+def _require_all_sensors(checks: Sequence[ProgramCheck], correctors: Sequence[Corrector]) -> None:
+    compared = {check.corrector.calibrations[check.place].sensor.name for check in checks}
+    names = [one.sensor.name for corrector in correctors for one in corrector.calibrations]
+    if checks and (missing := [name for name in names if name not in compared]):
+        raise RecordingError(
+            f"--check: expected a correction of every sensor, got none of {', '.join(missing)}; export what is "
+            "missing, or leave its calibration out"
+        )
 
 
 def _load(
@@ -193,15 +229,24 @@ def _load(
     return ProgramCheck(program=program, file=file, corrector=corrector, place=0, weight=weight)
 
 
+def _require_frame(file: Path, frame: str | None, warn: Callable[[str], None]) -> None:
+    *_, of_file = read_gravity_filter(file)
+    if frame is None:
+        warn(f"{file}: its sensor_frame {of_file!r} is taken for the frame of the reading, whose name is not stated")
+    elif of_file != frame:
+        raise RecordingError(f"{file}: sensor_frame: expected {frame!r}, as --frame states, got {of_file!r}")
+
+
 def _filter_weight(file: Path) -> _Weight:
     """`mass * gravity_field`, turned into the sensor's frame, and its moment about the origin."""
-    mass, centre, along = read_gravity_filter(file)
+    mass, centre, along, _ = read_gravity_filter(file)
     if along[:2].any():
         raise RecordingError(f"{file}: gravity_field: expected it along z of the world, which points up, got {along}")
 
     def weight(gravity: FloatArray) -> FloatArray:
-        up = -gravity / np.linalg.norm(gravity)
-        force = mass * along[2] * up
+        if not (magnitude := np.linalg.norm(gravity)) > 0.0:  # it points nowhere
+            return np.full(6, np.nan)
+        force = mass * along[2] * -gravity / magnitude
         return np.concatenate([force, np.cross(centre, force)])
 
     return weight

@@ -65,9 +65,9 @@ class LivePackets(Row):
     late: Annotated[int, Shown("late")]
     """Packets that came after later ones."""
     backwards: Annotated[int, Shown("time steps back")]
-    """Packets whose stamp is older than the one before."""
+    """Packets in sequence whose stamp is older than that of an earlier one."""
     restarts: Annotated[int, Shown("restarts")]
-    """Times that the sender began to count again."""
+    """Times that the sender began its numbers or stamps again."""
     unreadable: Annotated[int, Shown("unreadable")]
     """Lines or datagrams that are no sample."""
     oversized: Annotated[int, Shown("oversized")]
@@ -101,8 +101,8 @@ class LiveCheck(Row):
     """Largest difference of a component of the moment; N m."""
     moment_half_width_95_Nm: FloatOrNull
     """Half-width of its 95 % interval."""
-    outside: Annotated[int, Shown("outside")]
-    """Samples with a component that differs by more than its interval."""
+    outside: Annotated[int | None, Shown("outside")]
+    """Samples with a component that differs by more than its interval; None without a sample or a posterior."""
 
 
 class LiveRun(Result):
@@ -125,7 +125,7 @@ class LiveRun(Result):
     slowest_s: FloatOrNull
     """Longest time from a packet to its lines; s; null without a packet."""
     output_file: str | None = None
-    """Parquet file; null where none was written."""
+    """Parquet file or bag; null where none was written."""
 
     def answers(self) -> Iterator[Answer]:
         """Give the answer for every sensor: samples, faults and losses.
@@ -137,9 +137,9 @@ class LiveRun(Result):
         for row in self.sensors:
             missing = "losses not countable" if lost is None else f"{lost} lost"
             packets = self.packets
-            outside = any(check.outside for check in self.checks if check.sensor == row.sensor)
+            unsure = any(check.outside != 0 for check in self.checks if check.sensor == row.sensor)
             bad = bool(
-                outside
+                unsure
                 or lost
                 or row.faulty
                 or packets.unreadable
@@ -151,7 +151,7 @@ class LiveRun(Result):
                 subject=f"{row.sensor} ({row.serial})",
                 verdict=f"{counted(row.samples, 'sample')}, {missing}, {row.faulty} with faults",
                 why=tuple(self._why(row)),
-                step=self._step(),
+                step=self._step(row),
                 written=(self.output_file,),
                 concern=Concern.UNCERTAIN if bad or not row.samples else Concern.NONE,
             )
@@ -193,7 +193,14 @@ class LiveRun(Result):
         if sentences:
             yield " ".join(sentences)
 
-    def _step(self) -> str:
+    def _step(self, row: LiveSensor) -> str:
+        for check in self.checks:
+            if check.sensor != row.sensor:
+                continue
+            if not check.samples:
+                return f"look at the faults of the samples, and at their gravity where {check.program} takes a load off"
+            if check.outside:
+                return f"compare matrix, offset, tool and frame of {check.file} with what is stated, or write it anew"
         if self.packets.lost is None:
             stamps = "" if self.stamps == "sender" else "--stamp and "
             return f"state {stamps}--rate, or --sequence (--envelope of yarp), so that lost samples are seen"
@@ -219,7 +226,9 @@ def _difference(check: LiveCheck) -> str:
     interval = (
         "" if check.force_half_width_95_N != check.force_half_width_95_N else f" ±{check.force_half_width_95_N:.2g}"
     )
-    outside = f"; {check.outside} of {counted(check.samples, 'sample')} beyond the interval" if check.outside else ""
+    samples = counted(check.samples, "sample")
+    outside = f" in {samples}" if not check.outside else f"; {check.outside} of {samples} beyond the interval"
+    outside += "; no interval to judge by" if check.outside is None else ""
     return (
         f"{check.program} differs by at most {check.force_difference_N:.2g}{interval} N, "
         f"{check.moment_difference_Nm:.2g} N m{outside}."

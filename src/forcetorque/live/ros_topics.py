@@ -40,7 +40,7 @@ _WAITING: Final = 10_000
 _REPLACED_S: Final = 1.0
 """Time without a message after which another publisher of the topic takes the place of the one that was heard; s."""
 _OLDEST_JOINTS_S: Final = 0.5
-"""Age of joint positions from which on they say nothing of where gravity points; s."""
+"""Time since a joint position came from which on it says nothing of where gravity points; s."""
 _NODE: Final = "forcetorque_live"
 
 
@@ -181,7 +181,6 @@ class RosSource:
         self._sensors, self._left = tuple(topics), messages
         self._heard: list[bytes | None] = [None] * len(topics)
         self._last_s = [0.0] * len(topics)
-        self._joints_s = -np.inf
         self._queue: queue.Queue[tuple[int | None, bytes, bytes | None]] = queue.Queue(_WAITING)
         for group, topic in enumerate(topics.values()):
             session.subscribe(topic_key(domain, topic, WRENCH_TYPE), self._taker(group))
@@ -225,8 +224,8 @@ class RosSource:
 
     def _take_joints(self, data: bytes) -> None:
         _, names, positions = read_positions(data)
-        if self._gravity is not None and self._gravity.add(names, positions):
-            self._joints_s = self._clock()
+        if self._gravity is not None:
+            self._gravity.add(names, positions, self._clock())
 
     def _packet(self, group: int, data: bytes, attached: bytes | None) -> Packet | None:
         number, identifier = read_attachment(attached)
@@ -242,7 +241,7 @@ class RosSource:
         gravity, faults = None, None
         if self._gravity is not None:
             gravity = self._gravity.vector
-            if not self._gravity.is_constant and now - self._joints_s > _OLDEST_JOINTS_S:
+            if now - self._gravity.oldest_s > _OLDEST_JOINTS_S:
                 faults = [int(Status.DEVICE)]
         return Packet(
             values=np.array([values]),

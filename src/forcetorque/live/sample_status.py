@@ -12,7 +12,7 @@ class Status(IntFlag):
     """State of one sample of one sensor; 0 where nothing is wrong."""
 
     NOT_FINITE = 1
-    """A channel or a variable is NaN or infinite."""
+    """A channel, a variable or the gravity that a tool needs is NaN or infinite."""
     SATURATED = 2
     """A channel is at the limit of the converter, or the device says so."""
     FROZEN = 4

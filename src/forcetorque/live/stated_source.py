@@ -35,6 +35,8 @@ _OF_LINES = ("channels", "variables", "status", "index", "stamp", "sequence", "g
 """What is stated of lines alone."""
 _OF_TOPICS = ("publish", "domain", "router", "robot", "joints", "base_gravity")
 """What is stated of topics alone."""
+_ON_EARTH = (9.7, 9.9)
+"""Range of the acceleration of free fall anywhere on earth, with a margin; m/s2."""
 
 
 def make_run(
@@ -196,6 +198,12 @@ def _joint_gravity(settings: Settings, sensors: int) -> JointGravity | None:
         raise RecordingError(f"a tool on a robot of ROS needs {', '.join(stated)}: got none of {', '.join(lacking)}")
     _require_gravity(settings, settings.joints, sensors)
     gravity = np.array(numbers_of("--base-gravity", settings.base_gravity or "", 3))
+    low, high = _ON_EARTH
+    if not low <= (magnitude := float(np.linalg.norm(gravity))) <= high:
+        raise RecordingError(
+            f"--base-gravity {settings.base_gravity}: expected a free fall of {low} to {high} m/s2, "
+            f"got one of {magnitude:g}"
+        )
     return JointGravity(read_urdf(settings.robot or ""), settings.frame or "", gravity)
 
 

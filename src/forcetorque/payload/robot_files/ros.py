@@ -100,14 +100,15 @@ def gravity_filter_text(load: RobotLoad, *, world_frame: str | None) -> str:
 _FILTER = ("mass", "CoG", "gravity_field")
 
 
-def read_gravity_filter(path: Path | str) -> tuple[float, FloatArray, FloatArray]:
+def read_gravity_filter(path: Path | str) -> tuple[float, FloatArray, FloatArray, str]:
     """Read the tool of a filter of a chain, in the style in which it is written here.
 
     Args:
         path: The file.
 
     Returns:
-        Mass, kg; centre of mass in the sensor's frame, shape (3,), m; field along the axes of the world, (3,), m/s2.
+        Mass, kg; centre of mass in the sensor's frame, shape (3,), m; field along the axes of the world, (3,), m/s2;
+        name of the sensor's frame.
 
     Raises:
         FormatError: If it is no chain with one such filter.
@@ -123,7 +124,10 @@ def read_gravity_filter(path: Path | str) -> tuple[float, FloatArray, FloatArray
             raise FormatError(f"{path}: {key}: expected it once, with {count} number(s), got {entries}")
         values.append([float(word) for word in words])
     (mass,), centre, field = values
-    return mass, np.array(centre), np.array(field)
+    frames = re.findall(r"^\s+sensor_frame:\s+[\"']?(.+?)[\"']?\s*$", text, re.MULTILINE)
+    if len(frames) != 1:
+        raise FormatError(f"{path}: sensor_frame: expected the name of a frame, once, got {frames}")
+    return mass, np.array(centre), np.array(field), frames[0]
 
 
 FT_TOOLS_DIRECTION = MeasureDirection.CHILD_TO_PARENT
