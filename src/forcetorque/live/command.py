@@ -269,8 +269,9 @@ def live(
         if watch:
             shown.show(loop, at_once=True)
     result = loop.result(ended_by, sum(one.lost for one in losing))
-    if output is not None:
-        result = result.model_copy(update={"output_file": str(output)})
+    result = result.model_copy(
+        update={"replayed": replay is not None, "output_file": None if output is None else str(output)}
+    )
     with redirect_stdout(sys.stderr):  # standard output is for lines
         show(result, output_format, details=details)
     if ended_by == "closed output":

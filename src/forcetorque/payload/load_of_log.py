@@ -220,6 +220,7 @@ def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: 
         line("stream", wrist.stream),
         line("serial", SERIAL, "of a sensor that a calibration is made of, its serial number"),
         line("prior", "identity"),
+        "# full_scale = [fx, fy, fz, tx, ty, tz]  # range of the sensor, N and N m, which `calibrate` needs",
         *_load_lines(wrist),
         *wrist_interval_lines(wrist),
     ]
