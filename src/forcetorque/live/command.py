@@ -176,7 +176,7 @@ def live(
         Format, typer.Option("--format", help="Form of the account at the end, on standard error.")
     ] = Format.TABLE,
 ) -> None:
-    """Correct wrenches while the robot runs, from lines, recordings, a box or topics of ROS 2.
+    """Correct wrenches while the robot runs, of lines, recordings, a box or ROS 2.
 
     Example: forcetorque live leg.json --input yarp --quantity wrench
 
