@@ -198,7 +198,7 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     step = "write it to a file that the robot reads"
     specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
     if not weighed.arms and weighed.log_format in _PROGRAMS:
-        return step, typed("payload", EXPERIMENT, "--to", _PROGRAMS[weighed.log_format], "-o", "load.txt")
+        return step, typed("payload", EXPERIMENT, "--to", _PROGRAMS[weighed.log_format].value, "-o", "load.txt")
     if not weighed.arms or weighed.arms[-1].controller == BAG:
         return step, typed("payload", EXPERIMENT, *specified, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
     return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")
