@@ -190,6 +190,28 @@ def test_a_tare_keeps_the_tool() -> None:
         assert np.abs(after.wrench[0] - expected).max() < np.abs(calibration.matrix).sum(axis=1).max() / 10.0
 
 
+@pytest.mark.parametrize("offset", [OffsetSource.TARE, OffsetSource.TRACKED])
+@pytest.mark.parametrize("moves_N", [0.0, 30.0])
+def test_a_tare_of_a_load_that_moves_is_named_and_begins_no_tracking(offset: OffsetSource, moves_N: float) -> None:
+    """A force that swings for half a second, in noise of 2 N; tracking begins in the first time without it."""
+    calibration, rng = make_calibration(), np.random.default_rng(3)
+    inverse = np.linalg.inv(calibration.matrix)
+    corrector = Corrector(calibration, CorrectorOptions(offset=offset, tare_s=0.2))
+    moved, is_tracked = [], []
+    for k in range(1000):
+        force = np.zeros(6)
+        force[0] = moves_N * np.sin(k / 50.0) * (k < 500)
+        force[:3] += 2.0 * rng.standard_normal(3)
+        corrector.correct(inverse @ force, stamp_ns=k * MS)
+        moved.append(corrector.tare_moved_N[0])
+        is_tracked.append(corrector.tracker is not None)
+    assert (max(moved) > 0.5 * moves_N) == (moves_N > 0.0)
+    assert max(moved) < 3.0 * moves_N + 1e-9
+    begun = 0 if not any(is_tracked) else is_tracked.index(True)
+    expected = {OffsetSource.TARE: range(1), OffsetSource.TRACKED: range(500, 850) if moves_N else range(200, 202)}
+    assert begun in expected[offset]
+
+
 @pytest.mark.parametrize("offset", OffsetSource)
 @pytest.mark.parametrize("take_off", [False, True])
 def test_intervals_hold_in_another_posture(offset: OffsetSource, take_off: bool) -> None:

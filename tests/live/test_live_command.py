@@ -22,8 +22,9 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.formats.ros.wrench_message import read_wrench
 from tests.app.outcome import Run
+from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.scenes.calibrations import make_calibration
-from tests.scenes.experiments import PARQUET
+from tests.scenes.experiments import PARQUET, edit
 
 
 @pytest.fixture
@@ -120,3 +121,24 @@ def test_a_process_ends_cleanly(fitted: Path, ending: str) -> None:
     assert pq.read_table(fitted / "live.parquet").num_rows >= 1
     assert "Traceback" not in err
     assert "BrokenPipe" not in err
+
+
+def test_a_tool_of_a_replayed_arm_is_weighed_by_the_gravity_of_its_log(tmp_path: Path, run: Run) -> None:
+    """From the load of a log to its calibration and a live run, in which the weight is off in every posture."""
+    tool, file, fitted = Tool(), tmp_path / "wrist.toml", tmp_path / "wrist.json"
+    log = write_text(tmp_path / "log.txt", recorded(tool, poses=10, samples=4, raw=True))
+    assert run("payload", log, "--save-experiment", file).code == 0
+    assert "\n# full_scale = " in file.read_text(encoding="utf-8")
+    assert run("calibrate", file, "-o", fitted).error().count("sensor 'wrist': ") == 1
+    edit(file, "# full_scale = [fx, fy, fz, tx, ty, tz]", "full_scale = [150, 150, 150, 10, 10, 10]")
+    assert 'next: add an [[interval]] with use = "validation"' in run("calibrate", file, "-o", fitted).out
+    assert "expected a calibration (`forcetorque calibrate` makes one), got a TOML" in run("live", file).error()
+    replay = ("live", fitted, "--replay", file, "--speed", 0, "--offset", "tare")
+    centre = ",".join(map(str, tool.centre))
+    weighed = run(*replay, "--tool-mass", tool.mass, "--tool-centre", centre, "--take-tool-off")
+    assert "The load moved" not in weighed.err
+    assert "next: state --rate, so that lost samples are seen" in weighed.err
+    forces = [float(row["fx_N"]) for row in csv.DictReader(io.StringIO(weighed.out))]
+    assert len(forces) == 40
+    assert np.abs(forces[10:]).max() < 0.5
+    assert np.abs([float(row["fx_N"]) for row in csv.DictReader(io.StringIO(run(*replay).out))][10:]).max() > 5.0

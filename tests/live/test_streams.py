@@ -96,6 +96,14 @@ def test_no_sample_is_lost_without_a_count() -> None:
     assert len(result.text(80).splitlines()) > 12  # with tables
 
 
+@pytest.mark.parametrize(("mark", "written"), [(";", ";"), ("\t", "\t"), (" ", "  "), (",", ", ")])
+def test_a_heading_without_commas_is_between_semicolons_tabs_or_blanks(mark: str, written: str) -> None:
+    """And the lines below it as the heading."""
+    lines = [("n,t," + CHANNELS + "\n").replace(",", mark), *(_line(k, k * 0.01) for k in range(3))]
+    result, rows = _run("".join([lines[0], *(line.replace(",", written) for line in lines[1:])]), Settings(**TABLE))
+    assert (result.packets.received, result.packets.unreadable, len(rows)) == (3, 0, 3)
+
+
 def test_sensors_variables_and_status_are_where_they_are_stated() -> None:
     """Two sensors of one table, one with a temperature, one with a code of the device."""
     warm, plain = make_calibration(name="warm", variables=(make_variable(),)), make_calibration(name="plain")

@@ -199,7 +199,13 @@ def test_what_torques_do_not_tell_is_refused(tmp_path: Path, change: dict[str, o
 def test_what_a_log_lacks_is_named(tmp_path: Path, run: Run) -> None:
     """The declared load; external torques; a wrench beside other outputs, before any is given."""
     log = write_table(tmp_path / "log.csv", held(6).states())
-    assert "payload_kg, mass of setLoad" in run("payload", log).error()
+    error = run("payload", log).error()
+    assert "payload_kg, mass of setLoad" in error
+    assert "it has 12 postures at rest; give each" in error
+    few = write_table(tmp_path / "few.csv", held(6, postures=3).states())
+    assert (
+        "it has 3 postures at rest, too few without another log: at least 4 are needed" in run("payload", few).error()
+    )
     given = ("payload", log, "--recording", "payload_kg=0")
     assert "expected a form without the bias of a sensor, ur" in run(*given, "--to", "mc-rtc", "-o", "x").error()
     save = run(*given, "--save-experiment", tmp_path / "x.toml").error()

@@ -56,9 +56,17 @@ def test_errors_before_and_after_are_the_reason() -> None:
     assert answer.why == (
         "predicted force error falls from 4 N to 2 N (95 %: 3 N), moment error from 0.2 N m to 0.1 N m "
         "(95 %: 0.15 N m); held at base, tool: none",
-        "after all 2 recordings: 1 N (95 %: 1.5 N), 0.05 N m (95 %: 0.075 N m)",
+        "after all 2 recordings: 1 N (95 %: 1.5 N) of 1 N allowed, 0.05 N m (95 %: 0.075 N m) of 0.1 N m allowed",
     )
-    assert answer.written == ("next",)
+    assert (answer.written, answer.concern) == (("next",), Concern.NONE)
+
+
+@pytest.mark.parametrize(("force", "moment"), [(1.1, 0.05), (0.9, 0.11)])
+def test_recordings_that_leave_more_than_allowed_are_not_enough(force: float, moment: float) -> None:
+    """Force or moment; what else to do is said."""
+    (answer,) = _plan(_recording(1, 2.0, 0.1), _recording(2, force, moment)).answers()
+    assert (answer.verdict, answer.concern) == ("RECORD 5 POSTURES IN 20 s, NOT ENOUGH", Concern.UNCERTAIN)
+    assert "motion alone does not do it: hang a load on it" in answer.why[1]
 
 
 def test_that_nothing_helps_is_the_verdict() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.outcome import Run
@@ -71,20 +72,40 @@ def test_a_limit_that_fails_is_exit_code_1(run: Run, bench: Path) -> None:
     assert "workbench.faults" in outcome.out
 
 
-def test_the_file_of_a_table_with_applied_wrenches_is_that_of_the_page(
-    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """As docs/workbench.md has it, with a table of those columns; the table alone is refused by what it should be."""
+@pytest.fixture
+def plate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> FloatArray:
+    """The workbench file of docs/workbench.md; known wrenches of its table, shape (40, 6); N, N m."""
     monkeypatch.chdir(tmp_path)
     page = (Path(__file__).parents[2] / "docs" / "workbench.md").read_text(encoding="utf-8")
     file = re.search(r"```toml\n(# plate\.toml\n.*?)```", page, re.DOTALL)
     assert file is not None
     Path("plate.toml").write_text(file[1], encoding="utf-8")
-    rng = np.random.default_rng(1)
-    known = rng.uniform(-20.0, 20.0, (40, 6)) * [1, 1, 1, 0.1, 0.1, 0.1]
+    return np.random.default_rng(1).uniform(-20.0, 20.0, (40, 6)) * [1, 1, 1, 0.1, 0.1, 0.1]
+
+
+def _write_readings(known: FloatArray) -> None:
     components = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
     head = ",".join([*components, *(f"known_{name}" for name in components)])
-    readings = 1.1 * known + 0.01 * rng.normal(size=known.shape)
+    readings = 1.1 * np.nan_to_num(known) + 0.01 * np.random.default_rng(2).normal(size=known.shape)
     np.savetxt("readings.csv", np.hstack([readings, known]), delimiter=",", header=head, comments="")
+
+
+def test_the_file_of_a_table_with_applied_wrenches_is_that_of_the_page(run: Run, plate: FloatArray) -> None:
+    """As docs/workbench.md has it, with a table of those columns; the table alone is refused by what it should be."""
+    _write_readings(plate)
+    assert "next: fit them: the same command without --next" in run("bench", "workbench", "plate.toml", "--next").out
     assert "FITTED, NO FAULT OF THE BENCH" in run("bench", "workbench", "plate.toml", "-o", "plate.json").out
     assert "expected a workbench file (TOML), got " in run("bench", "workbench", "readings.csv", "-o", "x.json").error()
+
+
+def test_unknown_loads_are_the_first_reason_of_no_matrix(run: Run, plate: FloatArray) -> None:
+    """Of the positions that load one direction; what to load is named, and the exit code is 1."""
+    plate[:20, 2] = 0.0
+    plate[20:] = np.nan
+    _write_readings(plate)
+    outcome = run("bench", "workbench", "plate.toml")
+    reasons = " ".join(outcome.out.split())
+    assert (outcome.code, "NO MATRIX" in reasons) == (1, True)
+    assert reasons.index("20 of 40 positions are not used") < reasons.index("not fz; without")
+    assert "give prior, or load fz" in reasons
+    assert "no position loads" not in reasons

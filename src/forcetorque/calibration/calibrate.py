@@ -276,6 +276,8 @@ class SensorCalibrations(DrawnResult):
     """What a joint calibration says beside that; None where every sensor was calibrated alone."""
     saved: bool = Field(default=False, exclude=True, repr=False)
     """Whether the files are written; nothing is until `save`."""
+    has_validation: bool = Field(default=True, exclude=True, repr=False)
+    """Whether the recordings have data to evaluate it on."""
 
     def save(self, *, force: bool = False) -> Self:
         """Write every calibration to its file, in folders that are made where they are missing.
@@ -326,6 +328,7 @@ class SensorCalibrations(DrawnResult):
                 entry.file,
                 saved=self.saved,
                 doubtful=any(len(self.calibrations) == 1 or one.startswith(words) for one in self.warnings),
+                has_validation=self.has_validation,
             )
 
     def blocks(self) -> Iterator[Table | str]:
@@ -408,6 +411,7 @@ def calibrate_for_file(
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
+        has_validation=campaign is None or any(run.has(Use.VALIDATION) for run in campaign.runs),
         warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts)),
     )
 

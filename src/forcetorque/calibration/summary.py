@@ -33,6 +33,7 @@ def calibration_answer(
     *,
     saved: bool,
     doubtful: bool,
+    has_validation: bool = True,
 ) -> Answer:
     """Say in a few lines what was fitted, and how to evaluate it.
 
@@ -42,6 +43,7 @@ def calibration_answer(
         file: Its file.
         saved: Whether the file is written.
         doubtful: Whether there are warnings about it.
+        has_validation: Whether the recordings have data that are not fitted.
 
     Returns:
         The answer.
@@ -59,8 +61,10 @@ def calibration_answer(
         subject=f"{sensor.name} ({sensor.serial}), {file}",
         verdict=("FITTED, WITH WARNINGS" if doubtful else "FITTED") if saved else "FITTED, NOT WRITTEN YET",
         why=(f"{fitted} of {intervals}: {residual}", *((learnt_words(learnt),) if learnt else ())),
-        step="evaluate it on data that were not fitted",
-        command=typed("evaluate", EXPERIMENT, "-c", file),
+        step="evaluate it on data that were not fitted"
+        if has_validation
+        else 'add an [[interval]] with use = "validation", or evaluate it on another recording that has one',
+        command=typed("evaluate", EXPERIMENT, "-c", file) if has_validation else "",
         concern=Concern.UNCERTAIN if doubtful else Concern.NONE,
     )
 

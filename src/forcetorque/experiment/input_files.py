@@ -179,9 +179,11 @@ def stated_in(where: str) -> Iterator[None]:
     try:
         yield
     except ForceTorqueError as error:
-        # who read the file may have said so already
-        words = str(error) if str(error).startswith(f"{where}: ") else f"{where}: {error}"
-        raise type(error)(words) from error
+        # who read the file may have said so already, or the last part of it
+        file, _, last = where.rpartition(": ")
+        starts = {f"{where}: ": "", f"{last}: ": f"{file}: "} if file else {f"{where}: ": ""}
+        missing = next((words for start, words in starts.items() if str(error).startswith(start)), f"{where}: ")
+        raise type(error)(f"{missing}{error}") from error
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -98,7 +98,8 @@ def _require_components(where: str, entry: Sensor, prior: SpecifiedPrior | None,
             f'{where}: expected a channel for each of {measured.sum()} components with the prior "identity", got '
             f"{channels}; name the components that are logged as components"
         )
-    if prior is not None and (wrong := measured_components(prior.matrix) != measured).any():
+    # a matrix of zeros is refused where it is inverted
+    if prior is not None and prior.matrix.any() and (wrong := measured_components(prior.matrix) != measured).any():
         names = ", ".join(np.array(WRENCH_COMPONENTS)[wrong])
         raise ExperimentError(
             f"{where}: expected a prior whose rows are zero just where components names none, got otherwise for "

@@ -176,7 +176,7 @@ def live(
         Format, typer.Option("--format", help="Form of the account at the end, on standard error.")
     ] = Format.TABLE,
 ) -> None:
-    """Correct wrenches while the robot runs, from lines, recordings, a box or topics of ROS 2.
+    """Correct wrenches while the robot runs, of lines, recordings, a box or ROS 2.
 
     Example: forcetorque live leg.json --input yarp --quantity wrench
 
@@ -269,8 +269,9 @@ def live(
         if watch:
             shown.show(loop, at_once=True)
     result = loop.result(ended_by, sum(one.lost for one in losing))
-    if output is not None:
-        result = result.model_copy(update={"output_file": str(output)})
+    result = result.model_copy(
+        update={"replayed": replay is not None, "output_file": None if output is None else str(output)}
+    )
     with redirect_stdout(sys.stderr):  # standard output is for lines
         show(result, output_format, details=details)
     if ended_by == "closed output":

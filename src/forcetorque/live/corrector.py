@@ -106,6 +106,8 @@ class Corrector:
         self._per_gravity = [] if tool is None else [tool.per_gravity(one.sensor.measure_direction) for one in given]
         self.tracker: BiasTracker | None = None
         self._tare: TareSamples | None = None
+        self.tare_moved_N = np.zeros(len(given))
+        """By how much the force moved during the last tare, 0 where nothing moved; shape (s,); N."""
         if own_offset:
             self.tare()
 
@@ -176,12 +178,21 @@ class Corrector:
     def tare(self) -> None:
         """Begin a tare: the offset is that of the samples of the next `tare_s` seconds, in which nothing may touch.
 
+        Where the bias is tracked, a sensor whose force moves during them collects anew, until it does not.
+
         Raises:
             RecordingError: If the offset is that of the calibration.
         """
         if self.options.offset is OffsetSource.FITTED:
             raise RecordingError("tare: expected the offset 'tare' or 'tracked', got 'fitted'")
-        self._tare, self.tracker = TareSamples(self.options.tare_s, len(self._terms)), None
+        tracking = self.options.tracking
+        self.tracker = None
+        self._tare = TareSamples(
+            self.options.tare_s,
+            len(self._terms),
+            still_N=tracking.enter_gate * tracking.noise_N,
+            until_still=self.options.offset is OffsetSource.TRACKED,
+        )
 
     def restart_time(self) -> None:
         """Let stamps begin anew, because the sender did."""
@@ -287,6 +298,7 @@ class Corrector:
             self._at_tare[usable, :6], self._at_tare[usable, 6:-1] = self._weight[usable], self._values[usable]
             for k in self._tare.add(self._unloaded, stamp_ns, usable):
                 self._end_tare(k, self._tare, temperature)
+            self.tare_moved_N[:] = self._tare.moved_N
             if not self._tare.collecting.any():
                 self._tare = None
             usable = usable & ~collecting

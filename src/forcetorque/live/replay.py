@@ -15,6 +15,7 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.live.choices import HeldQuantity
 from forcetorque.live.packets import Packet, PacketCounts
 from forcetorque.live.sources import WAIT_S
+from forcetorque.recording.stream import Stream
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -31,6 +32,8 @@ class ReplayedGroup:
     """Samples; shape (n, s, c); counts, or N and N m."""
     variables: FloatArray
     """Variables at these instants; shape (n, s, v)."""
+    gravity: FloatArray | None
+    """Free fall in the frame of the reading; shape (n, 3); m/s2; None where it is not in the stream of one sensor."""
 
     @property
     def quantity(self) -> HeldQuantity:
@@ -85,7 +88,14 @@ def _group(experiment: Experiment, members: Sequence[tuple[ExperimentSensor, Cal
         stamp_ns=stamps,
         values=values,
         variables=variables,
+        gravity=_gravity(recording.stream(members[0][0].stream), members[0][0].quantity) if len(members) == 1 else None,
     )
+
+
+def _gravity(stream: Stream, quantity: str) -> FloatArray | None:
+    """Gravity of the stream of a sensor, where it is in the frame of its samples."""
+    gravity = stream.signals.get("gravity")
+    return None if gravity is None or gravity.frame != stream.signal(quantity).frame else gravity.values
 
 
 class ReplaySource:
@@ -142,5 +152,6 @@ class ReplaySource:
                 values=replayed.values[k],
                 variables=replayed.variables[k],
                 stamp_ns=int(replayed.stamp_ns[k]),
+                gravity=None if replayed.gravity is None else replayed.gravity[k],
                 group=group,
             )

@@ -50,7 +50,9 @@ class LiveSensor(Row):
     drift: WrenchValues | None
     """Change of the bias since the tare; None where it was not tracked."""
     taring: bool
-    """Whether its tare did not end: for want of time, or of samples without fault."""
+    """Whether its tare did not end: for want of time, of samples without fault, or of a load at rest."""
+    tare_moved_N: float = 0.0
+    """By how much the force moved during the tare, beyond noise; N; 0 for a load at rest."""
 
 
 class LivePackets(Row):
@@ -124,6 +126,8 @@ class LiveRun(Result):
     """Programs on the same stream."""
     slowest_s: FloatOrNull
     """Longest time from a packet to its lines; s; null without a packet."""
+    replayed: bool = Field(default=False, exclude=True, repr=False)
+    """Whether the samples are of a recording."""
     output_file: str | None = None
     """Parquet file or bag; null where none was written."""
 
@@ -146,6 +150,7 @@ class LiveRun(Result):
                 or packets.oversized
                 or packets.silences
                 or row.taring
+                or row.tare_moved_N
             )
             yield Answer(
                 subject=f"{row.sensor} ({row.serial})",
@@ -188,6 +193,10 @@ class LiveRun(Result):
         for check in self.checks:
             if check.sensor == row.sensor:
                 sentences.append(_difference(check))
+        if row.tare_moved_N:
+            sentences.append(
+                f"The load moved by {row.tare_moved_N:.2g} N during the tare: hold still, or state the tool."
+            )
         if row.taring:
             sentences.append("Its tare did not end: the offset is that of the calibration.")
         if sentences:
@@ -202,6 +211,8 @@ class LiveRun(Result):
             if check.outside:
                 return f"compare matrix, offset, tool and frame of {check.file} with what is stated, or write it anew"
         if self.packets.lost is None:
+            if self.replayed:
+                return "state --rate, so that lost samples are seen"
             stamps = "" if self.stamps == "sender" else "--stamp and "
             return f"state {stamps}--rate, or --sequence (--envelope of yarp), so that lost samples are seen"
         return "look at the network and at the rate of the sender" if self.packets.lost else ""

@@ -191,6 +191,7 @@ class LiveLoop:
             bias_half_width_95=NORMAL_95 * np.sqrt(corrector.bias_variance[k]) if has_bias else None,
             drift=tracked,
             taring=bool(corrector.taring[k]),
+            tare_moved_N=float(corrector.tare_moved_N[k]),
         )
 
     def _wait(self) -> None:

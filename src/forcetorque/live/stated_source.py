@@ -229,11 +229,16 @@ def _replayed(
 ) -> tuple[Source, tuple[Corrector, ...]]:
     from forcetorque.experiment.loading import load_experiment
 
-    _require_gravity(settings, None)
     if settings.replay is None or settings.speed < 0.0:
         raise RecordingError(f"--speed: expected 0 or more, got {settings.speed}")
     experiment = load_experiment(settings.replay)
     groups = replayed_groups(experiment, calibrations)
+    if settings.tool_mass_kg is not None and len(calibrations) == 1 and groups[0].gravity is None:
+        raise RecordingError(
+            f"--tool-mass: a tool needs gravity in the stream of its sensor, in the frame of the samples: "
+            f"{settings.replay} has none there"
+        )
+    _require_gravity(settings, "recorded", len(calibrations))
     for group in groups:
         if settings.quantity not in (None, group.quantity):
             raise RecordingError(f"--quantity {settings.quantity}: the recording holds {group.quantity}")

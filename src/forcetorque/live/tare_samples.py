@@ -11,18 +11,27 @@ from forcetorque.base.units import NORMAL_95
 
 _FEWEST = 8
 """Samples without which a sensor has no bias yet."""
+_PARTS = 10
+"""Parts of a tare whose means are compared."""
+_NOISE = 8.0
+"""Standard errors of such a mean, by steps from sample to sample, that count as noise (heuristic)."""
 
 
 class TareSamples:
     """Readings of s sensors less the weights of their tools, of each over a given time from its first on."""
 
-    def __init__(self, seconds: float, sensors: int) -> None:
+    def __init__(self, seconds: float, sensors: int, *, still_N: float, until_still: bool) -> None:
         """Begin.
 
         Args:
             seconds: Time to collect; s.
             sensors: How many sensors there are.
+            still_N: Change of the force over the time, beyond noise, up to which nothing moved; N.
+            until_still: Whether a sensor whose force moved collects anew.
         """
+        self.moved_N = np.zeros(sensors)
+        """By how much the force moved over the last time that each collected, 0 where nothing moved; shape (s,); N."""
+        self._still_N, self._until_still = still_N, until_still
         self.collecting = np.ones(sensors, dtype=np.bool_)
         """Which sensors have no bias yet; shape (s,)."""
         self._seconds = seconds
@@ -54,9 +63,21 @@ class TareSamples:
             self._samples[k].append(unloaded[k].copy())
             stamps.append(stamp_ns)
             if (stamp_ns - stamps[0]) * 1e-9 >= self._seconds and len(stamps) >= _FEWEST:
+                self.moved_N[k] = self._moved_N(np.array(self._samples[k])[:, :3])
+                if self._until_still and self.moved_N[k]:
+                    self._samples[k].clear()
+                    stamps.clear()
+                    continue
                 self.collecting[k] = False
                 ended.append(k)
         return ended
+
+    def _moved_N(self, force: FloatArray) -> float:
+        """Largest less smallest mean of a tenth, of the axis that moves most, where it is no noise; else 0."""
+        parts = np.array_split(force, min(_PARTS, len(force) // 2))
+        change = np.ptp([part.mean(axis=0) for part in parts], axis=0)
+        error = np.diff(force, axis=0).std(axis=0) / np.sqrt(2.0 * min(map(len, parts)))
+        return float(np.max(change, where=change > self._still_N + _NOISE * error, initial=0.0))
 
     def bias(self, sensor: int) -> tuple[FloatArray, FloatArray]:
         """Give the mean of a sensor over the time.

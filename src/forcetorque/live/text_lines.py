@@ -101,7 +101,7 @@ def _number(text: str) -> float:
 
 @dataclass(slots=True, kw_only=True)
 class CsvLines:
-    """A table whose first line is its heading."""
+    """A table whose first line is its heading, between commas or, where that has none, semicolons, tabs or blanks."""
 
     sensors: Sequence[SensorColumns]
     """Columns of the sensors."""
@@ -113,6 +113,7 @@ class CsvLines:
     """Columns with gravity in the frame of the reading, m/s2; none without."""
     _places: Mapping[str, int] = field(default_factory=dict)
     _count: int = 0
+    _separator: str | None = ","
 
     def packet(self, line: str) -> Packet | None:
         """Read a line, as of `LineForm`; the heading must have all columns that are named.
@@ -127,7 +128,9 @@ class CsvLines:
             RecordingError: If the heading lacks a column.
             FormatError: If the line is no sample.
         """
-        cells = line.split(",")
+        if not self._places:
+            self._separator = next((mark for mark in (",", ";", "\t") if mark in line), None)
+        cells = line.split(self._separator)
         if not self._places:
             self._read_heading([cell.strip().strip('"').removeprefix("\ufeff") for cell in cells])
             return None

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from forcetorque.payload.tare_offset import Tare
 
 
+_PROGRAMS = {"ur_rtde": LoadFormat.UR, "franka": LoadFormat.FRANKA}
+"""Program that reads the load of an arm, by the format of its log."""
+
+
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     """Give the answer for every load.
 
@@ -193,6 +197,8 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
         return "record more postures, which turn the load about other axes", ""
     step = "write it to a file that the robot reads"
     specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
+    if not weighed.arms and weighed.log_format in _PROGRAMS:
+        return step, typed("payload", EXPERIMENT, "--to", _PROGRAMS[weighed.log_format].value, "-o", "load.txt")
     if not weighed.arms or weighed.arms[-1].controller == BAG:
         return step, typed("payload", EXPERIMENT, *specified, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
     return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")

@@ -280,6 +280,20 @@ def _left(torque: FloatArray, design: FloatArray) -> tuple[float, int]:
     return float(((y.ravel() - flat @ values) ** 2).sum()), int(rank)
 
 
+def postures_words(log: LoggedTorques) -> str:
+    """Count the postures at rest of a log, where they are too few by themselves.
+
+    Args:
+        log: The log.
+
+    Returns:
+        A phrase.
+    """
+    count = len(_postures(_stays(log)).torque)
+    few = "" if count >= _FEWEST else f", too few without another log: at least {_FEWEST} are needed"
+    return f"it has {count} posture{'s' * (count != 1)} at rest{few}"
+
+
 def _require_postures(unit_torque: FloatArray, names: str) -> None:
     if len(unit_torque) < _FEWEST:
         raise FitError(

@@ -22,7 +22,7 @@ from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognise
 from forcetorque.inspection.draft.log import draft_of_description, recording_lines
 from forcetorque.inspection.draft.toml_lines import line, toml_value
 from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
-from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques
+from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques, postures_words
 from forcetorque.payload.result import ArmLog
 from forcetorque.results.number_text import amount
 
@@ -121,6 +121,8 @@ def described_log(path: Path, specified: Mapping[str, object]) -> LogDescription
     if undetermined:
         wanted = "; ".join(f"{key}, {words}" for key, words in undetermined.items())
         example = next(iter(undetermined))
+        if description.wrist is None and description.torques is not None:
+            wanted += f"; {postures_words(description.torques)}"
         raise ExperimentError(
             f"{path}: expected what neither log nor format says: {wanted}; give each by --recording {example}=..."
         )
@@ -218,6 +220,7 @@ def _lines(path: Path, description: LogDescription, wrist: LoggedWrist, folder: 
         line("stream", wrist.stream),
         line("serial", SERIAL, "of a sensor that a calibration is made of, its serial number"),
         line("prior", "identity"),
+        "# full_scale = [fx, fy, fz, tx, ty, tz]  # range of the sensor, N and N m, which `calibrate` needs",
         *_load_lines(wrist),
         *wrist_interval_lines(wrist),
     ]

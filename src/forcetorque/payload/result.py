@@ -402,6 +402,8 @@ class WeighedLoad(Result):
     """What each of several recordings says by itself."""
     disagreements: tuple[str, ...] = ()
     """Where they differ by more than their intervals, in sentences."""
+    log_format: str = Field(default="", exclude=True, repr=False)
+    """Format of the log of the first recording."""
     arms: tuple[ArmLog, ...] = ()
     """Logs that were read without an experiment file."""
 

@@ -76,6 +76,11 @@ class Result(Row):
         """Whether it is as it should be; a command whose result is not ends with exit code 1."""
         return True
 
+    @property
+    def details_options(self) -> str:
+        """Options by which the same command shows the details."""
+        return "--details"
+
     def answers(self) -> Iterator[Answer]:
         """Give the answer in a few lines.
 

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from forcetorque.base.arrays import FloatArray
     from forcetorque.workbench.result import BenchSensorRow, Workbench
 
+_MOST_NAMED = 4
+"""Positions that are named; more are counted."""
+
 
 def workbench_answers(workbench: Workbench) -> Iterator[Answer]:
     """Give the answer for every sensor.
@@ -38,8 +41,15 @@ def workbench_answers(workbench: Workbench) -> Iterator[Answer]:
             concern=concern,
         )
     if not workbench.sensors:
-        step, _ = _next(workbench)
-        yield Answer(subject=_serials(workbench), verdict="NOT CALIBRATED YET", step=step, written=written)
+        step, wanted = _next(workbench)
+        done = None if wanted else workbench.next
+        yield Answer(
+            subject=_serials(workbench),
+            verdict="NOT CALIBRATED YET",
+            why=(done,) if done else (),
+            step="fit them: the same command without --next" if done else step,
+            written=written,
+        )
 
 
 def _serials(workbench: Workbench) -> str:
@@ -61,6 +71,12 @@ def _verdict(workbench: Workbench, row: BenchSensorRow) -> tuple[str, Concern]:
 
 
 def _reasons(workbench: Workbench, row: BenchSensorRow) -> Iterator[str]:
+    if not row.fitted and row.without_load:
+        unused = row.without_load
+        yield (
+            f"{len(unused)} of {len(unused) + row.positions} positions are not used, their load or raw sample is not "
+            f"fully known: {', '.join(unused[:_MOST_NAMED])}{', …' if len(unused) > _MOST_NAMED else ''}"
+        )
     if row.reason:
         yield row.reason
     faults = [fault.message for fault in workbench.faults if fault.serial == row.serial]
@@ -69,7 +85,7 @@ def _reasons(workbench: Workbench, row: BenchSensorRow) -> Iterator[str]:
         yield "; ".join(faults[:2]) + (f"; {len(faults) - 2} more" if len(faults) > 2 else "")
     elif failed:
         yield f"failed: {', '.join(criterion.criterion for criterion in failed[:4])}"
-    elif row.unmoved:
+    elif row.unmoved and row.fitted:
         yield f"no position loads {', '.join(row.unmoved)}: there the matrix is the prior matrix, or undetermined"
     if row.held_out is not None:
         beside = f", prior {_sizes(row.prior)}" if row.prior is not None else ""

@@ -161,6 +161,10 @@ def next_step(recording: BenchRecording, blocks: Sequence[BlockRow]) -> str | No
     return f"all {len(wanted)} positions are valid"
 
 
+def _next(recording: BenchRecording, blocks: Sequence[BlockRow], *, only_next: bool) -> str | None:
+    return next_step(recording, blocks) or ("all positions are there, as means" if only_next else None)
+
+
 def _setup(loads: BenchLoads, name: str) -> str:
     """How the weight of a position is hung, as text."""
     index = loads.names.index(name)
@@ -240,7 +244,7 @@ def workbench(
         faults=faults,
         series=tuple(row for fit in fits for row in fit.series),
         blocks_checked=blocks,
-        next=next_step(recordings[0], checked[0]) if len(recordings) == 1 else None,
+        next=_next(recordings[0], checked[0], only_next=only_next) if len(recordings) == 1 else None,
         positions=position_rows(searches) if same_loads else (),
         spheres=sphere_rows(searches) if same_loads else (),
         unusual=_unusual(calibrations),

@@ -37,6 +37,8 @@ def workbench(
 
     Example: forcetorque bench workbench SN170.toml -o SN170.json
 
+    The exit code is 1 where a sensor has no matrix, or a limit of --spec fails.
+
     Python: `app.workbench("SN170.toml")`
 
     Returns:

@@ -292,7 +292,7 @@ class Workbench(DrawnResult):
     blocks_checked: tuple[BlockRow, ...]
     """One per recorded block."""
     next: str | None
-    """The next position to record; None where the file has means, or there are several sensors."""
+    """The next position to record; None where means are fitted, or there are several sensors."""
     positions: tuple[PositionRow, ...] = ()
     """One per position; of several sensors at the same loads."""
     spheres: tuple[SphereRow, ...] = ()
@@ -310,8 +310,8 @@ class Workbench(DrawnResult):
 
     @property
     def passed(self) -> bool:
-        """Whether all limits are kept."""
-        return all(criterion.passed for criterion in self.criteria)
+        """Whether every sensor has a matrix, and all limits are kept."""
+        return all(row.fitted for row in self.sensors) and all(criterion.passed for criterion in self.criteria)
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

@@ -256,12 +256,18 @@ def test_the_demonstration_writes_over_nothing_of_others(folder: Path, run: Run)
 
 
 def test_without_data_to_evaluate_the_calibration_is_written_and_to_be_evaluated(folder: Path, run: Run) -> None:
-    """No verdict; the next command evaluates the file that is there."""
+    """No verdict; `evaluate` would be refused, so an interval comes first, and the details need --force."""
     edit(folder / PARQUET, 'use = "validation"', 'use = "ignore"')
     outcome = run("run", PARQUET, "-o", "results", "--no-report")
     assert outcome.out.splitlines()[0].split()[-1] == "FITTED"
-    assert f"forcetorque evaluate {PARQUET} -c {FITTED}" in outcome.out
+    assert 'next: add an [[interval]] with use = "validation"' in outcome.out
+    assert outcome.out.endswith("\ndetails: --force --details\n")
+    assert "forcetorque evaluate" not in outcome.out
     assert Path(FITTED).is_file()
+    assert run("evaluate", PARQUET, "-c", FITTED).code == 2
+    again = run("run", PARQUET, "-o", "results", "--no-report", "--details")
+    assert "an earlier run wrote it" in again.error()
+    assert "reading" not in again.err
 
 
 def test_nothing_to_fit_is_said_before_anything_is_computed(folder: Path, run: Run) -> None:

@@ -93,6 +93,11 @@ class WholeRun(Result):
         """Whether it went to the end and everything may be used."""
         return self.exit_code is ExitCode.USABLE
 
+    @property
+    def details_options(self) -> str:
+        """With `--force` where files were written, which are not replaced without it."""
+        return "--force --details" if self.files else "--details"
+
     def answers(self) -> Iterator[Answer]:
         """Say where it stopped and what to change; else what came out of the last stage, and the files.
 

@@ -160,6 +160,8 @@ def run(
     way = _Way(files=paths, output=Path(output), override=override, force=force, progress=progress)
     if way.output.exists() and not way.output.is_dir():
         raise OutputError(f"{way.output}: expected a folder for the results, or a name for a new one, got a file")
+    if (table := way.output / TABLE).exists() and not force:
+        raise OutputError(f"{table}: an earlier run wrote it; name another folder, or replace its files by --force")
     try:
         if not any(isinstance(one, Experiment) for one in sources) and all(map(_is_workbench, paths)):
             _by_known_loads(way)
@@ -238,9 +240,7 @@ def _of_experiments(
 
 
 def _refuse_outputs(way: _Way, experiments: Mapping[Path, Experiment], names: Sequence[str]) -> None:
-    """Refuse to replace inputs, and files of an earlier run without `force`, before anything is computed."""
-    if (table := way.output / TABLE).exists() and not way.force:
-        raise OutputError(f"{table}: an earlier run wrote it; name another folder, or replace its files by --force")
+    """Refuse to replace inputs before anything is computed."""
     inputs = {digest for one in experiments.values() for digest in one.inputs_sha256.values()}
     first = next(iter(experiments.values()))
     serials = {name: first.sensor(name).serial for name in names}

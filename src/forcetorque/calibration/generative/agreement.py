@@ -127,8 +127,17 @@ def require_rank(wrench: FloatArray, lengths: Sequence[int]) -> None:
     if weak := unmoved_directions(wrench, lengths):
         raise FitError(
             f"the loads move {6 - len(weak)} of 6 directions, not {'; '.join(weak)}; without a prior matrix all six "
-            "are needed: give prior, or record a load with its centre of mass elsewhere"
+            f"are needed: give prior, or {_load_words(weak)}"
         )
+
+
+def _load_words(directions: Sequence[str]) -> str:
+    """What to load, where directions are not moved."""
+    moments_alone = all(name in WRENCH_COMPONENTS[3:] for name in directions)
+    elsewhere = "record a load with its centre of mass elsewhere"
+    if not all(name in WRENCH_COMPONENTS for name in directions):
+        return elsewhere
+    return f"load {', '.join(directions)}{f': {elsewhere}' if moments_alone else ''}"
 
 
 def require_response(response: FloatArray, covariance: FloatArray, wrench: FloatArray) -> None:

@@ -275,6 +275,7 @@ def calibrate_jointly(
             for calibration in calibrations.values()
         ),
         joint=joint,
+        has_validation=any(run.has(Use.VALIDATION) for one in data.campaigns.values() for run in one.runs),
         warnings=tuple(dict.fromkeys(doubts)),
     )
 

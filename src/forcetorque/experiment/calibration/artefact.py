@@ -343,6 +343,8 @@ def read_calibration(path: Path | str) -> Calibration:
         FormatError: If it is not a calibration of this schema version.
     """
     file = Path(path)
+    if file.suffix.lower() == ".toml":
+        raise FormatError(f"{file}: expected a calibration (`forcetorque calibrate` makes one), got a TOML file")
     content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema == JOINT_SCHEMA:

@@ -85,7 +85,10 @@ class ProposalRow(Row):
     """The same with the change; N."""
 
 
-_NO_SENSOR = "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+_NO_SENSOR = (
+    "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed with the "
+    "model of its robot alone"
+)
 
 
 class Draft(Result):

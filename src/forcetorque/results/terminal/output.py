@@ -164,7 +164,7 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
     sys.stdout.flush()
     sys.stderr.write(warnings_text(warnings, columns, room - text.count("\n")))
     sys.stderr.flush()
-    sys.stdout.write("details: --details\n")
+    sys.stdout.write(f"details: {result.details_options}\n")
 
 
 def shows_colours(stream: TextIO) -> bool:
