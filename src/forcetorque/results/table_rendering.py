@@ -43,7 +43,7 @@ def shortened(sentence: str, width: int) -> str:
         As many of its words as the line holds, with an ellipsis where some are left out.
     """
     words = " ".join(sentence.split())
-    return words if len(words) <= width else f"{words[: width - 2].rpartition(' ')[0]} …"
+    return words if len(words) <= width else f"{words[: width - 2].rpartition(' ')[0] or words[: width - 2]} …"
 
 
 def table_text(table: Table, width: int) -> str:

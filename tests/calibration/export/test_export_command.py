@@ -137,8 +137,9 @@ def test_the_offset_of_several_sessions_is_said_to_be_the_last(run: Run, tmp_pat
         assert ("its offset is of the last session, 'friday'" in done.err) == (session is not None)
 
 
-def test_warnings_of_the_fit_are_named(run: Run, leg: Path, tmp_path: Path) -> None:
+def test_warnings_of_the_fit_are_named(run: Run, leg: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A fault of the bench goes with every file that is made of its calibration."""
+    monkeypatch.setenv("COLUMNS", "500")  # paths of the tests are long
     fault = "SIM001: positions 4 and 9 are swapped"
     doubted = make_calibration().model_copy(update={"warnings": (fault,)})
     done = run(_written(tmp_path / "doubted.json", doubted), "--to", "icub-matrix", "-o", tmp_path / "matrix.txt")

@@ -343,9 +343,14 @@ def read_calibration(path: Path | str) -> Calibration:
         FormatError: If it is not a calibration of this schema version.
     """
     file = Path(path)
-    if file.suffix.lower() == ".toml":
-        raise FormatError(f"{file}: expected a calibration (`forcetorque calibrate` makes one), got a TOML file")
-    content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
+    try:
+        content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
+    except FormatError as error:
+        if file.suffix.lower() != ".toml":
+            raise
+        raise FormatError(
+            f"{file}: expected a calibration (`forcetorque calibrate` makes one), got a TOML file"
+        ) from error
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema == JOINT_SCHEMA:
         raise FormatError(

@@ -54,7 +54,7 @@ def examine(
             way round or by a factor that no sensor has, in all or in its moments.
         ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
     """
-    measures_all = prior is None or bool(measured_components(np.asarray(prior)).all())
+    measures_all = prior is None or not np.any(prior) or bool(measured_components(np.asarray(prior)).all())
     if prior is not None and np.shape(prior) == (6, 6) and measures_all and not is_invertible(prior):
         raise FitError("the prior matrix is singular, so no matrix corrects what it made")
     filled = [data for data in data_sets if len(data.raw)]
