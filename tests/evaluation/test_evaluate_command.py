@@ -183,8 +183,8 @@ def test_the_temperature_of_the_judged_samples_is_used(warm: Path, run: Run) -> 
     edit(warm / PARQUET, TEMPERATURE, "")
     error = run("evaluate", PARQUET, "-c", "warm.json").error()
     assert error == (
-        "error: parquet.toml: sensor 'arm_ft': sensor 'arm_ft': expected the variable 'temperature', the experiment "
-        "specifies none; add it as [[sensor.variable]]"
+        "error: parquet.toml: sensor 'arm_ft': expected the variable 'temperature', the experiment specifies none; add "
+        "it as [[sensor.variable]]"
     )
 
 
