@@ -8,6 +8,7 @@ import io
 import itertools
 import json
 import logging
+import pickle
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -79,6 +80,15 @@ def _written(path: Path, calibration: Calibration) -> Path:
 def _half_lsb_excess(full_scale: list[int], decoded: np.ndarray) -> float:
     half = np.array(full_scale)[:, np.newaxis] / 32767 / 2**16
     return float((np.abs(decoded - MOUNTED) - half * (1 + 1e-9)).max())
+
+
+@pytest.mark.parametrize("form", ["csv", "numpy", "icub-matrix", "wholebodydynamics", "ros2"])
+def test_an_export_of_another_process_writes_the_same_file(form: str, tmp_path: Path) -> None:
+    """What was pickled writes what the export itself writes."""
+    export = export_calibrations(make_calibration(), form, frame_ids=["sole"] if form == "ros2" else ())
+    export.save(tmp_path / "here")
+    pickle.loads(pickle.dumps(export)).save(tmp_path / "there")  # noqa: S301
+    assert (tmp_path / "here").read_bytes() == (tmp_path / "there").read_bytes()
 
 
 def test_the_matrix_file_decodes_to_the_calibration(run: Run, leg: Path, tmp_path: Path) -> None:

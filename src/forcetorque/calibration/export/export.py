@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -22,7 +23,7 @@ from forcetorque.calibration.export.wholebodydynamics import from_calibration, w
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.formats.icub_matrix import encode_matrix, serial_number_in_name, write_matrix_file
+from forcetorque.formats.icub_matrix import MatrixFile, encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Table, WrenchValues
@@ -306,9 +307,9 @@ def exported(
         stored, given = form is not ExportFormat.COEFFICIENTS, tuple(calibrations.values())
         entries = [_entry(name, one, matrix=one.matrix, offset_stored=stored) for name, one in calibrations.items()]
         writes = {
-            ExportFormat.CSV: lambda path: write_calibration_table(path, given),
-            ExportFormat.COEFFICIENTS: lambda path: write_coefficient_table(path, given),
-            ExportFormat.NUMPY: lambda path: write_archive(path, given[0]),
+            ExportFormat.CSV: partial(write_calibration_table, calibrations=given),
+            ExportFormat.COEFFICIENTS: partial(write_coefficient_table, calibrations=given),
+            ExportFormat.NUMPY: partial(write_archive, calibration=given[0]),
         }[form]
     inputs = {digest for one in calibrations.values() for digest in one.provenance.inputs_sha256.values()}
     return Export(
@@ -337,14 +338,15 @@ def _icub_matrix(name: str, calibration: Calibration, full_scale: Sequence[int] 
         error = _largest_in_range(file.matrix - calibration.matrix, calibration)
     entry = _entry(name, calibration, matrix=file.matrix, offset_stored=False, variables_stored=False)
     rounding = {"full_scale": tuple(file.full_scale), "largest_rounding_error": error}
-
-    def write(path: Path) -> None:
-        with stated_in(name):
-            if (serial := serial_number_in_name(path)) is not None:
-                calibration.require_serial(serial)
-        write_matrix_file(path, file)
-
+    write = partial(_write_matrix, name=name, calibration=calibration, file=file)
     return [entry.model_copy(update=rounding)], write
+
+
+def _write_matrix(path: Path, *, name: str, calibration: Calibration, file: MatrixFile) -> None:
+    with stated_in(name):
+        if (serial := serial_number_in_name(path)) is not None:
+            calibration.require_serial(serial)
+    write_matrix_file(path, file)
 
 
 def _groups(calibrations: Mapping[str, Calibration], sensor_name: str | None, stream: Calibration | None) -> _Entries:
@@ -361,7 +363,7 @@ def _groups(calibrations: Mapping[str, Calibration], sensor_name: str | None, st
         if correction.temperature_coefficients is not None:
             changed["variables"] = dict.fromkeys(entry.variables, correction.temperature_coefficients)
         entries.append(entry.model_copy(update=changed))
-    return entries, lambda path: write_groups(path, corrections)
+    return entries, partial(write_groups, corrections=corrections)
 
 
 def _ros2_parameters(
@@ -383,7 +385,7 @@ def _ros2_parameters(
         _entry(name, one, matrix=one.matrix).model_copy(update={"sensor": sensor})
         for (name, one), sensor in zip(calibrations.items(), by_sensor, strict=True)
     ]
-    return entries, lambda path: write_bytes_atomically(path, text.encode())
+    return entries, partial(write_bytes_atomically, data=text.encode())
 
 
 def write_archive(path: Path, calibration: Calibration) -> None:

@@ -124,6 +124,8 @@ def read_gravity_filter(path: Path | str) -> tuple[float, FloatArray, FloatArray
             raise FormatError(f"{path}: {key}: expected it once, with {count} number(s), got {entries}")
         values.append([float(word) for word in words])
     (mass,), centre, field = values
+    if mass < 0.0:
+        raise FormatError(f"{path}: {_FILTER[0]}: expected a mass of at least 0 kg, got {mass:g}")
     frames = re.findall(r"^\s+sensor_frame:\s+[\"']?(.+?)[\"']?\s*$", text, re.MULTILINE)
     if len(frames) != 1:
         raise FormatError(f"{path}: sensor_frame: expected the name of a frame, once, got {frames}")
