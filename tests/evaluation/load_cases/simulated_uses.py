@@ -103,6 +103,7 @@ def outcome_of(case: Case, fit: GenerativeFit, use: LoadCase, judged: list[DataS
     calibration = cast(
         "Calibration",
         SimpleNamespace(
+            matrix=fit.model.matrix,
             posterior=fit.posterior,
             prior=SimpleNamespace(matrix=case.prior, offset=np.zeros(6)),
             validity=SimpleNamespace(
