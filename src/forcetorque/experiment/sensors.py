@@ -13,7 +13,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment import file as schema
-from forcetorque.experiment.calibration.sensor_model import LinearVariable, measured_components
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names, measured_components
 from forcetorque.experiment.core_tables import PriorTable, Sensor, Variable
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.input_files import Inputs, stated_in
@@ -100,10 +100,9 @@ def _require_components(where: str, entry: Sensor, prior: SpecifiedPrior | None,
         )
     # a matrix of zeros is refused where it is inverted
     if prior is not None and prior.matrix.any() and (wrong := measured_components(prior.matrix) != measured).any():
-        names = ", ".join(np.array(WRENCH_COMPONENTS)[wrong])
         raise ExperimentError(
             f"{where}: expected a prior whose rows are zero just where components names none, got otherwise for "
-            f"{names}; write components for the rows that are not zero"
+            f"{component_names(wrong)}; write components for the rows that are not zero"
         )
     if quantity == "wrench" and not measured.all():
         raise ExperimentError(

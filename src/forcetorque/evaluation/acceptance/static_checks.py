@@ -197,7 +197,7 @@ def _offsets(run: SensorRun, correction: Correction, use: Use) -> Iterator[Inter
         yield IntervalOffset(
             label=data.interval.label,
             samples=len(wrench),
-            offset=(run.sensor.expected_reading(data.samples.reference) - wrench).mean(axis=0),
+            offset=(data.samples.reference - wrench).mean(axis=0),
             temperature_degC=float(data.readings.variables[known[0]].mean()) if known else None,
         )
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A node of ROS 2 that corrects a WrenchStamped, for users of rclpy; it was not run here, where ROS is not installed.
 
-Usage: python examples/32_ros2_node.py CALIBRATION --input TOPIC --output TOPIC
+Usage: python examples/33_ros2_node.py CALIBRATION --input TOPIC --output TOPIC
 
 The wrench of the topic must be that of the prior matrix of the calibration. Without ROS, `forcetorque live --ros2` does
 the same. Parameters that `forcetorque export` writes for a driver or controller need no Python in the loop.
