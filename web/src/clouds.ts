@@ -50,13 +50,15 @@ export class CloudMaker {
   of(state: State): Clouds {
     const { sensor, quantity, window } = state;
     const spans = state.hideIgnored ? ignoredSpans(this.data, state.marks) : [];
-    const key = JSON.stringify([sensor, quantity, spans.map((s) => [s.start_s, s.end_s])]);
     const all = this.data.span;
+    // of a stream that goes on, once a second: a cloud is drawn anew as a whole
+    const following = this.data.scene.live !== null && state.playing;
+    const key = JSON.stringify([sensor, quantity, following ? Math.floor(all[1]) : all, spans.map((s) => [s.start_s, s.end_s])]);
     const whole = this.remembered("whole", key, () => {
       const clouds = makeClouds(this.data, sensor, quantity, spans, all);
       return { ...clouds, ...bounds(clouds.clouds) };
     });
-    if (window[0] <= all[0] && window[1] >= all[1]) return whole;
+    if (following || (window[0] <= all[0] && window[1] >= all[1])) return whole;
     return this.remembered("window", `${key} ${window.join(" ")}`, () => {
       const clouds = makeClouds(this.data, sensor, quantity, spans, window);
       return { ...clouds, centre: whole.centre, half: whole.half }; // what is left stays where it was

@@ -112,6 +112,12 @@ export class Columns {
 
   constructor(private readonly data: SceneData) {}
 
+  /** Make all columns anew, because values changed. */
+  forget(): void {
+    this.known.clear();
+    this.masks.clear();
+  }
+
   /** Component or norm of a series. */
   measured(series: WrenchSeries, quantity: Quantity, component: Component): Column {
     return this.remembered(`measured ${series.values.offset} ${quantity} ${component}`, () =>

@@ -20,7 +20,6 @@ type Vector = [number, number, number];
 /** Header and arrays of a scene. */
 export class SceneData {
   readonly time: Float64Array;
-  private readonly known = new Map<number, Float32Array | Float64Array | Uint32Array>();
   private readonly packed = new Map<number, PackedArray>();
   /** Quantities over time. */
   readonly columns = new Columns(this);
@@ -28,6 +27,8 @@ export class SceneData {
   constructor(
     readonly scene: Scene,
     private readonly block: Block,
+    /** Arrays by their place, made when they are first asked for. */
+    private readonly known = new Map<number, Float32Array | Float64Array | Uint32Array>(),
   ) {
     this.time = this.doubles(scene.time_s);
   }
@@ -90,6 +91,11 @@ export class SceneData {
     const values = this.row(series.values, sample);
     const at = FIRST[quantity];
     return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
+  }
+
+  /** Largest force or moment of a series; 0 where all are absent. */
+  peak(series: WrenchSeries | ContactSeries, quantity: Quantity): number {
+    return "peak" in series ? (series.peak[quantity === "force" ? 0 : 1] ?? 0) : 0;
   }
 
   /** Coordinate of a column at a sample; rad or m; NaN where absent. */

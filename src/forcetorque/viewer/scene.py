@@ -270,6 +270,59 @@ class SceneFinding:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LiveFeed:
+    """Where samples of a running stream come from; the arrays over time are then none of the block and begin empty."""
+
+    url: str
+    """Address that answers with a `LiveUpdate`."""
+    window_s: float
+    """Time that is shown; s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LiveSensorState:
+    """A sensor of a running stream, as it is now."""
+
+    status: str
+    """`ok`, or what is wrong with the last sample."""
+    samples: int
+    """Samples so far."""
+    faulty: int
+    """Samples with a fault."""
+    drift: tuple[float, ...] | None
+    """Change of the bias since the tare; 6 numbers; N, N m; null without a tare."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LiveUpdate:
+    """What came since the last one, in a line.
+
+    After it come the new rows, array by array: time, positions, root, and values and deviation of every series.
+    """
+
+    first: int
+    """Number of the first row, from 0 at the begin of the stream."""
+    rows: int
+    """Rows that follow."""
+    total: int
+    """Samples so far."""
+    received: int
+    """Packets that could be read."""
+    lost: int | None
+    """Packets that never came; null where that cannot be known."""
+    late: int
+    """Packets that came late."""
+    repeated: int
+    """Packets that came twice."""
+    silent_s: float
+    """Time since the last packet; s."""
+    ended_by: str | None
+    """Why the stream ended; null while it lasts."""
+    sensors: tuple[LiveSensorState, ...]
+    """Sensors in the order of the scene."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
     """Everything that the page shows."""
 
@@ -311,6 +364,8 @@ class Scene:
     """What is absent, and why."""
     annotations_url: str | None
     """Where the page sends saved samples; null in a file."""
+    live: LiveFeed | None = None
+    """Where samples come from while a robot runs; null for a recording."""
 
 
 def scene_json(scene: Scene) -> str:

@@ -30,11 +30,12 @@ from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.model import RobotModel
 from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.geometry import robot_geometry
-from forcetorque.viewer.posture import Posture, posture_at, root_poses, scene_joints, shown_stream
+from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_stream
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
 from forcetorque.viewer.skin import scene_skin, scene_skin_events
@@ -125,7 +126,7 @@ def build_scene(
     patches = computed.section(PATCHES)
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
-    robot, missing = _robot(experiment, posture, urdf, draft.block, mesh_folders)
+    robot, missing = drawn_robot(model, posture.names, urdf, draft.block, mesh_folders)
     parts = scene_parts(computed, groups, posture, draft)
     time_left.at(_POSTURE + _SENSOR * len(shown) + _CONTACTS)
     scene = Scene(
@@ -153,16 +154,27 @@ def build_scene(
     return BuiltScene(scene=scene, block=draft.block.bytes(), urdf=urdf)
 
 
-def _robot(
-    experiment: Experiment, posture: Posture, urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
+def drawn_robot(
+    model: RobotModel, coordinates: Sequence[str], urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
 ) -> tuple[Robot, tuple[str, ...]]:
-    model = experiment.model
+    """Collect what is drawn of a robot.
+
+    Args:
+        model: The robot.
+        coordinates: Joints whose position is known.
+        urdf: Its file; None for a load without one.
+        block: Takes the meshes.
+        mesh_folders: Folders with packages of meshes that are looked at first.
+
+    Returns:
+        The robot, and what is missing.
+    """
     geometry = robot_geometry(model, urdf, block, mesh_folders=mesh_folders)
     robot = Robot(
         name=model.name,
         root_link=model.root_link,
         links=tuple(model.links),
-        joints=scene_joints(model, posture.names),
+        joints=scene_joints(model, coordinates),
         shapes=geometry.shapes,
         meshes=geometry.meshes,
     )
