@@ -306,9 +306,9 @@ def test_sensors_of_a_standing_leg_are_fitted_all_at_once(tmp_path: Path) -> Non
     assert {use.sensor for use in result.load_cases} == {"r_leg_ft_sensor", "r_foot_ft_sensor"}
     assert result.stages[3].text.count("no verdict") == 2
     answers = list(result.answers())
-    without = [one for one in answers if one.verdict.startswith("NO VERDICT: ")]
+    without = [one for one in answers if one.verdict == "NO VERDICT"]
     assert len(without) == 2
-    assert all(len(one.verdict) > len("NO VERDICT: ") and one.verdict[12:] in one.why[1] for one in without)
+    assert all("torso_pitch" in one.why[0] for one in without)
     assert len(answers) == 4
     assert all("4 sensors are fitted at once, as by `calibrate --jointly`" in one.why for one in answers)
 
