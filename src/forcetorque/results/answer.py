@@ -129,10 +129,7 @@ def answer_text(
 
 
 def _cut(sentences: Sequence[str], further: int, width: int, room: int | None) -> list[list[str]]:
-    """Lines of each sentence, the first of the worst answer, then of further ones, then the rest of the worst.
-
-    One of each as far as there is room, then more of the first ones.
-    """
+    """Lines of each sentence: one as far as there is room, then more of the first ones."""
     lines = [_indented(sentence, width).splitlines() for sentence in sentences]
     if room is None or sum(map(len, lines)) <= room:
         return lines
