@@ -201,6 +201,7 @@ def _by_known_loads(way: _Way) -> None:
         file = way.output / f"{way.files[0].stem}.json"
         result.save(file, force=way.force)
         way.written.append(str(file))
+        way.answers = tuple(result.model_copy(update={"file": str(file)}).answers())
     way.end("workbench", f"{len(result.sensors)} sensor(s)")
 
 
