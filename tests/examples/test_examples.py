@@ -53,7 +53,7 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     folder = tmp_path_factory.mktemp("run") / "build" / "demo"
     folder.parent.mkdir()
     done = subprocess.run(
-        [sys.executable, "-m", "forcetorque", "demo", "build/demo"],
+        [sys.executable, "-m", "forcetorque", "demo", "-o", "build/demo"],
         cwd=folder.parents[1],
         env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "COLUMNS": "100"},
         capture_output=True,
