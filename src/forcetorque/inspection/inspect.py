@@ -287,9 +287,7 @@ def _prior(source: Path) -> PriorFile:
     return replace(file, notes=(words,))
 
 
-def _recorded(
-    source: Path, name: str | None, progress: Progress
-) -> tuple[Recording, tuple[Finding, ...], ToCalibrate]:
+def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...], ToCalibrate]:
     """Recording and findings of a log or an experiment file, and as of `Inspection.to_calibrate`."""
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
