@@ -213,9 +213,10 @@ def _of_experiments(
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
     if all(interval.use is not Use.CALIBRATION for one in experiments.values() for interval in one.recording.intervals):
+        proposes = typed("init", "--resume", str(way.files[0]))
         raise ExperimentError(
             f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
-            "not state touches the limb; got none"
+            f"not state touches the limb; got none; forcetorque {proposes} proposes intervals"
         )
     _refuse_outputs(way, experiments, names)
     wrong = _inspect(way, experiments, names)
