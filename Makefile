@@ -12,7 +12,7 @@ SUITE := tests $(WORKERS) --data=$(DATA) -m "not long"
 export PYTHONDONTWRITEBYTECODE :=
 
 demo: $(VENV)/run.stamp
-	$(BIN)/forcetorque demo build/demo
+	$(BIN)/forcetorque demo -o build/demo
 
 test: $(VENV)/test.stamp
 	$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint types web-check compiled
