@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import partial
@@ -242,14 +242,14 @@ def _bent_pressure(form: _Form, share: FloatArray, coefficients: FloatArray) -> 
     return np.asarray(s * form(np.maximum(share, 0.0), float(q))[0], dtype=np.float64)
 
 
-_FITS = {
+_FITS: Mapping[CurveKind, Callable[[FloatArray, FloatArray, FloatArray], FloatArray]] = {
     CurveKind.MONOTONE: _fit_monotone,
     CurveKind.LINE: _fit_line,
     CurveKind.POLYNOMIAL: _fit_fifth_order,
     CurveKind.CAPACITOR: partial(_fit_bent, _capacitor),
     CurveKind.LOGARITHMIC: partial(_fit_bent, _logarithmic),
 }
-_PRESSURES = {
+_PRESSURES: Mapping[CurveKind, Callable[[FloatArray, FloatArray], FloatArray]] = {
     CurveKind.MONOTONE: _monotone_pressure,
     CurveKind.LINE: _polynomial_pressure,
     CurveKind.POLYNOMIAL: _polynomial_pressure,
