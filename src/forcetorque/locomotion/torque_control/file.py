@@ -107,7 +107,10 @@ class BalanceTable(Table):
 
 
 class WalkingTable(Table):
-    """A walking controller that feeds the measured zero moment point back; gains as its authors publish them."""
+    """A walking controller that feeds the measured zero moment point back.
+
+    Gains, period and height are those that its authors publish for iCubGenova04 (robotology/walking-controllers).
+    """
 
     zmp_gain: NotNegative = 3.5
     """K_zmp, while walking; 1/s."""
