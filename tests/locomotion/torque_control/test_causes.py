@@ -13,7 +13,7 @@ from forcetorque.locomotion.commands import oscillation_causes
 from forcetorque.locomotion.torque_control.balancing import Phase, standing
 from forcetorque.locomotion.torque_control.causes import TORQUES, CauseRow, OscillationCauses
 from forcetorque.locomotion.torque_control.elastic_joints import massless_drives, with_springs
-from forcetorque.locomotion.torque_control.file import TorqueLoopFile
+from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
 from forcetorque.locomotion.torque_control.linear_robot import linear_robot
 from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped
 from forcetorque.results.answer import Concern
@@ -75,12 +75,10 @@ def test_stiff_springs_are_no_springs() -> None:
 
 
 @pytest.mark.long
-def test_the_command_counts_draws_below_the_limit(run: Run, tmp_path: Path) -> None:
-    """As Python does; a delay near the limit is a cause, the compensation of friction is not; the file stands."""
+def test_causes_are_counted_below_the_limit() -> None:
+    """A delay near the limit is a cause, the compensation of friction is not; with the values of the file it stands."""
     pytest.importorskip("mujoco")
-    path = tmp_path / "loop.toml"
-    path.write_text('schema = "forcetorque/torque_loop_file/1"\nseeds = 12\ntilt_deg = [0.0]\n', encoding="utf-8")
-    causes = oscillation_causes(path)
+    causes = oscillation_causes(TorqueLoopFile(seeds=10, tilt_deg=(0.0,)))
     rows = {row.cause: row for row in causes.rows}
     delay, friction = rows["delay of the estimate, ms"], rows["compensation of viscous friction"]
     assert delay.at is not None
@@ -89,8 +87,22 @@ def test_the_command_counts_draws_below_the_limit(run: Run, tmp_path: Path) -> N
     assert delay.larger > delay.smaller
     assert delay.larger > friction.larger
     assert sum(row.in_file for row in causes.rows) == 0
+
+
+def test_it_is_typed(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command asks what Python asks, shows it and draws it."""
+    path, asked = tmp_path / "loop.toml", []
+    path.write_text('schema = "forcetorque/torque_loop_file/1"\nseeds = 12\n', encoding="utf-8")
+    causes = causes_of(cause_row("delay, ms", 15))
+
+    def answer(content: TorqueLoopFile, *_: object) -> OscillationCauses:
+        asked.append(content)
+        return causes
+
+    monkeypatch.setattr("forcetorque.locomotion.torque_control.causes.study_causes", answer)
     figure = tmp_path / "causes.png"
     typed = run("robot", "oscillation-causes", path, "--figure", figure, "--format", "json").result()
+    assert asked == [read_torque_loop(path)]
     assert typed["rows"] == causes.model_dump(mode="json")["rows"]
     assert figure.read_bytes().startswith(b"\x89PNG")
 
