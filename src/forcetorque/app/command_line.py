@@ -59,7 +59,18 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     ),
     "robot": (
         "Examine a whole robot: feet, net force, collisions, motion, torque loops.",
-        {name: name for name in ("balance", "coherence", "collisions", "joint-collisions", "motion", "torque-loop")},
+        {
+            name: name
+            for name in (
+                "balance",
+                "coherence",
+                "collisions",
+                "joint-collisions",
+                "motion",
+                "torque-loop",
+                "oscillation-causes",
+            )
+        },
     ),
     "dataset": (
         "Examine and compensate the forces of datasets for learning.",

@@ -60,7 +60,7 @@ def calibrate_skin(
         str,
         Option(
             "Form of the curves to keep; all are compared where not fitted.",
-            choices=("monotone", "line", "polynomial", "capacitor"),
+            choices=("monotone", "line", "polynomial", "capacitor", "logarithmic"),
         ),
     ] = "monotone",
     highest_pa: Annotated[
