@@ -66,14 +66,16 @@ def _relative_poses(run: SensorRun, link: str) -> tuple[FloatArray, FloatArray]:
     return np.linalg.inv(base_H_sensor) @ base_H_link, base_H_sensor[:, :3, :3]
 
 
-def _planted(folder: Path, target: Path, wrench: Callable[[SensorRun], FloatArray]) -> SensorRun:
+def _planted(
+    folder: Path, target: Path, wrench: Callable[[SensorRun], FloatArray], *, end_s: float = END_S
+) -> SensorRun:
     """The log with a wrench on the arm, in the axes and about the origin of the sensor; shape (n, 6)."""
     write_experiments(target)
     edit(target / PARQUET, 'tolerance = "exact"\n', "")
     recording, run = read_recording(target / "recording"), _run(folder)
     stream = recording.stream("arm_ft")
     since_s = (stream.stamp_ns - recording.start_ns) * 1e-9
-    inside = (since_s >= START_S) & (since_s <= END_S)
+    inside = (since_s >= START_S) & (since_s <= end_s)
     signal = stream.signal("raw")
     counts = signal.values + inside[:, None] * np.linalg.solve(MOUNTED, wrench(run).T).T
     changed = replace(stream, signals={**stream.signals, "raw": replace(signal, values=counts)})
@@ -122,6 +124,21 @@ def test_a_push_below_what_is_noticed_is_not(folder: Path, tmp_path: Path) -> No
     smallest = _found(_run(folder)).sensitivity[0].smallest_force_N
     run = _planted(folder, tmp_path, lambda run: 0.1 * smallest / FORCE_N * _push(run))
     assert not _found(run).collisions
+
+
+def test_a_contact_in_the_free_interval_hides_no_other(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where enough is left, noise is learnt without the push that `inspect` finds: what is noticed is as without it."""
+    run, labels = _planted(folder, tmp_path, _push, end_s=START_S + 1.0), ("judge", "fit")
+    correction = run.read_by(None, None).bare
+    clean = find_collisions(_run(folder), correction, (), labels, 1.0).sensitivity[0]
+    short = find_collisions(run, correction, (), labels, 1.0)
+    assert short.sensitivity[0].smallest_force_N > 1.2 * clean.smallest_force_N
+    monkeypatch.setattr("forcetorque.collisions.collisions._ENOUGH_FREE_S", 10.0)
+    found = find_collisions(run, correction, (), labels, 1.0)
+    assert len(found.collisions) == 1
+    assert found.sensitivity[0].smallest_force_N == pytest.approx(clean.smallest_force_N, rel=0.05)
 
 
 def test_a_couple_is_no_force_at_a_point(folder: Path, tmp_path: Path) -> None:

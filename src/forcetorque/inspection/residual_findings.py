@@ -6,6 +6,9 @@ half a second takes vibration out and keeps steps sharp. The limit is a tenth of
 four times the usual scatter if that is more: heuristics, chosen so that a log of a laboratory gives few and useful
 findings. A contact in samples in use shifts their median and widens their scatter, so that both are taken again
 without it.
+
+This search needs no interval that is known to be free of contact. `robot collisions` learns noise and errors of the
+model from such an interval, less what this search finds there, and then finds weaker contacts.
 """
 
 from __future__ import annotations
