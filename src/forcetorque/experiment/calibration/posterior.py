@@ -14,6 +14,7 @@ from forcetorque.base.errors import ShapeError, known_names
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.experiment.calibration.assumptions import LOADS
 from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.sensor_model import measured_part
 
 
 class RowNoise(StoredTable):
@@ -128,7 +129,7 @@ class Posterior(StoredTable):
         measured = self.to_wrench.any(axis=1)
         if measured.all():
             return np.zeros((LOADS, LOADS))
-        return np.where(measured, 0.0, self.to_wrench @ self.mean[:, :LOADS])
+        return measured_part(self.to_wrench @ self.mean[:, :LOADS], ~measured)
 
     @property
     def model_covariance(self) -> FloatArray | None:
