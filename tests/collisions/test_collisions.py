@@ -15,14 +15,17 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import cross
 from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.findings import with_collisions
 from forcetorque.collisions.result import Collisions
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.recording.recording import Support
+from forcetorque.recording.recording import Finding, Support
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.tree import build_tree
+from forcetorque.viewer.scene_builder import build_scene
+from forcetorque.viewer.viewer_log import viewer_log
 from tests.app.outcome import Run
 from tests.scenes.experiments import MOUNTED, PARQUET, edit, write_experiments
 
@@ -162,6 +165,30 @@ def test_what_is_learnt_where_something_touches_is_doubted(folder: Path, tmp_pat
     assert any("from which noise is learnt" in words for words in found.warnings)
     with pytest.raises(ExperimentError, match=r"expected at least 10 s in which nothing touches .* got"):
         _found(run, free=("judge",))
+
+
+def test_a_push_is_an_event_for_viewers(folder: Path, tmp_path: Path) -> None:
+    """Time, size and link stand in the findings of the scene and in the log for other viewers; without it, nothing."""
+    built = build_scene(_planted(folder, tmp_path, _push).experiment, {})
+    (finding,) = (one for one in built.scene.findings if one.kind == "collision")
+    assert finding.start_s == pytest.approx(START_S, abs=0.06)
+    assert "arm_ft: 1" in finding.message
+    assert "forearm" in finding.message
+    events = [one for one in viewer_log(built).events if "arm_ft: collision: " in one.text]
+    assert [one.is_warning for one in events] == [True]
+    assert {one.kind for one in build_scene(_run(folder).experiment, {}).scene.findings} <= {"missing"}
+
+
+def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path) -> None:
+    """In the order of time; of a sensor that cannot be looked at there are none, and the others stay."""
+    experiment = _planted(folder, tmp_path, _push).experiment
+    others = tuple(
+        Finding(stream="arm_ft", kind="gap", message="a gap", count=1, start_ns=experiment.recording.start_ns + at)
+        for at in (10**9, 20 * 10**9)
+    )
+    assert [one.kind for one in with_collisions(others, experiment, {})] == ["gap", "collision", "gap"]
+    ignored = experiment.recording.with_intervals([])
+    assert with_collisions(others, replace(experiment, recording=ignored), {}) == others
 
 
 def test_the_command_prints_contacts_first(folder: Path, tmp_path: Path, run: Run) -> None:
