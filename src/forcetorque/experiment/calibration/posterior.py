@@ -14,7 +14,6 @@ from forcetorque.base.errors import ShapeError, known_names
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.experiment.calibration.assumptions import LOADS
 from forcetorque.experiment.calibration.model_error import ErrorTerm
-from forcetorque.experiment.calibration.sensor_model import measured_part
 
 
 class RowNoise(StoredTable):
@@ -129,7 +128,7 @@ class Posterior(StoredTable):
         measured = self.to_wrench.any(axis=1)
         if measured.all():
             return np.zeros((LOADS, LOADS))
-        return measured_part(self.to_wrench @ self.mean[:, :LOADS], ~measured)
+        return np.where(measured, 0.0, self.to_wrench @ self.mean[:, :LOADS])
 
     @property
     def model_covariance(self) -> FloatArray | None:
