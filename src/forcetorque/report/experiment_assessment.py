@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.joint.interval import part_residuals
 from forcetorque.calibration.joint.outcome import SubModelRow
 from forcetorque.calibration.joint.robust_fit import PartResidual
+from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.collisions.findings import with_collisions
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.section import FUSION
