@@ -179,14 +179,16 @@ def test_a_push_is_an_event_for_viewers(folder: Path, tmp_path: Path) -> None:
     assert {one.kind for one in build_scene(_run(folder).experiment, {}).scene.findings} <= {"missing"}
 
 
-def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path) -> None:
-    """In the order of time; of a sensor that cannot be looked at there are none, and the others stay."""
+def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the order of time; of a sensor that cannot be looked at there are none, and a log that is too long says so."""
     experiment = _planted(folder, tmp_path, _push).experiment
     others = tuple(
         Finding(stream="arm_ft", kind="gap", message="a gap", count=1, start_ns=experiment.recording.start_ns + at)
         for at in (10**9, 20 * 10**9)
     )
     assert [one.kind for one in with_collisions(others, experiment, {})] == ["gap", "collision", "gap"]
+    monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 10.0)
+    assert [one.kind for one in with_collisions(others, experiment, {})] == ["not_compared", "gap", "gap"]
     ignored = experiment.recording.with_intervals([])
     assert with_collisions(others, replace(experiment, recording=ignored), {}) == others
 

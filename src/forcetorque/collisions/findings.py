@@ -12,11 +12,13 @@ from forcetorque.collisions.result import CollisionRow
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import Finding, Use
 from forcetorque.results.number_text import plus_minus
 
 ALARMS_PER_HOUR = 1.0
 """Rate of false alarms that they are for, that of `robot collisions`."""
+LONGEST_S = 1800.0
+"""Time beyond which the search, which holds a few kilobytes for every 50 ms, is left to the command."""
 
 
 def with_collisions(
@@ -37,7 +39,16 @@ def with_collisions(
 
 
 def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> Iterator[Finding]:
-    start_ns = experiment.recording.start_ns
+    recording = experiment.recording
+    start_ns = recording.start_ns
+    watched_s = 1e-9 * sum(one.end_ns - one.start_ns for one in recording.intervals if one.use is not Use.IGNORE)
+    if watched_s > LONGEST_S:
+        text = (
+            f"no look for collisions in {watched_s:.0f} s, more than {LONGEST_S:g} s; see `robot collisions --interval`"
+        )
+        for stream in dict.fromkeys(sensor.stream for sensor in experiment.sensors):
+            yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+        return
     for sensor in experiment.sensors:
         run = SensorRun(experiment, sensor)
         try:
