@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.errors import FitError, FormatError
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_of_log import experiment_of_log
+from forcetorque.payload.load_of_log import described_log, experiment_of_description
 from forcetorque.payload.result import WeighedLoad
 from tests.formats.franka.states import write_states
 from tests.formats.ur_rtde.recordings import write_text
@@ -38,7 +38,7 @@ def _weighed(folder: Path, recording: Recording) -> WeighedLoad:
 
 
 def _load_of(log: Path, specified: dict[str, object]) -> WeighedLoad:
-    experiment = experiment_of_log(log, specified, log.parent).experiment
+    experiment = experiment_of_description(log, described_log(log, specified), specified, log.parent).experiment
     return weigh_load([SensorRun(experiment, experiment.sensors[0])])
 
 

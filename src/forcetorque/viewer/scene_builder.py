@@ -16,6 +16,7 @@ from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileEr
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.validation_text import first_error
+from forcetorque.collisions.findings import with_collisions
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import by_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -145,7 +146,12 @@ def build_scene(
         skin_events=events,
         intervals=_intervals(experiment),
         findings=tuple(
-            _finding(finding, recording.start_ns) for finding in inspect_experiment(usable, with_causes=False)
+            _finding(finding, recording.start_ns)
+            for finding in with_collisions(
+                inspect_experiment(usable, with_causes=False),
+                usable,
+                {name: next(iter(group.values())) for name, group in groups.items() if group},
+            )
         ),
         notes=tuple(draft.notes) if skin_alone else (*draft.notes, *missing),
         provenance=tuple(draft.sources),
