@@ -14,6 +14,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
+from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk, forget_pages
 from forcetorque.calibration.generative.design import Design
 from forcetorque.experiment.calibration.moments import symmetric_pseudo_inverse
 
@@ -104,8 +105,11 @@ class _Stacked:
             block = self._block(means)
             np.maximum(self._size, np.abs(block).max(axis=0, initial=0.0), out=self._size)
         self._size[self._size == 0.0] = 1.0
-        # where all means are one block every shape of the noise has the same
-        self._only = block / self._size if len(design.blocks) == 1 else None
+        count = len(design.member) * self._total
+        scaled = RowsInMemory(count) if 8 * count <= IN_MEMORY else RowsOnDisk()
+        for means in design.blocks:
+            scaled.append((self._block(means) / self._size).ravel(order="F"))
+        self._scaled = scaled.mapped()
 
     def _block(self, means: slice) -> FloatArray:
         """The columns of some means; shape (k, total)."""
@@ -136,7 +140,8 @@ class _Stacked:
         product, of_cells = np.zeros((m, m)), np.zeros((self.cells, total - m, total))
         factors, before = self._design.timeline.factors(noise), None
         for means in self._design.blocks:
-            values = self._block(means) / self._size if self._only is None else self._only
+            own = self._scaled[means.start * total : means.stop * total]
+            values = own.reshape((means.stop - means.start, total), order="F")
             solved = factors.solve(values, means, before)
             product += values[:, :m].T @ solved.columns[:, :m]
             cells = list(self._cells(means))
@@ -146,6 +151,7 @@ class _Stacked:
                 product += np.outer(before[:m], solved.across[:m])
                 of_cells[cells[0][0]] += np.outer(before[m:], solved.across)
             before = solved.after
+            forget_pages([self._scaled])
         product *= np.outer(self._size[:m], self._size[:m])
         of_cells *= np.outer(self._size[m:], self._size)
         own = of_cells[:, :, m:]

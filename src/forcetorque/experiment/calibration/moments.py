@@ -444,9 +444,9 @@ def model_terms(stretches: Sequence[WindowMeans], groups: Sequence[int]) -> Term
     for stretch in stretches:
         keys = [(term.name, term.nominal) for term in stretch.terms]
         alone = np.array([several and len(owners[key]) == 1 for key in keys], dtype=bool)
-        places = np.array([column[key] for key in keys], dtype=np.int64)
-        columns.append(_at_places(stretch, ~alone, places, len(shared)))
-        local_columns.append(_at_places(stretch, alone, places, width))
+        targets = np.array([column[key] for key in keys], dtype=np.int64)
+        columns.append(_at_places(stretch, ~alone, targets, len(shared)))
+        local_columns.append(_at_places(stretch, alone, targets, width))
     return TermColumns(
         terms=tuple(known.values()),
         shared=np.array(shared, dtype=np.int64),
