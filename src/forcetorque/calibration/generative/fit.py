@@ -24,7 +24,7 @@ from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unkn
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
 from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, MountTolerance
-from forcetorque.experiment.calibration.moments import TermColumns, WindowMeans, in_order, model_terms
+from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
@@ -473,13 +473,13 @@ def fit_generative(
         reading: FloatArray, shapes: Sequence[SlowNoise], start: Sequence[Unknowns] = ()
     ) -> tuple[SolvedRows, float]:
         """Solve the rows, which read errors of the loads by `reading`; shape (rows, 6)."""
-        design = design_of(ordered, response, shares, _in_rows(derivatives, reading), drift=drift, centre=centre)
+        design = design_of(ordered, response, shares, derivatives, reading, drift=drift, centre=centre)
         _require_means(design, drift=drift)
         data = [
             RowData(
                 data=whitened,
                 basis=own,
-                terms=design.model_places,
+                terms=derivatives.shared,
                 accuracy=float(accuracy) if noise_floor else 0.0,
                 freedom=max(len(raw) - design.free.shape[1], 1),
             )
@@ -554,10 +554,9 @@ def _fit(
 def _residual(design: Design, error: FloatArray, offsets: FloatArray, drifts: FloatArray | None) -> FloatArray:
     """Root mean square of errors without an offset, less offset and drift of each session; shape (6,); N, N m."""
     sessions = len(design.sessions)
-    member = design.free[:, :sessions].argmax(axis=1)
-    left = error + offsets[member]
+    left = error + offsets[design.member]
     if drifts is not None:
-        left = left + drifts[member] * design.free[:, sessions:].sum(axis=1)[:, None]
+        left = left + drifts[design.member] * design.free[:, sessions:].sum(axis=1)[:, None]
     return np.sqrt(np.average(left**2, axis=0, weights=design.timeline.share))
 
 
@@ -584,19 +583,6 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
             )
         sizes[k] = expected.VARIABLE_SHARE / extent if known is None else known
     return sizes
-
-
-def _in_rows(model: TermColumns, reading: FloatArray) -> TermColumns:
-    """What terms add to rows that read loads by `reading`, shape (rows, 6), per deviation of each term."""
-    deviations = np.array([term.deviation for term in model.terms])
-    columns = model.columns * deviations[model.shared]
-    # where a group has fewer terms the column is 0
-    size = np.where(model.local >= 0, deviations[model.local], 0.0) if len(deviations) else np.zeros(model.local.shape)
-    return replace(
-        model,
-        columns=np.einsum("kc,nct->nkt", reading, columns),
-        local_columns=np.einsum("kc,nct->nkt", reading, model.local_columns * size[model.group][:, None, :]),
-    )
 
 
 def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variables: FloatArray) -> FloatArray:
