@@ -32,6 +32,10 @@ from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.tool import Tool
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.motion import RootMotion
 from forcetorque.simulation.sensor import y_shaped_matrix
 
 SENSORS = 6
@@ -300,6 +304,36 @@ def cost_of_being_shown(count: int, rounds: int) -> dict[str, float]:
     return {f"shown_{name}_us": float(np.median(values[1:]) / count * 1e6) for name, values in seconds.items()}
 
 
+def humanoid_by_sample(count: int) -> dict[str, float]:
+    """Time seven contact wrenches and the torques of 32 joints of an iCub with six sensors, a sample per call.
+
+    Args:
+        count: Samples.
+
+    Returns:
+        Median and 99.9th percentile of a call; us.
+    """
+    from benchmarks.dynamics.problem import icub_problem  # needs the extra icub, which tests of the rest do not
+
+    problem = icub_problem(count + 10)
+    question, root = problem.contact_question(), problem.root
+    out, seconds = Estimates.empty(question.layout, 1), []
+    for k in range(count + 10):
+        at = slice(k, k + 1)
+        motion = RootMotion(
+            proper_acceleration=root.proper_acceleration[at],
+            angular_velocity=root.angular_velocity[at],
+            angular_acceleration=root.angular_acceleration[at],
+        )
+        joints = problem.joints.samples(at)
+        measured = Wrenches(names=problem.readings.names, values=problem.readings.values[at])
+        begun = time.perf_counter()
+        estimate(question, joints, motion, measured=measured, out=out, evaluator=Evaluator.COMPILED, threads=1)
+        seconds.append(time.perf_counter() - begun)
+    median, rare = np.percentile(np.array(seconds[10:]) * 1e6, (50.0, 99.9))
+    return {"humanoid_median_us": float(median), "humanoid_percentile_99_9_us": float(rare)}
+
+
 def _read_all(recent: RecentSamples, ended: threading.Event) -> None:
     """Ask ten times a second, as a page does."""
     number = 0
@@ -324,6 +358,7 @@ def main() -> None:
     figures = (
         microseconds
         | shown
+        | humanoid_by_sample(100 if options.quick else 3000)
         | {
             "tares_inside_of_100": tares_of_a_moving_arm(range(100)),
             "drift_error_N": contact.error_N,
