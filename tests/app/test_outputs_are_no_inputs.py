@@ -48,10 +48,11 @@ NEW_FOLDERS = {
     ("study fits", "--output"),
 }
 """Outputs that must not be there yet, or be empty folders."""
-FOLDERS = {("calibrate", "--moments"), ("fleet add", "--into"), ("run", "--output")}
+FOLDERS = {("calibrate", "--moments"), ("demo", "--output"), ("fleet add", "--into"), ("run", "--output")}
 """Outputs that are added to what a folder holds."""
 
 WORDS = {
+    "demo": "",
     "robot balance": f"{PARQUET}",
     "calibrate": f"{PARQUET} -o new.json",
     "robot coherence": f"{PARQUET}",

@@ -340,8 +340,8 @@ def learnt_words(directions: Sequence[InformationGain]) -> str:
     shares = f"{own}; of the cross-talk of others: {others}" if others else own
     little = [row.direction for row in directions if row.uncertainty_reduction < LITTLE_LEARNT]
     if not little:
-        return f"learnt: {shares}"
-    return f"learnt: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
+        return f"information gained: {shares}"
+    return f"information gained: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
 
 
 def _shares(rows: Iterable[InformationGain]) -> str:

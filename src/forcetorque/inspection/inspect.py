@@ -304,7 +304,7 @@ def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recor
     parsed = _parsed(source)
     patches = load_patches(source) if parsed.table(PATCHES) else None
     if patches is not None and not parsed.sensor:
-        fitted = any(interval.use is Use.CALIBRATION for interval in patches.recording.intervals)
+        fitted = any(interval.use is Use.CALIBRATION for interval in patches.intervals)
         return patches.recording, inspect_patches(patches), "skin" if fitted else None
     if patches is None and not parsed.sensor:
         recording = load_experiment(source, Purpose.DISPLAY).recording
