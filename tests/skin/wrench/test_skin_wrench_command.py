@@ -66,12 +66,14 @@ def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
 
 @pytest.mark.long
 def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path) -> None:
-    """Field of pressure and forces over time."""
-    png = tmp_path / "contacts.png"
+    """Field of pressure and forces over time, and the film of it."""
+    png, gif = tmp_path / "contacts.png", tmp_path / "contacts.gif"
+    files = ("--figure", str(png), "--film", str(gif))
     assert f"drawn to {png}" in run(
-        *WRENCH, "--figure", str(png), "--average", "20", "--taxel-area-mm2", "39", "--details"
+        *WRENCH, *files, "--average", "20", "--taxel-area-mm2", "39", "--details"
     ).out.replace("\n", " ")
     assert size_of(png.read_bytes())[0] == 1200
+    assert gif.read_bytes()[:6] == b"GIF89a"
 
 
 @pytest.mark.long
