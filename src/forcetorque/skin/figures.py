@@ -279,7 +279,7 @@ def draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> TriMe
         shading="gouraud",
         cmap="cividis",
         vmin=0.0,
-        vmax=max(float(pressures.max()), np.finfo(np.float32).tiny),
+        vmax=max(float(pressures.max()), float(np.finfo(np.float32).tiny)),
     )
     panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color=PAPER)
     bar = figure.colorbar(drawn, ax=panel)
