@@ -143,9 +143,15 @@ def _asked(command: str, option: str, name: str) -> list[str]:
 
 
 def _ending(command: str, option: str) -> str:
-    return {"--figure": ".png", "--video": ".mp4", "--table": ".csv", "--view": ".html"}.get(option) or ENDINGS.get(
-        command, ".out"
-    )
+    own = {
+        "--figure": ".png",
+        "--film": ".gif",
+        "--repaired": ".csv",
+        "--table": ".csv",
+        "--video": ".mp4",
+        "--view": ".html",
+    }
+    return own.get(option) or ENDINGS.get(command, ".out")
 
 
 def test_every_output_option_is_looked_at() -> None:

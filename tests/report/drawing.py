@@ -336,8 +336,8 @@ def _skin_wrench(rng: np.random.Generator) -> Figure:
             },
             places=unrolled(surface),
             triangles=surface.triangles,
-            pressures=pressures,
-            pressed_s=7.8,
+            pressures=load[:, None] / 9.81 * pressures,
+            strongest=int(load.argmax()),
         ),
         load,
     )
