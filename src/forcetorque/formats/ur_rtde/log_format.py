@@ -35,6 +35,7 @@ from forcetorque.formats.logged_wrist import (
     weight_of,
 )
 from forcetorque.formats.ur_rtde.consistency import agreeing_point, require_gravity_as_felt, turned_by
+from forcetorque.formats.ur_rtde.point_by_motion import is_about_other_point
 from forcetorque.formats.ur_rtde.recorded_fields import RecordedFields, heading_of, read_fields
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
@@ -285,6 +286,30 @@ def _other_axes(fields: RecordedFields, points: Mapping[MomentPoint, FloatArray]
     )
 
 
+def _other_point(
+    table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[MomentPoint, FloatArray]
+) -> str:
+    """Text about a moment that is about the other point by the force in motion; empty for none."""
+    taken, offset = table.moment_about, pose.flange_p_tcp
+    # whether a controller subtracts forces of acceleration of a declared payload is not known
+    if taken is None or not points or _payload(table, fields)[0].any() or (offset != offset[:1]).any():
+        return ""
+    other, sign = (MomentPoint.FLANGE, -1.0) if taken is MomentPoint.TCP else (MomentPoint.TCP, 1.0)
+    if not is_about_other_point(
+        fields.stamp_ns,
+        pose.base_R_flange,
+        pose.base_p_flange,
+        table.world_gravity,
+        points[taken],
+        sign * offset[0],
+    ):
+        return ""
+    return (
+        f"moment about another point: expected moment_about = {other}, by the centre of mass that the force in motion "
+        f"shows, got {taken}"
+    )
+
+
 def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
     pose = _flange_pose(table, fields)  # without a tcp_offset that of the TCP, which moves when the flange does
     points = _points(table, fields, pose)
@@ -304,7 +329,7 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
         declared=declared_loads(fields.stamp_ns, mass, centre),
         moving=motions(fields.stamp_ns, pose.base_R_flange, pose.base_p_flange),
         assumed=tuple(assumed),
-        contradictions=tuple(words for words in (_other_axes(fields, points),) if words),
+        contradictions=tuple(filter(None, (_other_axes(fields, points), _other_point(table, fields, pose, points)))),
     )
 
 
