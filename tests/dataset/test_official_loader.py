@@ -18,7 +18,7 @@ from tests.formats.lerobot.datasets import FPS, tool_episodes, write_dataset
 
 PYTHON = os.environ.get("LEROBOT_PYTHON")
 SCRIPT = Path(__file__).with_name("open_in_lerobot.py")
-LENGTHS = [60, 40, 50]
+LENGTHS = [40, 30, 30]
 
 pytestmark = [
     pytest.mark.long,
