@@ -70,8 +70,9 @@ def test_the_official_loader_refuses_what_the_description_lacks(tmp_path: Path) 
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    layout = "v2.1" if _version(tmp_path).startswith("0.3.") else "v3.0"
-    root = write_dataset(tmp_path / "source", tool_episodes(LENGTHS, seed=1), version=layout)
+    if (release := _version(tmp_path)).startswith("0.3."):
+        pytest.skip(f"lerobot {release} leaves such a column out")
+    root = write_dataset(tmp_path / "source", tool_episodes(LENGTHS, seed=1))
     file = min((root / "data").rglob("*.parquet"))
     table = pq.read_table(file)
     pq.write_table(table.append_column("more", pa.array(np.zeros(len(table)))), file)
