@@ -241,7 +241,7 @@ def _rotations(vectors: FloatArray) -> FloatArray:
     return matrices
 
 
-def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> Mapping[MomentPoint, FloatArray]:
+def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> Mapping[str, FloatArray]:
     """Wrench at the flange, (n, 6), N, N m, with the declared payload, for either point; none of `ft_raw_wrench`."""
     if table.reading == "ft_raw_wrench":
         return {}
@@ -256,14 +256,14 @@ def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> Mapp
     return {MomentPoint.FLANGE: flange, MomentPoint.TCP: tcp}
 
 
-def _agreeing_point(fields: RecordedFields, points: Mapping[MomentPoint, FloatArray]) -> MomentPoint | None:
+def _agreeing_point(fields: RecordedFields, points: Mapping[str, FloatArray]) -> MomentPoint | None:
     raw = fields.values.get("ft_raw_wrench")
     point = agreeing_point(raw, points) if points else None
     return None if point is None else MomentPoint(point)
 
 
 def _require_no_contradiction(
-    table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[MomentPoint, FloatArray]
+    table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[str, FloatArray]
 ) -> None:
     agreeing = None if table.moment_about is None else _agreeing_point(fields, points)
     if agreeing not in (None, table.moment_about):
@@ -275,7 +275,7 @@ def _require_no_contradiction(
     require_gravity_as_felt(table.path, felt, pose.base_R_flange, table.world_gravity / table.gravity)
 
 
-def _other_axes(fields: RecordedFields, points: Mapping[MomentPoint, FloatArray]) -> str:
+def _other_axes(fields: RecordedFields, points: Mapping[str, FloatArray]) -> str:
     """Text about a flange that is turned against `ft_raw_wrench`; empty for none."""
     turn = turned_by(fields.values.get("ft_raw_wrench"), points[MomentPoint.FLANGE]) if points else None
     if turn is None:
@@ -286,9 +286,7 @@ def _other_axes(fields: RecordedFields, points: Mapping[MomentPoint, FloatArray]
     )
 
 
-def _other_point(
-    table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[MomentPoint, FloatArray]
-) -> str:
+def _other_point(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[str, FloatArray]) -> str:
     """Text about a moment that is about the other point by the force in motion; empty for none."""
     taken, offset = table.moment_about, pose.flange_p_tcp
     # whether a controller subtracts forces of acceleration of a declared payload is not known
