@@ -40,6 +40,7 @@ compiled: $(VENV)/test.stamp
 bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
 	$(BIN)/python -m benchmarks.c3d_files --json build/benchmarks/c3d_files.json
+	$(BIN)/python -m benchmarks.force_plates --json build/benchmarks/force_plates.json
 	$(BIN)/python -m benchmarks.bags --json build/benchmarks/bags.json
 	$(BIN)/python -m benchmarks.arm_logs --json build/benchmarks/arm_logs.json
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
