@@ -96,8 +96,10 @@ export class Column {
         overview: summed && {
           samples: summed.samples,
           of: (k) => {
-            const [one, two] = [summed.of(k), other ? (other.overview?.of(k) ?? null) : NOTHING];
-            return one && two && of(k, one, two);
+            const one = summed.of(k);
+            const two = other ? (other.overview?.of(k) ?? null) : one;
+            if (!one || !two) return null;
+            return one.count > 0 && two.count > 0 ? of(k, one, two) : NOTHING;
           },
         },
       });

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 from forcetorque.viewer import overview
 from forcetorque.viewer.packing import packed
+from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import arm_scene
 from tests.viewer.browser.press import wait_for_drawing
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.long]
 
-SAMPLES = 6000
+SAMPLES, ABSENT = 6000, 500
 NUMBER = re.compile(r"-?\d+\.\d+|(?<=n = )\d+")
 SCALE = 0.02
 """Difference of the ends of axes, as a share of them: the band of an overview is the widest of its block."""
@@ -36,11 +38,21 @@ def _shown(page: Page) -> dict[str, Any]:
     }
 
 
+def _without_first_deviations(built: BuiltScene) -> BuiltScene:
+    """The same scene, with no band in the first samples, as outside intervals."""
+    block = bytearray(built.block)
+    for series in built.scene.sensors[0].wrenches:
+        if series.deviation is not None:
+            absent = np.full((ABSENT, 6), np.nan, dtype="<f4").tobytes()
+            block[series.deviation.offset : series.deviation.offset + len(absent)] = absent
+    return replace(built, block=bytes(block))
+
+
 def test_what_is_drawn_from_overviews_is_what_the_samples_give(
     visit: Visit, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The same worst sample, statistics but for a last digit, ends of axes nearly; of all the log and of parts."""
-    built = arm_scene(tmp_path_factory.mktemp("long"), samples=SAMPLES).built
+    built = _without_first_deviations(arm_scene(tmp_path_factory.mktemp("long"), samples=SAMPLES).built)
     plain = visit.open(packed(built))
     monkeypatch.setattr(overview, "FEWEST_SAMPLES", 1)
     monkeypatch.setattr(overview, "BLOCK", 40)
@@ -59,6 +71,7 @@ def test_what_is_drawn_from_overviews_is_what_the_samples_give(
         assert len(others) > 30
         # of two samples as large on both sides, packing decides which is the larger one
         np.testing.assert_allclose(np.abs(numbers), np.abs(others), rtol=0, atol=0.0101)
+        assert len(shown["plots"]) == 8
         for (x, y), (other_x, other_y) in zip(shown["plots"], wanted["plots"], strict=True):
             assert x == other_x
             np.testing.assert_allclose(y, other_y, rtol=0, atol=SCALE * np.ptp(other_y))
