@@ -113,9 +113,9 @@ function pick(data: SceneData, { values, overview }: WrenchSeries, samples: Uint
 
 function bounds(clouds: readonly Cloud[]): Pick<Clouds, "centre" | "half"> {
   const edges = [0, 1, 2].map((axis) => {
-    const values = clouds.flatMap(({ points }) => [
-      ...points.filter((value, k) => k % 3 === axis && !Number.isNaN(value)),
-    ]);
+    const values = clouds.flatMap(({ points }) =>
+      Array.from(points.filter((value, k) => k % 3 === axis && !Number.isNaN(value))),
+    );
     const found = values.length > 0 ? [interval(Float64Array.from(values).sort())] : [];
     const spheres = clouds.flatMap(({ sphere }) =>
       sphere ? [[sphere.centre[axis] ?? 0, sphere.radius] as const] : [],
