@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS := -n auto --dist loadfile --no-loadscope-reorder
 SUITE := tests $(WORKERS) --data=$(DATA) -m "not long"
 
-.PHONY: demo test test-long test-matrix lint types compiled bench docs web web-check web-types clean
+.PHONY: demo test test-long test-matrix lint types compiled bench docs web web-test web-check web-types clean
 
 # where the surroundings forbid bytecode, every process of the tests would compile the library anew
 export PYTHONDONTWRITEBYTECODE :=
@@ -67,6 +67,9 @@ docs: $(VENV)/docs.stamp
 # the viewer's page, built from web/ and committed: who installs the library needs no npm
 web:
 	cd web && npm ci && npm run build
+
+web-test:
+	cd web && npm ci && npm run lint && npm run types && npm test
 
 web-check: $(VENV)/test.stamp
 	$(BIN)/python web/check_bundle.py

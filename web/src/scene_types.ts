@@ -99,6 +99,22 @@ export interface Ellipsoid {
   readonly axes: readonly number[];
 }
 
+/** What the page shows of all of a series; columns are fx, fy, fz and norm of the force, then of the moment. */
+export interface SeriesOverview {
+  /** Samples of a block; there are b blocks, and a rest that is shorter. */
+  readonly samples: number;
+  /** Lowest, then highest of each column; shape (b, 16) float32; N, N m; NaN where all are absent. */
+  readonly wrench: ArrayRef;
+  /** Lowest, highest, sum, sum of squares, number of the errors in use; shape (b, 40) float32; N, N m; or null. */
+  readonly error: ArrayRef | null;
+  /** As `wrench`, of the standard deviation; or null. */
+  readonly deviation: ArrayRef | null;
+  /** One sample in so many is in `points`. */
+  readonly every: number;
+  /** Values of the first sample and every one that follows; shape (p, 6) float32; N, N m. */
+  readonly points: ArrayRef;
+}
+
 /** Wrenches of a sensor, in its frame and in its own sign convention. */
 export interface WrenchSeries {
   /** What it is, in words. */
@@ -121,6 +137,8 @@ export interface WrenchSeries {
   readonly ellipsoid_force: Ellipsoid | null;
   /** Ellipsoid that the moments draw; N m; null where it is not identifiable. */
   readonly ellipsoid_moment: Ellipsoid | null;
+  /** What is shown of all of it; null where it is short. */
+  readonly overview: SeriesOverview | null;
 }
 
 /** A force-torque sensor; or a part that nothing touches, with what its sensors leave of its equation. */

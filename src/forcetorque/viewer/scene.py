@@ -124,6 +124,24 @@ class Ellipsoid:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SeriesOverview:
+    """What the page shows of all of a series; columns are fx, fy, fz and norm of the force, then of the moment."""
+
+    samples: int
+    """Samples of a block; there are b blocks, and a rest that is shorter."""
+    wrench: ArrayRef
+    """Lowest, then highest of each column; shape (b, 16) float32; N, N m; NaN where all are absent."""
+    error: ArrayRef | None
+    """Lowest, highest, sum, sum of squares, number of the errors in use; shape (b, 40) float32; N, N m; or null."""
+    deviation: ArrayRef | None
+    """As `wrench`, of the standard deviation; or null."""
+    every: int
+    """One sample in so many is in `points`."""
+    points: ArrayRef
+    """Values of the first sample and every one that follows; shape (p, 6) float32; N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class WrenchSeries:
     """Wrenches of a sensor, in its frame and in its own sign convention."""
 
@@ -147,6 +165,8 @@ class WrenchSeries:
     """Ellipsoid that the forces draw; N; null where it is not identifiable."""
     ellipsoid_moment: Ellipsoid | None
     """Ellipsoid that the moments draw; N m; null where it is not identifiable."""
+    overview: SeriesOverview | None = None
+    """What is shown of all of it; null where it is short."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import html
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
@@ -276,6 +277,8 @@ def scene_of(
     )
 
 
+INLINE_BYTES = 8_000_000
+"""Largest page that a notebook shows inside itself."""
 _FORMS = {".rrd": "recording of Rerun", ".mcap": "bag of ROS 2"}
 
 
@@ -327,6 +330,21 @@ class View(Result):
             video_frames=None,
             notes=tuple(built.scene.notes),
         )
+
+    def _repr_html_(self) -> str:
+        """The page itself, where it is short enough to be kept in a notebook; then what every result says."""
+        said = super()._repr_html_()
+        file = None if self.file is None else Path(self.file)
+        if file is None or file.suffix.lower() != ".html" or not file.is_file():
+            return said
+        if (size := file.stat().st_size) > INLINE_BYTES:
+            return (
+                f"{said}<p>The page has {size / 1e6:.0f} MB and is not shown here, as the notebook would keep it: "
+                f"open {html.escape(str(file))}</p>"
+            )
+        page = html.escape(file.read_text(encoding="utf-8"))
+        frame = 'sandbox="allow-scripts allow-downloads" style="width:100%;height:720px;border:0"'
+        return f'<iframe title="{html.escape(self.experiment)}" {frame} srcdoc="{page}"></iframe>{said}'
 
     def answers(self) -> Iterator[Answer]:
         """Say what is shown, and where.

@@ -35,7 +35,7 @@ from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
 
-_SPHERE_SAMPLES = 20_000
+_SPHERE_SAMPLES = 5_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""
 _COVARIANCES = 20_000
 """Covariances that are held at once."""
