@@ -84,7 +84,8 @@ def test_mistakes_are_named(tmp_path: Path, mistake: Callable[[Recording], Recor
             log = write_text(
                 tmp_path / "log.csv", mistake(simulated(seed, declared_shares=(0.0,))).columns, delimiter=","
             )
-            alone = experiment_of_log(log, {"moment_about": "flange"}, tmp_path)
+            specified: dict[str, object] = {"moment_about": "flange"}
+            alone = experiment_of_description(log, described_log(log, specified), specified, tmp_path)
             weighed = weigh_load([SensorRun(alone.experiment, alone.experiment.sensors[0])])
             names = (*(row.name for row in weighed.hypotheses), *alone.arm.contradictions)
             named += any(name.startswith(words) for name in names)
