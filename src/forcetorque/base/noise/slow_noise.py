@@ -128,15 +128,11 @@ class Timeline(ArrayRecord):
         Raises:
             FitError: If instants are too close to each other.
         """
-        log_white = -float(np.log(self.share).sum())
-        if len(self) == 1:  # LAPACK wants a side diagonal
-            total = 1.0 + noise.ratio * float(self.share[0])
-            return columns * self.share[:, None] / total, log_white + float(np.log(total))
         factors = self.factors(noise)
         return factors.solve(columns, slice(0, len(self))).columns, factors.log_determinant
 
     def factors(self, noise: SlowNoise) -> NoiseFactors:
-        """Prepare the inverse covariance of at least two instants, to be multiplied with blocks of columns.
+        """Prepare the inverse covariance, to be multiplied with blocks of columns.
 
         Args:
             noise: Shape of the noise, whose covariance for s = 1 is V.
@@ -150,6 +146,11 @@ class Timeline(ArrayRecord):
         log_white = -float(np.log(self.share).sum())
         if noise.is_white or not len(self):
             return NoiseFactors(share=self.share, ratio=0.0, log_determinant=log_white)
+        if len(self) == 1:  # LAPACK wants a side diagonal
+            total = 1.0 + noise.ratio * self.share
+            return NoiseFactors(
+                share=self.share / total, ratio=0.0, log_determinant=log_white + float(np.log(total[0]))
+            )
         pivots, multipliers, log_inverse = self._factors(noise)
         return NoiseFactors(
             share=self.share,
