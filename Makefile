@@ -6,13 +6,13 @@ BIN := $(VENV)/bin
 WORKERS := -n auto --dist loadfile --no-loadscope-reorder
 SUITE := tests $(WORKERS) --data=$(DATA) -m "not long"
 
-.PHONY: demo test test-long test-matrix lint types compiled bench docs web web-check web-types clean
+.PHONY: demo test test-long test-matrix lint types compiled bench docs web web-test web-check web-types clean
 
 # where the surroundings forbid bytecode, every process of the tests would compile the library anew
 export PYTHONDONTWRITEBYTECODE :=
 
 demo: $(VENV)/run.stamp
-	$(BIN)/forcetorque demo build/demo
+	$(BIN)/forcetorque demo -o build/demo
 
 test: $(VENV)/test.stamp
 	$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint types web-check compiled
@@ -40,6 +40,7 @@ compiled: $(VENV)/test.stamp
 bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
 	$(BIN)/python -m benchmarks.c3d_files --json build/benchmarks/c3d_files.json
+	$(BIN)/python -m benchmarks.force_plates --json build/benchmarks/force_plates.json
 	$(BIN)/python -m benchmarks.bags --json build/benchmarks/bags.json
 	$(BIN)/python -m benchmarks.arm_logs --json build/benchmarks/arm_logs.json
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
@@ -66,6 +67,9 @@ docs: $(VENV)/docs.stamp
 # the viewer's page, built from web/ and committed: who installs the library needs no npm
 web:
 	cd web && npm ci && npm run build
+
+web-test:
+	cd web && npm ci && npm run lint && npm run types && npm test
 
 web-check: $(VENV)/test.stamp
 	$(BIN)/python web/check_bundle.py

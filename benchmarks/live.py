@@ -7,6 +7,7 @@ The peer is a plain loop of `matrix @ x + b` over six sensors in the same run; i
 from __future__ import annotations
 
 import resource
+import threading
 import time
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -28,8 +29,13 @@ from forcetorque.live.choices import OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.outputs import parquet_file
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
+from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.tool import Tool
+from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.motion import RootMotion
 from forcetorque.simulation.sensor import y_shaped_matrix
 
 SENSORS = 6
@@ -263,6 +269,78 @@ def cost_of_calls(rounds: int) -> tuple[dict[str, list[float]], float]:
     return seconds, difference
 
 
+def cost_of_being_shown(count: int, rounds: int) -> dict[str, float]:
+    """Time the loop for six sensors alone, with the ring of a page, and with a thread that reads all of it.
+
+    Args:
+        count: Samples of a round.
+        rounds: Rounds of all three in turn.
+
+    Returns:
+        Median over the rounds of the processor time of the run's own thread for a sample; us.
+    """
+    corrector = Corrector([calibration_of(f"sensor {k}") for k in range(SENSORS)])
+    samples = np.random.default_rng(11).normal(0.0, 300.0, (1000, SENSORS, 6))
+    seconds: dict[str, list[float]] = {"alone": [], "ring": [], "read": []}
+    for _ in range(rounds + 1):
+        for name, values in seconds.items():
+            source = _Simulated(0)
+            source.packets = lambda: (  # type: ignore[method-assign]
+                Packet(values=samples[k % 1000], stamp_ns=k * 1_000_000, sequence=k) for k in range(count)
+            )
+            recent = None if name == "alone" else RecentSamples([corrector])
+            corrector.restart_time()
+            loop = LiveLoop(source, [corrector], [], clock=time.monotonic, recent=recent)
+            ended = threading.Event()
+            reader = threading.Thread(target=_read_all, args=(recent, ended)) if name == "read" and recent else None
+            if reader is not None:
+                reader.start()
+            begun = time.thread_time()
+            loop.run()
+            values.append(time.thread_time() - begun)
+            ended.set()
+            if reader is not None:
+                reader.join()
+    return {f"shown_{name}_us": float(np.median(values[1:]) / count * 1e6) for name, values in seconds.items()}
+
+
+def humanoid_by_sample(count: int) -> dict[str, float]:
+    """Time seven contact wrenches and the torques of 32 joints of an iCub with six sensors, a sample per call.
+
+    Args:
+        count: Samples.
+
+    Returns:
+        Median and 99.9th percentile of a call; us.
+    """
+    from benchmarks.dynamics.problem import icub_problem  # needs the extra icub, which tests of the rest do not
+
+    problem = icub_problem(count + 10)
+    question, root = problem.contact_question(), problem.root
+    out, seconds = Estimates.empty(question.layout, 1), []
+    for k in range(count + 10):
+        at = slice(k, k + 1)
+        motion = RootMotion(
+            proper_acceleration=root.proper_acceleration[at],
+            angular_velocity=root.angular_velocity[at],
+            angular_acceleration=root.angular_acceleration[at],
+        )
+        joints = problem.joints.samples(at)
+        measured = Wrenches(names=problem.readings.names, values=problem.readings.values[at])
+        begun = time.perf_counter()
+        estimate(question, joints, motion, measured=measured, out=out, evaluator=Evaluator.COMPILED, threads=1)
+        seconds.append(time.perf_counter() - begun)
+    median, rare = np.percentile(np.array(seconds[10:]) * 1e6, (50.0, 99.9))
+    return {"humanoid_median_us": float(median), "humanoid_percentile_99_9_us": float(rare)}
+
+
+def _read_all(recent: RecentSamples, ended: threading.Event) -> None:
+    """Ask ten times a second, as a page does."""
+    number = 0
+    while not ended.wait(0.1):
+        number = recent.since(number, 10_000).next
+
+
 def main() -> None:
     """Measure, and write the result."""
     options = arguments(__doc__.partition("\n")[0])
@@ -276,17 +354,23 @@ def main() -> None:
     contact = biased_contact(
         seconds=3600.0, rate_hz=20.0 if options.quick else 100.0, contact_s=(1800.0, 1860.0), seed=1
     )
-    figures = microseconds | {
-        "tares_inside_of_100": tares_of_a_moving_arm(range(100)),
-        "drift_error_N": contact.error_N,
-        "moved_in_contact_of_5_N_for_60_s_N": contact.moved_in_contact_N,
-        "losses_miscounted": {
-            f"period {clock:g}, jitter {jitter:g}": miscounted_losses(range(21, 31), clock=clock, jitter=jitter)
-            for clock in (0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.07, 1.1)
-            for jitter in (0.05, 0.1, 0.25, 0.35)
-        },
-        "hour": one_hour(36_000 if options.quick else 3_600_000),
-    }
+    shown = cost_of_being_shown(2000 if options.quick else 20000, 2 if options.quick else 10)
+    figures = (
+        microseconds
+        | shown
+        | humanoid_by_sample(100 if options.quick else 3000)
+        | {
+            "tares_inside_of_100": tares_of_a_moving_arm(range(100)),
+            "drift_error_N": contact.error_N,
+            "moved_in_contact_of_5_N_for_60_s_N": contact.moved_in_contact_N,
+            "losses_miscounted": {
+                f"period {clock:g}, jitter {jitter:g}": miscounted_losses(range(21, 31), clock=clock, jitter=jitter)
+                for clock in (0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.07, 1.1)
+                for jitter in (0.05, 0.1, 0.25, 0.35)
+            },
+            "hour": one_hour(36_000 if options.quick else 3_600_000),
+        }
+    )
     write_result(
         options.json,
         ratios={"live_over_plain_loop": median_ratio(seconds["live"], seconds["loop"])},

@@ -6,10 +6,11 @@ from __future__ import annotations
 import statistics
 import tempfile
 import time
+from collections import Counter
 from pathlib import Path
 
 from benchmarks.harness import arguments, write_result
-from benchmarks.viewer import humanoid_experiment, in_browser
+from benchmarks.viewer import FLAGS, PATIENCE_MS, humanoid_experiment, in_browser
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.simulation.robots import named_robot
@@ -52,6 +53,9 @@ def main() -> None:
             }
             seconds[f"ready {case}"], _ = in_browser(built, folder, browser, rounds=ROUNDS)
             figures[f"ready {case}, s"] = statistics.median(seconds[f"ready {case}"])
+            opened = [processor_to_open(folder / f"{case}.html", browser) for _ in range(ROUNDS)]
+            for kind in ("renderer", "all processes"):
+                figures[f"open {case}, {kind}, processor s"] = statistics.median(one[kind] for one in opened)
     for text, value in figures.items():
         print(f"{text}: {value:.3g}")
     write_result(
@@ -63,6 +67,39 @@ def main() -> None:
         packages=("numpy", "scipy", "trimesh"),
         figures=figures,
     )
+
+
+def processor_to_open(page: Path, browser: Path) -> dict[str, float]:
+    """Open a page in a new browser, until it says that all is drawn.
+
+    Args:
+        page: File of the page.
+        browser: The browser.
+
+    Returns:
+        Seconds of the processor by kind of process, and of all of them, which includes drawing without a graphics card.
+    """
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        program = driver.chromium.launch(executable_path=str(browser), args=list(FLAGS))
+        session = program.new_browser_cdp_session()
+        window = program.new_context(viewport={"width": 1280, "height": 720}).new_page()
+        window.set_default_timeout(PATIENCE_MS)
+
+        def spent() -> Counter[str]:
+            used: Counter[str] = Counter()
+            for process in session.send("SystemInfo.getProcessInfo")["processInfo"]:
+                used[process["type"]] += process["cpuTime"]
+                used["all processes"] += process["cpuTime"]
+            return used
+
+        before = spent()
+        window.goto(page.as_uri())
+        window.evaluate("window.ft.ready")
+        after = spent()
+        program.close()
+    return {kind: after[kind] - before[kind] for kind in after}
 
 
 if __name__ == "__main__":

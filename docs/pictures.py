@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"
 COLOURS = 40
 """Colours of a picture; more take more bytes."""
-DEMO = ["-m", "forcetorque", "demo", "."]
+DEMO = ["-m", "forcetorque", "demo", "-o", "."]
 SKIN = [str(ROOT / "examples" / "30_skin.py"), "."]
 PICTURES = {
     "learnt": (DEMO, "calibrate experiment.toml -o again.json --figure {}"),

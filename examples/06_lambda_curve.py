@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Judge every lambda on the validation intervals of an experiment, beside what the held-out rule saw.
 
-Usage: python examples/06_lambda_curve.py EXPERIMENT.toml
+Usage: python examples/06_lambda_curve.py [EXPERIMENT.toml]
 
 The rule chooses lambda from the fitted data alone; this table shows afterwards what the choice was worth.
 """
@@ -57,5 +57,11 @@ def main(path: Path) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Evaluate every lambda on the validation intervals of an experiment.")
-    parser.add_argument("experiment", type=Path, help="experiment file (TOML) with a validation interval")
+    parser.add_argument(
+        "experiment",
+        nargs="?",
+        type=Path,
+        default=Path(__file__).with_name("02_icub_yoga_forward.toml"),
+        help="experiment file (TOML) with a validation interval (default: %(default)s)",
+    )
     main(parser.parse_args().experiment)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Take a picture of the first page of a report, of simulated recordings.
 
-Usage: python examples/13_report_page_one.py OUTPUT.png FOLDER
+Usage: python examples/13_report_page_one.py [OUTPUT.png FOLDER]
 
 Simulates a humanoid into FOLDER, calibrates the sensor of its left leg from three motions and from one, writes the
 report on another day's recording, and opens it in the browser of the system (chromium or chrome). The picture in
@@ -35,8 +35,14 @@ offset = "tared"
 def main() -> None:
     """Simulate, calibrate, report, and take the picture."""
     parser = argparse.ArgumentParser(description="Take a picture of the first page of a report.")
-    parser.add_argument("output", type=Path, help="picture to write (PNG)")
-    parser.add_argument("folder", type=Path, help="folder to make for recordings, calibrations and report")
+    parser.add_argument("output", nargs="?", type=Path, default=Path("page_one.png"), help="picture to write (PNG)")
+    parser.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path("page_one"),
+        help="folder to make for recordings, calibrations and report",
+    )
     arguments = parser.parse_args()
     output, folder = arguments.output.resolve(), arguments.folder.resolve()
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)

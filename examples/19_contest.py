@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A contest of sensors and methods on the simulated calibration device: who errs less, and who is as good.
 
-Usage: python examples/19_contest.py FOLDER
+Usage: python examples/19_contest.py [FOLDER]
 
 Stacks a bought sensor and two of ours on the device of thesis chapter 6, takes them through its 12 steps with 5 and
 25 kg to fit and with 10, 15, 20 and 30 kg to judge, each of these twice, and runs `forcetorque bench contest`.
@@ -180,5 +180,11 @@ def main(folder: Path) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Compare sensors and methods on the simulated calibration device.")
-    parser.add_argument("folder", type=Path, help="folder for recordings and files; made if it does not exist")
+    parser.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path("contest"),
+        help="folder for recordings and files; made if it does not exist",
+    )
     main(parser.parse_args().folder)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Calibrate the wrist sensor of an arm with two tools of which one was weighed, or none.
 
-Usage: python examples/27_arm_and_tools.py FOLDER URDF [--weighed] [--seed N]
+Usage: python examples/27_arm_and_tools.py [FOLDER [URDF]] [--weighed] [--seed N]
 
 Simulates an arm (that of the URDF: UR5 of example-robot-data) that moves for 60 s with each of two tools, and a sensor
 whose maker's matrix is 3 % off; writes a log and an experiment file for each into FOLDER; calibrates from both; and
@@ -22,6 +22,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.robot.dynamics import expected_wrenches
+from forcetorque.robot.installed import installed_robot
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
@@ -96,12 +97,24 @@ support = "{base}"
 def main() -> None:
     """Simulate, calibrate, and compare with the truth."""
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    words.add_argument("folder", type=Path, help="folder for logs and files; made if it does not exist")
-    words.add_argument("urdf", type=Path, help="URDF of a UR5 with the links base_link and ee_link")
+    words.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path("arm_and_tools"),
+        help="folder for logs and files; made if it does not exist",
+    )
+    words.add_argument(
+        "urdf",
+        nargs="?",
+        type=Path,
+        help="URDF of a UR5 with the links base_link and ee_link (default: that of the package example-robot-data)",
+    )
     words.add_argument("--weighed", action="store_true", help="state mass and centre of mass of the second tool")
     words.add_argument("--seed", type=int, default=1, help="seed of sensor, motion and noise")
     asked = words.parse_args()
-    truth = simulate(asked.folder, asked.urdf, seed=asked.seed, weighed=("weight",) if asked.weighed else ())
+    urdf = asked.urdf or installed_robot("ur5").urdf
+    truth = simulate(asked.folder, urdf, seed=asked.seed, weighed=("weight",) if asked.weighed else ())
     fitted = calibrated(asked.folder, tuple(TOOLS))
     for name, matrix in (("maker's matrix", np.eye(6)), ("calibration", fitted)):
         force, moment = push_errors(matrix @ np.linalg.inv(truth))

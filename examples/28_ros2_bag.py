@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Write the log of the tutorial as a ROS 2 bag (MCAP): topics /joint_states and /wrist_ft/wrench.
 
-Usage: python examples/28_ros2_bag.py BAG
+Usage: python examples/28_ros2_bag.py [BAG]
 
 BAG is a folder that does not exist yet. docs/guides/ros2_bag.md reads it; it needs the extra `ros`.
 """
@@ -74,5 +74,5 @@ def write_bag(bag: Path) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Write the log of the tutorial as a ROS 2 bag (MCAP).")
-    parser.add_argument("bag", type=Path, help="folder to make; it must not exist")
+    parser.add_argument("bag", nargs="?", type=Path, default=Path("bag"), help="folder to make; it must not exist")
     write_bag(parser.parse_args().bag)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Write what a bench records of a simulated sensor: known weights, cycles of temperature, and taps of a hammer.
 
-Usage: python examples/29_bench.py FOLDER
+Usage: python examples/29_bench.py [FOLDER]
 
 Writes weights.toml (24 positions of thesis Table 6.1, two of them swapped by mistake), recorded_again.toml (without the
 mistake), warm.toml (two cycles of heating and cooling under a constant load) and taps.toml (five taps, their force
@@ -159,7 +159,9 @@ def write_table(file: Path, names: list[str], rows: FloatArray) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Write what a bench records of a simulated sensor.")
-    parser.add_argument("folder", type=Path, help="folder for the files; made if it does not exist")
+    parser.add_argument(
+        "folder", nargs="?", type=Path, default=Path("bench"), help="folder for the files; made if it does not exist"
+    )
     target = parser.parse_args().folder
     target.mkdir(parents=True, exist_ok=True)
     write_weights(target, "weights", BenchFaults(swapped=(3, 8)))  # positions 4 and 9

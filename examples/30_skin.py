@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Write a simulated patch of skin: its layout, two recordings in a pressure chamber, and one in which it is touched.
 
-Usage: python examples/30_skin.py FOLDER
+Usage: python examples/30_skin.py [FOLDER]
 
 Writes shank.csv (layout), fit.toml and kept.toml (chamber), touched.toml (three objects, one after the other) and
 turned.csv (the layout with inward normals on one module). docs/guides/skin.md reads them.
@@ -88,5 +88,7 @@ def main(folder: Path) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Write a simulated patch of skin with its recordings.")
-    parser.add_argument("folder", type=Path, help="folder for the files; made if it does not exist")
+    parser.add_argument(
+        "folder", nargs="?", type=Path, default=Path("skin"), help="folder for the files; made if it does not exist"
+    )
     main(parser.parse_args().folder)

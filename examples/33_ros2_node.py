@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A node of ROS 2 that corrects a WrenchStamped, for users of rclpy; it was not run here, where ROS is not installed.
+"""A node of ROS 2 that corrects a WrenchStamped, for users of rclpy.
 
 Usage: python examples/33_ros2_node.py CALIBRATION --input TOPIC --output TOPIC
 
@@ -10,6 +10,7 @@ the same. Parameters that `forcetorque export` writes for a driver or controller
 from __future__ import annotations
 
 import argparse
+from contextlib import suppress
 from typing import Any
 
 from forcetorque import read_calibration
@@ -27,6 +28,7 @@ def main() -> None:
 
     import rclpy
     from geometry_msgs.msg import WrenchStamped
+    from rclpy.executors import ExternalShutdownException
     from rclpy.qos import qos_profile_sensor_data
 
     options = CorrectorOptions(quantity=HeldQuantity.WRENCH, policy=FaultPolicy.REFUSE)
@@ -48,7 +50,8 @@ def main() -> None:
             publisher.publish(message)
 
     node.create_subscription(WrenchStamped, arguments.input, correct, qos_profile_sensor_data)
-    rclpy.spin(node)
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(node)
 
 
 if __name__ == "__main__":

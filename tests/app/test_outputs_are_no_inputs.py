@@ -48,10 +48,11 @@ NEW_FOLDERS = {
     ("study fits", "--output"),
 }
 """Outputs that must not be there yet, or be empty folders."""
-FOLDERS = {("calibrate", "--moments"), ("fleet add", "--into"), ("run", "--output")}
+FOLDERS = {("calibrate", "--moments"), ("demo", "--output"), ("fleet add", "--into"), ("run", "--output")}
 """Outputs that are added to what a folder holds."""
 
 WORDS = {
+    "demo": "",
     "robot balance": f"{PARQUET}",
     "calibrate": f"{PARQUET} -o new.json",
     "robot coherence": f"{PARQUET}",
@@ -86,6 +87,7 @@ WORDS = {
     "tare": f"{PARQUET} --interval fit --to ft-tools",
     "bench sensor": f"{PARQUET}",
     "bench thermal": f"{PARQUET}",
+    "robot oscillation-causes": f"{PARQUET}",
     "robot torque-loop": f"{PARQUET}",
     "view": f"{PARQUET}",
     "bench workbench": f"{PARQUET}",
@@ -141,9 +143,15 @@ def _asked(command: str, option: str, name: str) -> list[str]:
 
 
 def _ending(command: str, option: str) -> str:
-    return {"--figure": ".png", "--video": ".mp4", "--table": ".csv", "--view": ".html"}.get(option) or ENDINGS.get(
-        command, ".out"
-    )
+    own = {
+        "--figure": ".png",
+        "--film": ".gif",
+        "--repaired": ".csv",
+        "--table": ".csv",
+        "--video": ".mp4",
+        "--view": ".html",
+    }
+    return own.get(option) or ENDINGS.get(command, ".out")
 
 
 def test_every_output_option_is_looked_at() -> None:

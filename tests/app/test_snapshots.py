@@ -117,14 +117,15 @@ WITHOUT_TABLE = {
     "live",
     "payload",
     "robot joint-collisions",
+    "robot oscillation-causes",
     "robot torque-loop",
     "run",
     "schema",
     "simulate",
 }
-"""Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `run` and `demo` minutes;
-`schema` is JSON; `dataset compensate` a dataset, `live` a stream, `joint-collisions` an arm, which their
-own tests have."""
+"""Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `oscillation-causes`,
+`run` and `demo` minutes; `schema` is JSON; `dataset compensate` a dataset, `live` a stream, `joint-collisions` an arm,
+which their own tests have."""
 
 
 def _write_limits(arm: Path) -> None:

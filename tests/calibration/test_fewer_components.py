@@ -210,7 +210,7 @@ def test_what_needs_six_components_says_so(axis: Path, run: Run, command: tuple[
 def test_exports_have_the_measured_components_alone(axis: Path, run: Run) -> None:
     """No zero stands for a load that is not measured, and what has no place for their names is refused."""
     fitted = run("calibrate", str(axis), "-o", "cell.json")
-    assert "learnt: fz " in fitted.out
+    assert "information gained: fz " in fitted.out
     assert "of the cross-talk of others: fx " in " ".join(fitted.out.split())
     done = run("export", "cell.json", "--to", "csv", "-o", "cell.csv", "--details")
     assert [line.split(",")[2] for line in Path("cell.csv").read_text(encoding="utf-8").splitlines()[1:]] == ["fz"]

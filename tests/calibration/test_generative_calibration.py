@@ -145,7 +145,7 @@ def test_the_answer_shows_sessions_and_what_was_learnt(days: Path, tmp_path: Pat
     result = calibrate_for_file(_runs(days, VALIDATION), tmp_path / "c.json", code_version="1", created="now")
     text = result.text(120)
     assert "offset of every session" in text
-    assert "learnt: fx " in text
+    assert "information gained: fx " in text
     (entry,) = result.calibrations
     assert entry.information_gain is not None
     assert [row.direction for row in entry.information_gain] == ["fx", "fy", "fz", "tx", "ty", "tz"]

@@ -51,7 +51,7 @@ def test_a_generative_fit_is_shown_without_lambda(generative: Calibration) -> No
     sensor = _assessed(new=generative)
     words, picture, assumed, noise, sessions = learnt_blocks(sensor)
     assert isinstance(words, Text)
-    assert words.text.startswith("new.json: learnt: fx ")
+    assert words.text.startswith("new.json: information gained: fx ")
     assert isinstance(picture, Figure)
     assert isinstance(assumed, Text)
     assert "the sensor as repeating itself to 0.3 % of its response." in assumed.text

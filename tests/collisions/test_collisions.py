@@ -15,14 +15,17 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import cross
 from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.findings import with_collisions
 from forcetorque.collisions.result import Collisions
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.recording.recording import Support
+from forcetorque.recording.recording import Finding, Support
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.tree import build_tree
+from forcetorque.viewer.scene_builder import build_scene
+from forcetorque.viewer.viewer_log import viewer_log
 from tests.app.outcome import Run
 from tests.scenes.experiments import MOUNTED, PARQUET, edit, write_experiments
 
@@ -66,14 +69,16 @@ def _relative_poses(run: SensorRun, link: str) -> tuple[FloatArray, FloatArray]:
     return np.linalg.inv(base_H_sensor) @ base_H_link, base_H_sensor[:, :3, :3]
 
 
-def _planted(folder: Path, target: Path, wrench: Callable[[SensorRun], FloatArray]) -> SensorRun:
+def _planted(
+    folder: Path, target: Path, wrench: Callable[[SensorRun], FloatArray], *, end_s: float = END_S
+) -> SensorRun:
     """The log with a wrench on the arm, in the axes and about the origin of the sensor; shape (n, 6)."""
     write_experiments(target)
     edit(target / PARQUET, 'tolerance = "exact"\n', "")
     recording, run = read_recording(target / "recording"), _run(folder)
     stream = recording.stream("arm_ft")
     since_s = (stream.stamp_ns - recording.start_ns) * 1e-9
-    inside = (since_s >= START_S) & (since_s <= END_S)
+    inside = (since_s >= START_S) & (since_s <= end_s)
     signal = stream.signal("raw")
     counts = signal.values + inside[:, None] * np.linalg.solve(MOUNTED, wrench(run).T).T
     changed = replace(stream, signals={**stream.signals, "raw": replace(signal, values=counts)})
@@ -124,6 +129,21 @@ def test_a_push_below_what_is_noticed_is_not(folder: Path, tmp_path: Path) -> No
     assert not _found(run).collisions
 
 
+def test_a_contact_in_the_free_interval_hides_no_other(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where enough is left, noise is learnt without the push that `inspect` finds: what is noticed is as without it."""
+    run, labels = _planted(folder, tmp_path, _push, end_s=START_S + 1.0), ("judge", "fit")
+    correction = run.read_by(None, None).bare
+    clean = find_collisions(_run(folder), correction, (), labels, 1.0).sensitivity[0]
+    short = find_collisions(run, correction, (), labels, 1.0)
+    assert short.sensitivity[0].smallest_force_N > 1.2 * clean.smallest_force_N
+    monkeypatch.setattr("forcetorque.collisions.collisions._ENOUGH_FREE_S", 10.0)
+    found = find_collisions(run, correction, (), labels, 1.0)
+    assert len(found.collisions) == 1
+    assert found.sensitivity[0].smallest_force_N == pytest.approx(clean.smallest_force_N, rel=0.05)
+
+
 def test_a_couple_is_no_force_at_a_point(folder: Path, tmp_path: Path) -> None:
     """A grip that turns: the moment about the line is outside its interval of zero."""
 
@@ -145,6 +165,32 @@ def test_what_is_learnt_where_something_touches_is_doubted(folder: Path, tmp_pat
     assert any("from which noise is learnt" in words for words in found.warnings)
     with pytest.raises(ExperimentError, match=r"expected at least 10 s in which nothing touches .* got"):
         _found(run, free=("judge",))
+
+
+def test_a_push_is_an_event_for_viewers(folder: Path, tmp_path: Path) -> None:
+    """Time, size and link stand in the findings of the scene and in the log for other viewers; without it, nothing."""
+    built = build_scene(_planted(folder, tmp_path, _push).experiment, {})
+    (finding,) = (one for one in built.scene.findings if one.kind == "collision")
+    assert finding.start_s == pytest.approx(START_S, abs=0.06)
+    assert "arm_ft: 1" in finding.message
+    assert "forearm" in finding.message
+    events = [one for one in viewer_log(built).events if "arm_ft: collision: " in one.text]
+    assert [one.is_warning for one in events] == [True]
+    assert {one.kind for one in build_scene(_run(folder).experiment, {}).scene.findings} <= {"missing"}
+
+
+def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the order of time; of a sensor that cannot be looked at there are none, and a log that is too long says so."""
+    experiment = _planted(folder, tmp_path, _push).experiment
+    others = tuple(
+        Finding(stream="arm_ft", kind="gap", message="a gap", count=1, start_ns=experiment.recording.start_ns + at)
+        for at in (10**9, 20 * 10**9)
+    )
+    assert [one.kind for one in with_collisions(others, experiment, {})] == ["gap", "collision", "gap"]
+    monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 10.0)
+    assert [one.kind for one in with_collisions(others, experiment, {})] == ["not_compared", "gap", "gap"]
+    ignored = experiment.recording.with_intervals([])
+    assert with_collisions(others, replace(experiment, recording=ignored), {}) == others
 
 
 def test_the_command_prints_contacts_first(folder: Path, tmp_path: Path, run: Run) -> None:

@@ -116,7 +116,8 @@ def test_what_a_generative_fit_did_not_learn_is_said_and_raw_directions_are_not(
     _, line = verdict(_report(both, **given))
     assert line.tone == "caution"
     assert (
-        "new.json: learnt: fx 90 %, fy 90 %, fz 97 %, tx 80 %, ty 80 %, tz 4 %; for tz the prior decides" in line.text
+        "new.json: information gained: fx 90 %, fy 90 %, fz 97 %, tx 80 %, ty 80 %, tz 4 %; for tz the prior decides"
+        in line.text
     )
     (_,) = verdict(_report(both, **given | {"information_gain": {"new.json": _learnt(*[0.9] * 6)}}))
     shy.posterior = None

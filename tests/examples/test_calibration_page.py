@@ -63,7 +63,7 @@ def test_the_example_with_the_truth_is_as_the_page_says(tmp_path: Path) -> None:
     folder = tmp_path / "simulated"
     command = ("-m", "forcetorque", "calibrate", "--sensor", "l_leg_ft")
     shown = [_typed(folder, *command, "grid.toml", "-o", "grid.json"), _typed(folder, *command, *ALL, "-o", "all.json")]
-    for said, learnt in zip(shown, re.findall(r"^    (learnt: [^;\n]*)", PAGE, re.MULTILINE), strict=True):
+    for said, learnt in zip(shown, re.findall(r"^    (information gained: [^;\n]*)", PAGE, re.MULTILINE), strict=True):
         assert learnt in " ".join(said.split())
     for day in ("grid_day2", "bsl_day2"):
         judged = _typed(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import os
 import re
@@ -36,6 +37,21 @@ LARGEST_NOTEBOOK = 100_000
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 
+@pytest.mark.parametrize(
+    "script", [script for script in SCRIPTS if "ros2_node" not in script.name], ids=lambda s: s.stem
+)
+def test_a_script_needs_no_arguments(script: Path) -> None:
+    """Every argument without dashes has a default; a node has topics to name."""
+    calls = [node for node in ast.walk(ast.parse(script.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)]
+    added = [call for call in calls if isinstance(call.func, ast.Attribute) and call.func.attr == "add_argument"]
+    assert added
+    for call in added:
+        name, options = ast.literal_eval(call.args[0]), {word.arg: word.value for word in call.keywords}
+        required = options.get("required")
+        assert required is None or not ast.literal_eval(required), name
+        assert name.startswith("-") or ast.literal_eval(options.get("nargs", ast.Constant("1"))) in ("?", "*"), name
+
+
 def _is_slow(page: Path) -> bool:
     return page.name in SLOW
 
@@ -53,7 +69,7 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     folder = tmp_path_factory.mktemp("run") / "build" / "demo"
     folder.parent.mkdir()
     done = subprocess.run(
-        [sys.executable, "-m", "forcetorque", "demo", "build/demo"],
+        [sys.executable, "-m", "forcetorque", "demo", "-o", "build/demo"],
         cwd=folder.parents[1],
         env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "COLUMNS": "100"},
         capture_output=True,

@@ -261,6 +261,9 @@ def test_files_of_one_stream_follow_each_other(poses: Path) -> None:
     np.testing.assert_array_equal(
         joined.stream("wrench").signal("wrench").values, whole.stream("wrench").signal("wrench").values
     )
+    pattern = TEXT.replace('"pose.txt"', '"pose_[12].txt"').replace('"wrench.txt"', '"wrench_?.txt"')
+    matched = _recording(poses, pattern).stream("wrench").signal("wrench")
+    np.testing.assert_array_equal(matched.values, whole.stream("wrench").signal("wrench").values)
     rated = text.replace('stamp = "row"\nclock = "row"', "rate_hz = 10.0\nstart_s = [0.0, {start}]")
     assert len(_recording(poses, rated.replace("{start}", "1.1")).stream("wrench")) == 30
     with pytest.raises(ForceTorqueError, match=r"pose_2\.txt.*expected samples after the last of .*pose_1\.txt"):
@@ -289,6 +292,11 @@ REFUSED = {
     ),
     "rows before the first": (_replaced(WRENCH_STAMP, f"skip_rows = -1\n{WRENCH_STAMP}"), "skip_rows"),
     "all rows skipped": (_replaced(WRENCH_STAMP, f"skip_rows = 99\n{WRENCH_STAMP}"), r"wrench\.txt"),
+    "a pattern of nothing": (_replaced('"wrench.txt"', '"raw/*.csv"'), r"expected files of the pattern 'raw/\*\.csv'"),
+    "a pattern with a rate": (
+        _replaced('"wrench.txt"\n' + WRENCH_STAMP, '"w*.txt"\nrate_hz = 5.0\nstart_s = 0.0\ncolumn_names = ["a"'),
+        "list the files of a rate",
+    ),
     "no file": (_replaced('"wrench.txt"', "[]"), "file"),
     "frame of the sensor already": (_replaced('frame = "base"', 'frame = "tool"'), "in another frame than 'tool'"),
     "orientation of another frame": (_replaced('to = "tool"', 'to = "hand"'), "orientation of 'hand'"),

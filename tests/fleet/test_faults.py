@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -101,6 +104,25 @@ def test_a_log_that_grows_while_it_is_read(days: Path, monkeypatch: pytest.Monke
     monkeypatch.undo()
     log.write_bytes(whole)
     assert [row.state for row in add_recording(source, folder, OPTIONS)] == ["added"]
+
+
+@pytest.mark.long
+def test_a_log_that_another_process_writes(days: Path) -> None:
+    """A process of its own refuses it with the name of the file and adds nothing; then it is added once."""
+    command = [sys.executable, "-m", "forcetorque", "fleet", "add", FILES[0], "--into", "fleet"]
+    log, rounds = days / "day_1" / "recording.json", 0
+    with subprocess.Popen(command, cwd=days, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as adding:
+        while adding.poll() is None:
+            with log.open("a", encoding="utf-8") as stream:
+                stream.write("\n")  # the file can be read at any time
+            rounds += 1
+            time.sleep(0.01)
+        assert adding.stderr is not None
+        assert "expected inputs that do not change" in (said := adding.stderr.read())
+    assert (adding.returncode, rounds > 1, "day_1/recording.json" in said) == (2, True, True)
+    assert Dataset(days / "fleet").present() == []
+    subprocess.run(command, cwd=days, check=True, capture_output=True)
+    assert Dataset.opened(days / "fleet").recordings == 1
 
 
 def test_a_recording_of_an_installed_robot_is_known_again(days: Path, monkeypatch: pytest.MonkeyPatch) -> None:

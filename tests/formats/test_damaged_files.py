@@ -56,6 +56,11 @@ def test_the_end_of_a_process_is_noticed(tmp_path: Path, processes: Processes) -
     assert sum(processes.run("npz", tmp_path, [3]).values()) == 2
 
 
+def test_damaged_statistics_of_a_row_group_end_no_process(tmp_path: Path, processes: Processes) -> None:
+    """Arrow ends the process where it is asked for those of this case, which a random run found."""
+    assert sum(processes.run("frames of a dataset", tmp_path, [676675875097658357]).values()) == 2
+
+
 def test_an_undamaged_file_is_read(tmp_path: Path) -> None:
     """Negative control: what refuses everything would pass the test above."""
     case = array_case(tmp_path, "npz")

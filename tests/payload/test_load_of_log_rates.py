@@ -13,13 +13,14 @@ import pytest
 from forcetorque.base.errors import FitError, FormatError
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_of_log import experiment_of_log
+from forcetorque.payload.load_of_log import described_log, experiment_of_description
 from forcetorque.payload.result import WeighedLoad
 from tests.formats.franka.states import write_states
 from tests.formats.ur_rtde.recordings import write_text
 from tests.payload.simulated_panda import moved
 from tests.payload.simulated_ur5 import (
     Recording,
+    about_tcp,
     millimetres,
     newton_millimetres,
     reaction,
@@ -38,7 +39,7 @@ def _weighed(folder: Path, recording: Recording) -> WeighedLoad:
 
 
 def _load_of(log: Path, specified: dict[str, object]) -> WeighedLoad:
-    experiment = experiment_of_log(log, specified, log.parent).experiment
+    experiment = experiment_of_description(log, described_log(log, specified), specified, log.parent).experiment
     return weigh_load([SensorRun(experiment, experiment.sensors[0])])
 
 
@@ -72,15 +73,22 @@ def test_intervals_hold_the_truth(tmp_path: Path) -> None:
         (tool_axes, "wrench turned twice"),
         (newton_millimetres, "mixed units"),
         (millimetres, "it is in mm"),
+        (about_tcp, "moment about another point"),
     ],
 )
 def test_mistakes_are_named(tmp_path: Path, mistake: Callable[[Recording], Recording], words: str) -> None:
-    """In at least 95 of 100: the reaction for the action, tool axes for base axes, N mm for N m, and mm for m."""
+    """In at least 95 of 100: reaction for action, tool for base axes, N mm for N m, mm for m, TCP for flange."""
     named = 0
     for seed in range(COUNT):
         try:
-            weighed = _weighed(tmp_path, mistake(simulated(seed, declared_shares=(0.0,))))
-            named += any(row.name == words for row in weighed.hypotheses)
+            log = write_text(
+                tmp_path / "log.csv", mistake(simulated(seed, declared_shares=(0.0,))).columns, delimiter=","
+            )
+            specified: dict[str, object] = {"moment_about": "flange"}
+            alone = experiment_of_description(log, described_log(log, specified), specified, tmp_path)
+            weighed = weigh_load([SensorRun(alone.experiment, alone.experiment.sensors[0])])
+            names = (*(row.name for row in weighed.hypotheses), *alone.arm.contradictions)
+            named += any(name.startswith(words) for name in names)
         except (FitError, FormatError) as error:
             named += words in str(error)
     assert named >= 95

@@ -40,7 +40,13 @@ from forcetorque.evaluation.load_cases.verdict import LoadCaseError, LoadCaseVer
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.locomotion.figures import balance_figure, coherence_figure, motion_figure, torque_loop_figure
+from forcetorque.locomotion.figures import (
+    balance_figure,
+    coherence_figure,
+    motion_figure,
+    oscillation_causes_figure,
+    torque_loop_figure,
+)
 from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
 from forcetorque.locomotion.motion_quality import motion
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
@@ -63,6 +69,7 @@ from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
 from forcetorque.study.figures import lambda_force_figure
 from forcetorque.workbench.figure import bench_figure
 from forcetorque.workbench.result import BenchPicture
+from tests.locomotion.torque_control.test_causes import cause_row, causes_of
 from tests.scenes.patches import cylinder_patch
 from tests.skin.layout.skins import cylinder
 
@@ -137,6 +144,11 @@ def _torque_loop(rng: np.random.Generator) -> Figure:
     return torque_loop_figure(
         TorqueLoopStudy(name="biped", weight_N=303.0, duration_s=6.7, delay_s=0.001, rows=tuple(rows), onsets=())
     )
+
+
+def _oscillation_causes(rng: np.random.Generator) -> Figure:
+    counts = rng.integers(0, 20, size=3)
+    return oscillation_causes_figure(causes_of(*(cause_row(f"cause {k}", int(n)) for k, n in enumerate(counts))))
 
 
 def _space(rng: np.random.Generator) -> Figure:
@@ -324,8 +336,8 @@ def _skin_wrench(rng: np.random.Generator) -> Figure:
             },
             places=unrolled(surface),
             triangles=surface.triangles,
-            pressures=pressures,
-            pressed_s=7.8,
+            pressures=load[:, None] / 9.81 * pressures,
+            strongest=int(load.argmax()),
         ),
         load,
     )
@@ -655,6 +667,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "response": _response,
     "torque": _torque,
     "torque loop": _torque_loop,
+    "oscillation causes": _oscillation_causes,
     "index": _index,
     "skin layout": _skin_layout,
     "use": _use,

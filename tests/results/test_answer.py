@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 
 import pytest
 
@@ -133,3 +134,22 @@ def test_a_command_of_one_file_has_the_first_of_several() -> None:
     assert answer_text([one], 80, "a.toml b.toml", "a.toml").splitlines()[-1] == "  forcetorque inspect a.toml"
     assert answer_text([all_], 80, "a.toml b.toml", "a.toml").splitlines()[-1] == "  forcetorque inspect a.toml b.toml"
     assert answer_text([one], 80).splitlines()[-1] == "  forcetorque inspect EXPERIMENT.toml"
+
+
+def test_every_sensor_that_asks_for_attention_has_its_reason() -> None:
+    """A line each where there is room, before more of the worst; what is left out is marked by an ellipsis."""
+    worst = replace(BAD, why=("force error 9 N (95 %: 12 N, allowed 2 N)", "9 samples not fitted"))
+    doubtful = replace(GOOD, verdict="NOT ENOUGH DATA", why=("1 N, allowed 0.5 N", "more"), concern=Concern.UNCERTAIN)
+    whole = answer_text([GOOD, doubtful, worst], 40).splitlines()
+    assert whole[1:6] == [
+        "  force error 9 N (95 %: 12 N, allowed",
+        "  2 N)",
+        "  9 samples not fitted",
+        "left (L1), l.json        NOT ENOUGH DATA",
+        "  1 N, allowed 0.5 N",
+    ]
+    least = len(whole) - 4
+    cut = [answer_text([GOOD, doubtful, worst], 40, most=least + room).splitlines() for room in range(4)]
+    assert {lines[1] for lines in cut} == {"  force error 9 N (95 %: 12 N, allowed …"}
+    assert [whole[5] in lines for lines in cut] == [False, False, True, True]
+    assert [whole[3] in lines for lines in cut] == [False, False, False, True]

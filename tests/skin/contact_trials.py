@@ -62,6 +62,10 @@ class ContactTrial:
     """Sum of the wrenches of all contacts, by method."""
     sd_N: float
     """Predicted standard deviation of the force, by the default method."""
+    sd: FloatArray
+    """Predicted standard deviations of the wrench of a single contact, by the default method; shape (6,)."""
+    centre: FloatArray
+    """Centre of pressure of a single contact, by the default method; shape (3,); m."""
     in_scope: bool
     """Whether it is one contact, in range and off the edge, as predicted standard deviations suppose."""
 
@@ -112,16 +116,22 @@ def leg_drawing(data: Path, layout: SkinLayout) -> FloatArray:
     return plan.positions[np.searchsorted(plan.taxels, layout.taxels), :2]
 
 
-class Leg:
-    """The lower leg with every method, and its taxels."""
+class PatchTrials:
+    """A patch with every method, and its taxels."""
 
-    def __init__(self, data: Path, seed: int) -> None:
-        layout = leg_layout(data)
-        self.seed = seed
-        self.body = SkinBody.of(layout)
+    def __init__(
+        self,
+        layout: SkinLayout,
+        drawing: FloatArray,
+        seed: int,
+        *,
+        simple_area_m2: float = SIMPLE_AREA_M2,
+        least_pa: float = 0.0,
+    ) -> None:
+        self.seed, self.layout, self._least_pa = seed, layout, least_pa
         self.patches = {
-            WrenchMethod.SIMPLE: SkinPatch.of(layout, "simple", taxel_area_m2=SIMPLE_AREA_M2),
-            WrenchMethod.THESIS: SkinPatch.of(layout, "thesis", plane=leg_drawing(data, layout)),
+            WrenchMethod.SIMPLE: SkinPatch.of(layout, "simple", taxel_area_m2=simple_area_m2),
+            WrenchMethod.THESIS: SkinPatch.of(layout, "thesis", plane=drawing),
             WrenchMethod.LINEAR: SkinPatch.of(layout, "linear"),
             WrenchMethod.KRIGING: SkinPatch.of(layout, "kriging"),
         }
@@ -129,16 +139,12 @@ class Leg:
         self.taxels = TaxelResponses.drawn(len(layout), rng)
         self.tables = {both: chamber_table(self.taxels, rng, both_ways=both) for both in (False, True)}
 
-    def truths(self, number: int) -> list[ContactTruth]:
-        """Rest so many objects on it."""
-        return list(contacts(self.body, np.random.default_rng(self.seed), number))
-
     def trials(self, truths: Sequence[ContactTruth], chain: Chain | None = None) -> list[ContactTrial]:
         """Tell what each object does, from ideal pads or through a chain."""
         if chain is None:
-            return [self._trial(one, _ideal(one)) for one in truths]
+            return [self._trial(one, self._ideal(one)) for one in truths]
         rng = np.random.default_rng([self.seed, 2])
-        live = np.ones(len(self.body.layout), dtype=np.bool_)
+        live = np.ones(len(self.layout), dtype=np.bool_)
         live[rng.permutation(len(live))[: round(chain.dead * len(live))]] = False
         rest = self.taxels.counts(np.zeros(len(live)), rng, frames=REST_FRAMES).astype(np.float64)
         reader = PatchReader.at_rest(self.tables[chain.both_ways], rest, live=live)
@@ -158,8 +164,29 @@ class Leg:
             contacts=len(ours),
             wrenches={method: contacts.wrench.sum(axis=0) for method, contacts in told.items()},
             sd_N=float(ours.force_sd_N[0]) if one else np.nan,
+            sd=np.sqrt(np.diagonal(ours.covariance[0])) if one else np.full(6, np.nan),
+            centre=ours.centre_of_pressure[0] if one else np.full(3, np.nan),
             in_scope=one and not ours.beyond_range[0] and bool(ours.edge_share[0] < OFF_EDGE),
         )
+
+    def _ideal(self, truth: ContactTruth) -> PressureFrame:
+        pressures = np.maximum(truth.pressures, 0.0)
+        return PressureFrame(
+            pressures=pressures, active=pressures > self._least_pa, beyond_range=pressures > REFERENCE_PA
+        )
+
+
+class Leg(PatchTrials):
+    """The lower leg and its true surface."""
+
+    def __init__(self, data: Path, seed: int) -> None:
+        layout = leg_layout(data)
+        super().__init__(layout, leg_drawing(data, layout), seed)
+        self.body = SkinBody.of(layout)
+
+    def truths(self, number: int) -> list[ContactTruth]:
+        """Rest so many objects on it."""
+        return list(contacts(self.body, np.random.default_rng(self.seed), number))
 
 
 def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways: bool) -> PressureTable:
@@ -188,11 +215,6 @@ def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways
         error=np.array([one.error_pa for one in worth]),
         hysteresis=np.array([one.hysteresis_pa for one in worth]),
     )
-
-
-def _ideal(truth: ContactTruth) -> PressureFrame:
-    pressed = truth.pressures > 0.0
-    return PressureFrame(pressures=truth.pressures, active=pressed, beyond_range=truth.pressures > REFERENCE_PA)
 
 
 def errors(trials: Sequence[ContactTrial], method: WrenchMethod) -> Errors:

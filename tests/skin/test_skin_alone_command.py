@@ -105,3 +105,15 @@ def test_logs_of_a_real_robot_open(data_dir: Path, tmp_path: Path, name: str) ->
     two_clocks = [finding for finding in built.scene.findings if finding.kind == "two_clocks"]
     assert bool(two_clocks) == (name != "rightleftforearmshands")
     assert read_array(built.block, built.scene.time_s).max() < 100.0
+
+
+def test_what_patches_share_is_found_once(run: Run, tmp_path: Path) -> None:
+    """One port sends the contacts of both arms: its lost messages are named once, with both."""
+    file = write_events(tmp_path)
+    log = tmp_path / "dumper" / "skin_events" / "data.log"
+    lines = log.read_text(encoding="utf-8").splitlines(keepends=True)
+    log.write_text("".join(lines[:20] + lines[25:]), encoding="utf-8")
+    findings = run("inspect", file, "--format", "json").result()["findings"]
+    lost = [finding for finding in findings if finding["kind"] == "lost_messages"]
+    assert [(finding["stream"], finding["count"]) for finding in lost] == [("right forearm", 5)]
+    assert lost[0]["message"].endswith("; the same of left forearm")

@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from forcetorque.skin.layout.formats.registry import read_layout
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.patches import collapsed, cylinder_patch, position_text
@@ -50,6 +53,28 @@ def test_a_figure_is_drawn(run: Run, folder: Path) -> None:
     assert (folder / "patch.png").read_bytes()[:4] == b"\x89PNG"
     refused = run("skin", "check", "none.txt", "--figure", "patch.jpg").error()
     assert refused == "error: --figure patch.jpg: expected a name that ends in .png"
+
+
+def test_a_repaired_layout_is_written(run: Run, folder: Path) -> None:
+    """Placeholder normals are found, the table with rebuilt ones has no finding; taxels stay where they were."""
+    layout = cylinder_patch()
+    wrong = replace(layout, normals=np.tile([1.0, 0.0, 0.0], (len(layout), 1)))
+    (folder / "wrong.txt").write_text(position_text(wrong), encoding="utf-8")
+    found = run("skin", "check", "wrong.txt", "--repaired", "repaired.csv")
+    assert found.code == 1
+    assert run("skin", "check", "repaired.csv").code == 0
+    repaired = read_layout(folder / "repaired.csv")
+    np.testing.assert_allclose(repaired.positions, read_layout(folder / "sound.txt").positions, atol=1e-9)
+    # a cylinder of 60 mm, whose normals follow from modules to 0.007 degrees
+    assert np.degrees(np.arccos(np.clip((repaired.normals * layout.normals).sum(axis=1), -1.0, 1.0))).max() < 0.1
+
+
+def test_what_needs_moving_is_not_repaired(run: Run, folder: Path) -> None:
+    """Taxels at one place have no normals of their own: no file is written."""
+    error = run("skin", "check", "collapsed.txt", "--repaired", "repaired.csv").error()
+    assert "collapsed.txt" in error
+    assert "positions: expected distinct taxels" in error
+    assert not (folder / "repaired.csv").exists()
 
 
 def test_what_is_no_layout_is_one_line(run: Run, folder: Path) -> None:

@@ -23,6 +23,11 @@ ROUNDING = 1e-12
 """Of lengths below a metre, summed over hundreds of facets, with room."""
 
 
+def test_the_strip_is_half_as_wide_as_taxels_are_apart() -> None:
+    """On a module, to 2 %: a wider one adds force to every contact at the edge."""
+    assert pytest.approx(0.5 * PITCH_M, rel=0.02) == HALF_PITCH_M
+
+
 def test_a_plane_is_covered_once() -> None:
     """The facets of a lattice have together the area inside its outline, and all of them the plane's normal."""
     rows, columns = 8, 10

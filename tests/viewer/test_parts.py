@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.joint.interval import part_residuals
+from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

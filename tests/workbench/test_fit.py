@@ -136,7 +136,7 @@ _HALVES = (slice(3), slice(3, 6))
 def test_measurements_that_cannot_be_used() -> None:
     """Too few channels, and positions without data."""
     loads = thesis_loads()
-    with pytest.raises(ShapeError, match="at least six channels"):
+    with pytest.raises(ShapeError, match="at least 6 channels"):
         Bench(sensor="ft", serial="S", loads=loads, raw=np.ones((24, 5)), full_scale=np.ones(5))
     empty = Bench(sensor="ft", serial="S", loads=loads, raw=np.full((24, 6), np.nan), full_scale=np.ones(6))
     with pytest.raises(SensorError, match="known load and raw samples, got none"):

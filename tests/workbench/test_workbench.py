@@ -249,7 +249,7 @@ def test_five_directions_are_named_as_they_come(tmp_path: Path) -> None:
     (row,) = run_workbench(path).sensors
     assert row.rank == 4
     assert len(row.unmoved) == 2
-    with pytest.raises(FitError, match="excite all six directions"):
+    with pytest.raises(FitError, match="excite all 6 directions, got 4"):
         run_workbench(path, full_matrix=True)
 
 

@@ -11,6 +11,8 @@ import type { Window } from "./time_window";
 
 /** Most points of all series together. */
 const LIMIT = 20_000;
+/** Points of the overview may be so many times fewer than those that could be drawn. */
+const FEWER = 4;
 /** Values farther than this many half widths of nearly all others do not widen the view. */
 const FAR = 3;
 
@@ -50,13 +52,15 @@ export class CloudMaker {
   of(state: State): Clouds {
     const { sensor, quantity, window } = state;
     const spans = state.hideIgnored ? ignoredSpans(this.data, state.marks) : [];
-    const key = JSON.stringify([sensor, quantity, spans.map((s) => [s.start_s, s.end_s])]);
     const all = this.data.span;
+    // of a stream that goes on, once a second: a cloud is drawn anew as a whole
+    const following = this.data.scene.live !== null && state.playing;
+    const key = JSON.stringify([sensor, quantity, following ? Math.floor(all[1]) : all, spans.map((s) => [s.start_s, s.end_s])]);
     const whole = this.remembered("whole", key, () => {
       const clouds = makeClouds(this.data, sensor, quantity, spans, all);
       return { ...clouds, ...bounds(clouds.clouds) };
     });
-    if (window[0] <= all[0] && window[1] >= all[1]) return whole;
+    if (following || (window[0] <= all[0] && window[1] >= all[1])) return whole;
     return this.remembered("window", `${key} ${window.join(" ")}`, () => {
       const clouds = makeClouds(this.data, sensor, quantity, spans, window);
       return { ...clouds, centre: whole.centre, half: whole.half }; // what is left stays where it was
@@ -80,29 +84,40 @@ function makeClouds(
   left.fill(0, data.firstAt(window[0]), data.sampleAt(window[1]) + 1);
   for (const { start_s, end_s } of spans) left.fill(1, data.firstAt(start_s), data.firstAt(end_s));
   const sensor = data.sensor(place);
-  const limit = Math.floor(LIMIT / Math.max(1, sensor?.wrenches.length ?? 0));
-  const samples = everyKth(data.samples, limit, (i) => left[i] === 0);
-  const clouds = (sensor?.wrenches ?? []).map((series) => ({
-    series,
-    colour: sensor ? seriesColour(sensor, series) : INK,
-    points: pick(data.floats(series.values), samples, FIRST[quantity]),
-    ellipsoid: quantity === "force" ? series.ellipsoid_force : series.ellipsoid_moment,
-    sphere: quantity === "force" ? series.reference_force : series.reference_moment,
+  const series = sensor?.wrenches ?? [];
+  const limit = Math.floor(LIMIT / Math.max(1, series.length));
+  const kept = left.reduce((count, out) => count + 1 - out, 0);
+  const every = series[0]?.overview?.every ?? Infinity;
+  // points of the overview, where they are not much fewer: no sample is then unpacked
+  const ready = FEWER * kept >= every * Math.min(limit, kept);
+  const step = ready ? every : 1;
+  const samples = everyKth(Math.ceil(data.samples / step), limit, (k) => left[step * k] === 0).map((k) => step * k);
+  const clouds = series.map((one) => ({
+    series: one,
+    colour: sensor ? seriesColour(sensor, one) : INK,
+    points: pick(data, one, samples, step, FIRST[quantity]),
+    ellipsoid: quantity === "force" ? one.ellipsoid_force : one.ellipsoid_moment,
+    sphere: quantity === "force" ? one.reference_force : one.reference_moment,
   }));
   return { samples, clouds };
 }
 
-function pick(values: Float32Array, samples: Uint32Array, first: number): Float32Array {
+function pick(data: SceneData, { values, overview }: WrenchSeries, samples: Uint32Array, step: number, first: number): Float32Array {
   const points = new Float32Array(3 * samples.length);
-  samples.forEach((sample, k) => points.set(values.subarray(6 * sample + first, 6 * sample + first + 3), 3 * k));
+  const ready = step > 1 && overview ? data.floats(overview.points) : null;
+  samples.forEach((sample, k) => {
+    const rows = ready ?? data.over(values, sample, sample + 1);
+    const at = 6 * (ready ? sample / step : sample) + first;
+    points.set(rows.subarray(at, at + 3), 3 * k);
+  });
   return points;
 }
 
 function bounds(clouds: readonly Cloud[]): Pick<Clouds, "centre" | "half"> {
   const edges = [0, 1, 2].map((axis) => {
-    const values = clouds.flatMap(({ points }) => [
-      ...points.filter((value, k) => k % 3 === axis && !Number.isNaN(value)),
-    ]);
+    const values = clouds.flatMap(({ points }) =>
+      Array.from(points.filter((value, k) => k % 3 === axis && !Number.isNaN(value))),
+    );
     const found = values.length > 0 ? [interval(Float64Array.from(values).sort())] : [];
     const spheres = clouds.flatMap(({ sphere }) =>
       sphere ? [[sphere.centre[axis] ?? 0, sphere.radius] as const] : [],

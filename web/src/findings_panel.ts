@@ -11,7 +11,7 @@ const LONGEST = 200;
 /** What is absent and why. */
 export function notes(data: SceneData): HTMLElement[] {
   const texts = [...data.scene.notes];
-  if (data.samples === 0) texts.push("The scene has no samples.");
+  if (data.samples === 0 && !data.scene.live) texts.push("The scene has no samples.");
   if (texts.length === 0) return [];
   const list = el("ul", {}, ...texts.map((text) => el("li", {}, text)));
   const count = texts.length === 1 ? "1 note" : `${texts.length} notes`;

@@ -2,6 +2,7 @@
 // What programs may ask of the page: a browser driven by a command, or a test.
 
 import { linkPoses } from "./kinematics";
+import type { Following } from "./live_follow";
 import type { PlaneView } from "./planes";
 import type { ComponentPlot, PlotRange } from "./plots";
 import type { SkinShown } from "./skin_view";
@@ -30,6 +31,8 @@ export interface Hook {
   cloudSamples(): number[];
   /** What is drawn of skin: pressed taxels of each patch, and arrows of contacts, tip by tip in the world. */
   skin(): SkinShown;
+  /** What is known of the stream, of a page that follows one: samples that are shown, and their time; s. */
+  live?: () => Following & { samples: number; span: readonly [number, number] };
   /** Make a film; base64 of an MP4 file. */
   video(options?: VideoOptions): Promise<string>;
 }
@@ -46,7 +49,7 @@ export function openHook(
   space: SpaceView,
   planes: readonly PlaneView[],
   plots: readonly ComponentPlot[],
-): Omit<Hook, "ready"> {
+): Omit<Hook, "ready" | "live"> {
   const first = stage.store.state;
   return {
     reset() {

@@ -10,8 +10,8 @@ import { save, step, togglePlay } from "./transport";
 const STRETCH = 1.5; // factor of one press
 const SHIFT = 0.25; // share of the window
 
-/** What the keys do, for the help of the page. */
-export const KEYS: readonly (readonly [key: string, does: string])[] = [
+/** What the keys do. */
+const KEYS: readonly (readonly [key: string, does: string])[] = [
   ["← →", "one sample back, on; with Shift ten"],
   ["Home End", "first, last sample"],
   ["Space", "play, pause"],
@@ -25,6 +25,14 @@ export const KEYS: readonly (readonly [key: string, does: string])[] = [
   ["s", "save the sample"],
   ["Alt + arrows, + −, 0", "turn, zoom, reset the focused 3-D view"],
 ];
+
+/** Keys of what only a recording has: expected wrenches, intervals, samples to save. */
+const RECORDED = ["w", "n", "p", "b", "e", "s"];
+
+/** What the keys of a page do, for its help. */
+export function keysOf(data: SceneData): typeof KEYS {
+  return KEYS.filter(([key]) => !(data.scene.live && RECORDED.includes(key.charAt(0))));
+}
 
 /** Listen to the keys. */
 export function listen(data: SceneData, store: Store, say: (text: string) => void): void {
@@ -52,7 +60,7 @@ export function listen(data: SceneData, store: Store, say: (text: string) => voi
     if (event.ctrlKey || event.metaKey || event.altKey || takes(event.target, event.key)) return;
     const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     const action = by !== 0 ? () => step(data, store, event.shiftKey ? 10 * by : by) : actions[event.key];
-    if (!action) return;
+    if (!action || (data.scene.live && RECORDED.includes(event.key.toLowerCase()))) return;
     event.preventDefault();
     action();
   });

@@ -12,7 +12,7 @@ export const IDENTITY: Pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 /** The product a_H_c = a_H_b b_H_c. */
 export function compose(a: Pose, b: Pose): Pose {
-  const product = new Array<number>(16).fill(0);
+  const product = Array.from({ length: 16 }, () => 0);
   for (let row = 0; row < 4; row++) {
     for (let column = 0; column < 4; column++) {
       let sum = 0;

@@ -3,7 +3,7 @@
 
 import { button, choice, el } from "./dom";
 import { COMPONENTS } from "./columns";
-import { goToEvent, goToWorst, KEYS } from "./keyboard";
+import { goToEvent, goToWorst, keysOf } from "./keyboard";
 import type { Shown } from "./plots";
 import type { Quantity, SceneData } from "./scene_data";
 import type { Large, Store } from "./store";
@@ -98,28 +98,31 @@ function header(data: SceneData, store: Store): HTMLElement {
     "details",
     { class: "keys" },
     el("summary", {}, "Keys"),
-    el("dl", {}, ...KEYS.flatMap(([key, does]) => [el("dt", {}, key), el("dd", {}, does)])),
+    el("dl", {}, ...keysOf(data).flatMap(([key, does]) => [el("dt", {}, key), el("dd", {}, does)])),
   );
   return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), sensor, quantity, keys);
 }
 
-/** Errors on the left, wrenches on the right: a row for each component, those of moments shown when enlarged too. */
+/** Errors on the left, wrenches on the right: a row for each component, those of moments shown when enlarged too. Of a
+ *  stream, where no wrench is expected, forces on the left and moments on the right. */
 function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<Panels, "strips" | "plots"> {
   // both show the same: one is enough for who listens
   const strips = KINDS.map((kind) => el("div", { class: "strip", "aria-hidden": kind === "error" ? null : "true" }));
   const plots: Plot[] = [];
+  const { live } = data.scene;
   const quantities = ["force", "moment"] as const;
-  const groups = data.scene.sensors.length === 0 ? [] : quantities;
-  const rows = groups.map((quantity) => {
+  const groups = quantities.map((quantity) => ({ name: `rows ${quantity}`, columns: KINDS.map((kind) => ({ kind, quantity })) }));
+  const streamed = { name: "rows", columns: quantities.map((quantity) => ({ kind: "measured", quantity }) as const) };
+  const rows = (live ? [streamed] : data.scene.sensors.length === 0 ? [] : groups).map(({ name, columns }) => {
     const panels = COMPONENTS.flatMap((component) =>
-      KINDS.map((kind) => {
+      columns.map((column) => {
         const last = component === 3;
-        const panel = el("div", { class: last ? "plot last" : "plot", "data-kind": kind });
-        plots.push({ panel, shown: { kind, quantity, component, last } });
+        const panel = el("div", { class: last ? "plot last" : "plot", "data-kind": column.kind });
+        plots.push({ panel, shown: { ...column, component, last } });
         return panel;
       }),
     );
-    return el("div", { class: `rows ${quantity}` }, ...panels);
+    return el("div", { class: name }, ...panels);
   });
   const when = el("span", { class: "muted" });
   store.on(["sample", "hover"], () => {
@@ -129,21 +132,16 @@ function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<
   const head = el(
     "div",
     { class: "heading columns" },
-    el("h2", {}, "Error: measured − expected ", when),
-    el("h2", {}, "Measured and expected"),
+    el("h2", {}, live ? "Force " : "Error: measured − expected ", when),
+    el("h2", {}, live ? "Torque" : "Measured and expected"),
     timeTools(data, store),
   );
-  const root = el(
-    "section",
-    { class: "times", "aria-label": "Time plots" },
-    head,
-    el("div", { class: "strips" }, ...strips),
-    ...rows,
-  );
+  const above = live ? [head] : [head, el("div", { class: "strips" }, ...strips)];
+  const root = el("section", { class: live ? "times live" : "times", "aria-label": "Time plots" }, ...above, ...rows);
   store.on(["quantity"], () => {
     root.dataset["quantity"] = store.state.quantity;
   });
-  return { root, strips, plots };
+  return { root, strips: live ? [] : strips, plots };
 }
 
 function timeTools(data: SceneData, store: Store): HTMLElement {
@@ -153,13 +151,13 @@ function timeTools(data: SceneData, store: Store): HTMLElement {
     unzoom.hidden = store.state.window[0] === start && store.state.window[1] === end;
   });
   const tools = el("div", { class: "tools" }, unzoom);
-  if (data.scene.sensors.length > 0) {
+  if (data.scene.sensors.length > 0 && !data.scene.live) {
     tools.append(
       button("Worst sample", () => goToWorst(data, store), { title: "Largest error of the validation data in view (w)" }),
       button("Next event", () => goToEvent(data, store, 1), { title: "Next interval, finding or saved sample (n)" }),
-      largerButton(store, "time plots", "times"),
     );
   }
+  if (data.scene.sensors.length > 0) tools.append(largerButton(store, "time plots", "times"));
   return tools;
 }
 

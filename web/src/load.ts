@@ -37,12 +37,17 @@ export async function readRest(block: Block): Promise<void> {
   if (block instanceof ServedBlock) await block.fetch([[0, block.byteLength]]).catch(() => undefined);
 }
 
-/** Arrays of the first view, without postures, of which it reads a block. */
+/** Arrays of the first view: overviews, else series; of postures, and of series with an overview, it reads a block. */
 function shownFirst({ time_s, sensors: [first] }: Scene): ArrayRef[] {
   const series = first?.wrenches ?? [];
-  return [time_s, ...series.flatMap(({ values, deviation }) => [values, values.base, deviation])].filter(
-    (ref) => ref !== null && ref !== undefined,
-  );
+  return [
+    time_s,
+    ...series.flatMap(({ values, deviation, overview }) =>
+      overview
+        ? [overview.wrench, overview.error, overview.deviation, overview.points]
+        : [values, values.base, deviation],
+    ),
+  ].filter((ref) => ref !== null && ref !== undefined);
 }
 
 const BYTES = { float32: 4, float64: 8, uint32: 4 } as const;

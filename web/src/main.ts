@@ -12,6 +12,8 @@ import { Frames } from "./frames";
 import { openHook } from "./hook";
 import { listen, releaseAfterMouse } from "./keyboard";
 import { layout, type Panels } from "./layout";
+import { LiveData } from "./live_data";
+import { follow, liveBar, livePanel } from "./live_follow";
 import { readBlock, readHeader, readRest } from "./load";
 import { marksPanel } from "./marks_panel";
 import { fromFragment, keepAddress } from "./permalink";
@@ -47,7 +49,7 @@ async function start(): Promise<boolean> {
       if (total > 0) [bar.max, bar.value] = [total, loaded];
     });
     performance.mark("read");
-    build(new SceneData(scene, block));
+    build(scene.live ? new LiveData(scene, block) : new SceneData(scene, block));
     performance.mark("drawn");
     waiting.remove();
     document.documentElement.dataset["ready"] = "true";
@@ -80,9 +82,9 @@ function build(data: SceneData): void {
     errorOnRobot: true,
     scaleByCalibrations: false,
     large: null,
-    playing: false,
+    playing: data instanceof LiveData,
     speed: 1,
-    ...fromFragment(data, location.hash),
+    ...(data instanceof LiveData ? {} : fromFragment(data, location.hash)),
   });
   const frames = new Frames();
   const say = (text: string): void => {
@@ -91,7 +93,8 @@ function build(data: SceneData): void {
   window.addEventListener("error", ({ error }) => {
     if (error instanceof Error) say(error.message); // such as of a server that has ended
   });
-  const panels: Panels = layout(data, store, () => transport(data, store, say));
+  const bar = data instanceof LiveData ? liveBar(data, store) : null;
+  const panels: Panels = layout(data, store, () => bar?.bar ?? transport(data, store, say));
   (document.getElementById("viewer") ?? document.body).append(panels.app);
   const maker = new CloudMaker(data);
   const robot = new RobotView(panels.robot, frames, data);
@@ -110,13 +113,26 @@ function build(data: SceneData): void {
   const plots = panels.plots.map(({ panel, shown }) => new ComponentPlot(panel, shown, frames, data, store));
   const planes = connectFlat(panels, frames, data, maker, store);
   const stage: Stage = { data, store, robot, space, flush: () => frames.flush() };
-  fillSide(panels, frames, stage, say);
+  const sensors = fillSide(panels, frames, stage, say);
   describe(panels, stage, robot);
-  player(data, store);
   listen(data, store, say);
-  keepAddress(data, store);
   releaseAfterMouse();
   Object.assign(window.ft, openHook(stage, space, planes, plots));
+  if (data instanceof LiveData) {
+    let seen = false;
+    const following = follow(data, store, (state) => {
+      if (!seen && data.samples > 0) {
+        seen = true;
+        robot.aim(); // before, it had no posture
+      }
+      bar?.show(state);
+      sensors?.show(state);
+    });
+    window.ft.live = () => ({ ...following, samples: data.samples, span: data.span });
+  } else {
+    player(data, store);
+    keepAddress(data, store);
+  }
   frames.flush();
 }
 
@@ -146,13 +162,25 @@ function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: Clo
   });
 }
 
-function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: string) => void): void {
+/** Fill the panels at the side; gives that of a stream, if there is one. */
+function fillSide(
+  panels: Panels,
+  frames: Frames,
+  stage: Stage,
+  say: (text: string) => void,
+): ReturnType<typeof livePanel> | null {
   const { data, store } = stage;
   const section = (title: string, ...content: HTMLElement[]): HTMLElement =>
     el("section", { "aria-label": title }, el("h2", {}, title), ...content);
   const values = new ValuesPanel(data, store, frames);
-  const statistics = new StatisticsPanel(data, store, frames);
   const joints = new JointsPanel(data, store, frames);
+  if (data instanceof LiveData) {
+    const live = livePanel(data);
+    const series = section("Series", seriesPanel(data, store), values.root);
+    panels.side.append(...notes(data), section("Sensors", live.panel), series, section("Shown", switchPanel(data, store)), joints.root);
+    return live;
+  }
+  const statistics = new StatisticsPanel(data, store, frames);
   const provenance = el(
     "details",
     {},
@@ -172,14 +200,15 @@ function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: stri
     videoPanel(stage, say),
     provenance,
   );
+  return null;
 }
 
 /** Keep the texts of the views true: how long arrows are, and what a screen reader says of the pictures. */
 function describe(panels: Panels, { data, store, space }: Stage, robot: RobotView): void {
-  const { force, moment } = robot.wrenches.metresPer;
   const round = (unit: number): string => String(Number((0.1 / unit).toPrecision(2)));
-  store.on(["sensor", "quantity", "hidden", "errorOnRobot"], () => {
+  store.on(["sensor", "quantity", "hidden", "errorOnRobot", "window"], () => {
     const { quantity, errorOnRobot } = store.state;
+    const { force, moment } = robot.wrenches.metresPer;
     const { metresPer, fullColour } = robot.error;
     const known = errorOnRobot && metresPer !== null && fullColour !== null;
     const limb = known ? Number(fullColour.toPrecision(2)) : 0;

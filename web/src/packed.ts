@@ -24,10 +24,11 @@ interface Head {
 export class PackedArray {
   /** Number of rows that are unpacked together; the first of them is known before. */
   readonly rowsOfBlock: number;
+  /** 1 for every block that was unpacked, for who keeps its values. */
+  readonly isUnpacked: Uint8Array;
   private readonly starts: Uint32Array;
   private readonly steps: Float64Array;
   private readonly first: number;
-  private readonly blocks: (Float32Array | undefined)[] = [];
 
   /**
    * @param block All data of the page.
@@ -44,34 +45,21 @@ export class PackedArray {
     const [rowsOfBlock = 1, count = 0] = new Uint32Array(block.read(offset, offset + 8).buffer);
     this.rowsOfBlock = rowsOfBlock;
     this.starts = new Uint32Array(block.read(offset + 8, offset + 8 + 4 * (count + 1)).buffer);
+    this.isUnpacked = new Uint8Array(count);
     const place = offset + aligned(8 + 4 * (count + 1));
     this.first = place + 8 * columns;
     this.steps = new Float64Array(block.read(place, this.first).buffer);
   }
 
-  /** Values of a row. */
-  row(index: number): Float32Array {
-    const k = Math.floor(index / this.rowsOfBlock);
-    const at = (index - k * this.rowsOfBlock) * this.columns;
-    if (at === 0 && !this.blocks[k]) return this.firstRow(this.head(k));
-    return this.unpacked(k).subarray(at, at + this.columns);
+  /** Values of a row that is the first of a block, known before the block is unpacked. */
+  firstRow(k: number): Float32Array {
+    return Float32Array.from(this.head(k), ({ begin, slope, step, twice, absent }) =>
+      absent ? Number.NaN : (twice ? begin + slope : begin) * step,
+    );
   }
 
-  /** All values, row by row. */
-  all(): Float32Array {
-    const values = new Float32Array(this.rows * this.columns);
-    for (let k = 0; k + 1 < this.starts.length; k++)
-      values.set(this.unpack(k), k * this.rowsOfBlock * this.columns);
-    return values;
-  }
-
-  private unpacked(k: number): Float32Array {
-    const values = this.blocks[k] ?? this.unpack(k);
-    this.blocks[k] = values;
-    return values;
-  }
-
-  private unpack(k: number): Float32Array {
+  /** Values of a block, row by row. */
+  unpack(k: number): Float32Array {
     const { columns } = this;
     const head = this.head(k);
     const length = Math.min(this.rowsOfBlock, this.rows - k * this.rowsOfBlock);
@@ -109,12 +97,6 @@ export class PackedArray {
         absent: order >= FIRST_ABSENT,
       };
     });
-  }
-
-  private firstRow(head: readonly Head[]): Float32Array {
-    return Float32Array.from(head, ({ begin, slope, step, twice, absent }) =>
-      absent ? Number.NaN : (twice ? begin + slope : begin) * step,
-    );
   }
 }
 

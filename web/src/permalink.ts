@@ -54,6 +54,7 @@ export function keepAddress(data: SceneData, store: Store): void {
     waiting = setTimeout(() => {
       if (location.hash !== known) return; // one that was just typed is about to be shown
       known = `#${toFragment(data, store.state)}`;
+      if (location.protocol === "about:") return; // inside a notebook it has no address of its own
       history.replaceState(null, "", known);
       known = location.hash; // as the browser writes it
     }, PATIENCE_MS);

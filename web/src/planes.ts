@@ -9,6 +9,7 @@ import { UNIT, type SceneData } from "./scene_data";
 import { contains, spansOf } from "./selection";
 import type { Span, Store } from "./store";
 import { ticks } from "./thin";
+import { goesOn } from "./transport";
 import { asEllipsoid, outline } from "./wireframes";
 
 const MARGIN = { left: 32, right: 6, top: 5, bottom: 16 };
@@ -226,6 +227,7 @@ export class PlaneView implements Drawable {
   }
 
   private jump(event: MouseEvent): void {
+    if (goesOn(this.data, this.store)) return;
     const clouds = this.maker.of(this.store.state);
     const box = this.canvas.getBoundingClientRect();
     let best = { sample: -1, distance: REACH };

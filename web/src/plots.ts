@@ -312,12 +312,28 @@ export class ComponentPlot implements Drawable {
 
 /** Lower and upper edge of a band: about zero for an error, about the line for a wrench. */
 function edges(column: Column, band: Column, { kind, component }: Shown): Column[] {
-  const side = (sign: number): Column["at"] => {
-    if (kind === "measured") return (sample) => column.at(sample) + sign * band.at(sample);
-    if (component === 3 && sign < 0) return (sample) => 0 * band.at(sample);
-    return (sample) => sign * band.at(sample);
-  };
-  return [-1, 1].map((sign) => column.beside(sign < 0 ? "lower" : "upper", side(sign)));
+  const norm = component === 3;
+  return [-1, 1].map((sign) => {
+    const name = sign < 0 ? "lower" : "upper";
+    if (kind === "error") {
+      const side = sign < 0 && norm ? 0 : sign;
+      return band.beside(
+        name + (norm ? " of the norm" : ""),
+        (width) => side * width,
+        (_, width) => ({ ...width, ...ordered(side * width.low, side * width.high) }),
+      );
+    }
+    return column.beside(
+      name,
+      (own, _, width) => own + sign * width,
+      (_, own, width) => ({ ...own, ...ordered(own.low + sign * width.high, own.high + sign * width.high) }),
+      band,
+    );
+  });
+}
+
+function ordered(a: number, b: number): { low: number; high: number } {
+  return { low: Math.min(a, b), high: Math.max(a, b) };
 }
 
 function yBounds(lines: readonly (readonly (number | null)[])[], { kind, component }: Shown): [number, number] {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The robot in its posture, with the wrenches at its sensors.
 
-import { Box3, DirectionalLight, GridHelper, HemisphereLight, Vector3 } from "three";
+import { Box3, DirectionalLight, GridHelper, Group, HemisphereLight, Vector3 } from "three";
 
 import { EARTH, FAINT, PALE, SKY } from "./colours";
+import { empty } from "./dispose";
 import { ErrorOnRobot } from "./error_on_robot";
 import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
@@ -22,6 +23,7 @@ export class RobotView extends View3D {
   readonly skin: SkinView;
   readonly error: ErrorOnRobot;
   private readonly model: RobotModel;
+  private readonly ground = new Group();
 
   constructor(
     panel: HTMLElement,
@@ -34,16 +36,23 @@ export class RobotView extends View3D {
     this.scene.add(new HemisphereLight(SKY, EARTH, 2.2), light);
     this.model = new RobotModel(data);
     this.scene.add(this.model);
-    const room = this.reach();
-    const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
+    this.scene.add(this.ground);
+    const size = this.aim();
     this.wrenches = new WrenchArrows(data, size);
     this.scene.add(this.wrenches);
     this.skin = new SkinView(data, size);
     this.error = new ErrorOnRobot(data, this.model, size);
     this.scene.add(this.skin, this.error);
+  }
+
+  /** Look at the robot from where its postures are seen whole; gives its size; m. */
+  aim(): number {
+    const room = this.reach();
+    const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
     this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
+    return size;
   }
 
   /** Show the state. */
@@ -76,6 +85,7 @@ export class RobotView extends View3D {
     grid.rotateX(Math.PI / 2); // drawn in x-z, wanted in x-y
     const middle = room.getCenter(new Vector3());
     grid.position.set(middle.x, middle.y, room.min.z);
-    this.scene.add(grid);
+    empty(this.ground);
+    this.ground.add(grid);
   }
 }

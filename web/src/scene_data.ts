@@ -20,7 +20,6 @@ type Vector = [number, number, number];
 /** Header and arrays of a scene. */
 export class SceneData {
   readonly time: Float64Array;
-  private readonly known = new Map<number, Float32Array | Float64Array | Uint32Array>();
   private readonly packed = new Map<number, PackedArray>();
   /** Quantities over time. */
   readonly columns = new Columns(this);
@@ -28,6 +27,8 @@ export class SceneData {
   constructor(
     readonly scene: Scene,
     private readonly block: Block,
+    /** Arrays by their place, made when they are first asked for. */
+    private readonly known = new Map<number, Float32Array | Float64Array | Uint32Array>(),
   ) {
     this.time = this.doubles(scene.time_s);
   }
@@ -37,24 +38,40 @@ export class SceneData {
     return this.scene.samples;
   }
 
-  /** Values of a float32 array, unpacked when they are first asked for. */
+  /** Values of a float32 array. */
   floats(ref: ArrayRef): Float32Array {
-    return this.remembered(ref, () => {
-      const values = ref.packed_bytes === null ? new Float32Array(this.bytes(ref, "float32", 4)) : this.rows(ref).all();
-      if (ref.base) addMapped(values, ref, this.floats(ref.base));
-      return values;
-    });
+    return this.over(ref, 0, ref.shape[0] ?? 0);
+  }
+
+  /** A float32 array whose rows from `first` to before `end` are unpacked; others are zero until they are. */
+  over(ref: ArrayRef, first: number, end: number): Float32Array {
+    if (ref.packed_bytes === null) return this.remembered(ref, () => new Float32Array(this.bytes(ref, "float32", 4)));
+    const [rows = 0, columns = 1] = ref.shape;
+    const values = this.remembered(ref, () => new Float32Array(rows * columns));
+    if (!(end > first)) return values;
+    const packed = this.packedArray(ref);
+    const { rowsOfBlock } = packed;
+    for (let k = Math.floor(first / rowsOfBlock); k * rowsOfBlock < end; k++) {
+      if (packed.isUnpacked[k]) continue;
+      packed.isUnpacked[k] = 1;
+      const block = packed.unpack(k);
+      const start = k * rowsOfBlock;
+      const until = Math.min(rows, start + rowsOfBlock);
+      if (ref.base) addMapped(block, ref, this.over(ref.base, start, until).subarray(start * columns, until * columns));
+      values.set(block, start * columns);
+    }
+    return values;
   }
 
   /** Values of one row of a float32 array over time, of which no more than a block is unpacked. */
   row(ref: ArrayRef, index: number): Float32Array {
     const columns = ref.shape[1] ?? 1;
-    const known = ref.packed_bytes === null ? this.floats(ref) : this.known.get(ref.offset);
-    if (known instanceof Float32Array) return known.subarray(index * columns, (index + 1) * columns);
-    if (!ref.base) return this.rows(ref).row(index);
-    const values = this.rows(ref).row(index).slice();
-    addMapped(values, ref, this.row(ref.base, index));
-    return values;
+    if (ref.packed_bytes !== null && !ref.base) {
+      const packed = this.packedArray(ref);
+      const k = index / packed.rowsOfBlock;
+      if (Number.isInteger(k) && !packed.isUnpacked[k]) return packed.firstRow(k);
+    }
+    return this.over(ref, index, index + 1).subarray(index * columns, (index + 1) * columns);
   }
 
   /** First sample of the block of postures that holds a sample, known without unpacking the block; the sample itself
@@ -62,11 +79,11 @@ export class SceneData {
   keySample(sample: number, fewest: number): number {
     const { positions } = this.scene;
     if (positions.packed_bytes === null) return sample;
-    const rows = this.rows(positions).rowsOfBlock;
+    const rows = this.packedArray(positions).rowsOfBlock;
     return this.samples < fewest * rows ? sample : sample - (sample % rows);
   }
 
-  private rows(ref: ArrayRef): PackedArray {
+  private packedArray(ref: ArrayRef): PackedArray {
     const known = this.packed.get(ref.offset);
     if (known) return known;
     this.within(ref.offset + (ref.packed_bytes ?? 0));
@@ -90,6 +107,11 @@ export class SceneData {
     const values = this.row(series.values, sample);
     const at = FIRST[quantity];
     return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
+  }
+
+  /** Largest force or moment of a series; 0 where all are absent. */
+  peak(series: WrenchSeries | ContactSeries, quantity: Quantity): number {
+    return "peak" in series ? (series.peak[quantity === "force" ? 0 : 1] ?? 0) : 0;
   }
 
   /** Coordinate of a column at a sample; rad or m; NaN where absent. */

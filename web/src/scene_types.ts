@@ -99,6 +99,22 @@ export interface Ellipsoid {
   readonly axes: readonly number[];
 }
 
+/** What the page shows of all of a series; columns are fx, fy, fz and norm of the force, then of the moment. */
+export interface SeriesOverview {
+  /** Samples of a block; there are b blocks, and a rest that is shorter. */
+  readonly samples: number;
+  /** Lowest, then highest of each column; shape (b, 16) float32; N, N m; NaN where all are absent. */
+  readonly wrench: ArrayRef;
+  /** Lowest, highest, sum, sum of squares, number of the errors in use; shape (b, 40) float32; N, N m; or null. */
+  readonly error: ArrayRef | null;
+  /** As `wrench`, of the standard deviation; or null. */
+  readonly deviation: ArrayRef | null;
+  /** One sample in so many is in `points`. */
+  readonly every: number;
+  /** Values of the first sample and every one that follows; shape (p, 6) float32; N, N m. */
+  readonly points: ArrayRef;
+}
+
 /** Wrenches of a sensor, in its frame and in its own sign convention. */
 export interface WrenchSeries {
   /** What it is, in words. */
@@ -121,6 +137,8 @@ export interface WrenchSeries {
   readonly ellipsoid_force: Ellipsoid | null;
   /** Ellipsoid that the moments draw; N m; null where it is not identifiable. */
   readonly ellipsoid_moment: Ellipsoid | null;
+  /** What is shown of all of it; null where it is short. */
+  readonly overview: SeriesOverview | null;
 }
 
 /** A force-torque sensor; or a part that nothing touches, with what its sensors leave of its equation. */
@@ -229,6 +247,54 @@ export interface SceneFinding {
   readonly end_s: number | null;
 }
 
+/** Where samples of a running stream come from; the arrays over time are then none of the block and begin empty. */
+export interface LiveFeed {
+  /** Address that answers with a `LiveUpdate`. */
+  readonly url: string;
+  /** Time that is shown; s. */
+  readonly window_s: number;
+}
+
+/** A sensor of a running stream, as it is now. */
+export interface LiveSensorState {
+  /** `ok`, or what is wrong with the last sample. */
+  readonly status: string;
+  /** Samples so far. */
+  readonly samples: number;
+  /** Samples with a fault. */
+  readonly faulty: number;
+  /** Change of the bias since the tare; 6 numbers; N, N m; null without a tare. */
+  readonly drift: readonly number[] | null;
+}
+
+/**
+ * What came since the last one, in a line.
+ *
+ * After it come the new rows, array by array: time, positions, root, and values and deviation of every series.
+ */
+export interface LiveUpdate {
+  /** Number of the first row, from 0 at the begin of the stream. */
+  readonly first: number;
+  /** Rows that follow. */
+  readonly rows: number;
+  /** Samples so far. */
+  readonly total: number;
+  /** Packets that could be read. */
+  readonly received: number;
+  /** Packets that never came; null where that cannot be known. */
+  readonly lost: number | null;
+  /** Packets that came late. */
+  readonly late: number;
+  /** Packets that came twice. */
+  readonly repeated: number;
+  /** Time since the last packet; s. */
+  readonly silent_s: number;
+  /** Why the stream ended; null while it lasts. */
+  readonly ended_by: string | null;
+  /** Sensors in the order of the scene. */
+  readonly sensors: readonly LiveSensorState[];
+}
+
 /** Everything that the page shows. */
 export interface Scene {
   /** Form of the header. */
@@ -269,4 +335,6 @@ export interface Scene {
   readonly notes: readonly string[];
   /** Where the page sends saved samples; null in a file. */
   readonly annotations_url: string | null;
+  /** Where samples come from while a robot runs; null for a recording. */
+  readonly live: LiveFeed | null;
 }

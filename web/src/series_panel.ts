@@ -66,6 +66,7 @@ export function switchPanel(data: SceneData, store: Store): HTMLElement {
 
 /** Whether a scene has nothing that a switch would show. */
 function absent({ scene }: SceneData, key: Switch): boolean {
+  if (scene.live && ["errorOnRobot", "scaleByCalibrations", "wireframes", "hideIgnored"].includes(key)) return true;
   const parts = { contacts: scene.contacts, skin: scene.skin, skinEvents: scene.skin_events };
   return key in parts && parts[key as keyof typeof parts].length === 0;
 }

@@ -11,6 +11,7 @@ import type { Frames } from "./frames";
 import type { SceneData } from "./scene_data";
 import { cube, toCube } from "./space_axes";
 import type { State, Store } from "./store";
+import { goesOn } from "./transport";
 import { View3D } from "./view3d";
 import { asEllipsoid, wireframe } from "./wireframes";
 
@@ -115,7 +116,7 @@ export class SpaceView extends View3D {
       from = [event.clientX, event.clientY];
     });
     this.canvas.addEventListener("click", (event) => {
-      if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > MOVED) return;
+      if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > MOVED || goesOn(this.data, this.store)) return;
       const box = this.canvas.getBoundingClientRect();
       const sample = this.closest(event.clientX - box.left, event.clientY - box.top);
       if (sample !== null) this.store.set({ sample, playing: false });

@@ -72,7 +72,15 @@ export class Store {
   /** Change parts of the state, and call everybody who shows one of them. */
   set(patch: Partial<State>): void {
     const changed = (Object.keys(patch) as Key[]).filter((key) => patch[key] !== this.current[key]);
-    if (changed.length === 0) return;
+    if (changed.length > 0) this.change(patch, changed);
+  }
+
+  /** The same, also where a part is as before, because what it points to changed. */
+  renew(patch: Partial<State>): void {
+    this.change(patch, Object.keys(patch) as Key[]);
+  }
+
+  private change(patch: Partial<State>, changed: readonly Key[]): void {
     this.current = { ...this.current, ...patch };
     for (const { keys, call } of this.listeners) if (changed.some((key) => keys.has(key))) call();
   }

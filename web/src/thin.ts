@@ -18,6 +18,8 @@ export function everyKth(samples: number, limit: number, kept: (sample: number) 
   return chosen;
 }
 
+const WIDEST = 4; // pixels of a block at most
+
 /** Points of a line, for uPlot: null is absent. */
 export interface Line {
   readonly x: number[];
@@ -44,14 +46,19 @@ export function minMax(
     const samples = Array.from({ length: count }, (_, k) => first + k);
     return {
       x: samples.map((i) => time[i] ?? 0),
-      y: columns.map(({ at }) => samples.map((i) => present(at(i)))),
+      y: columns.map((column) => samples.map((i) => present(column.at(i)))),
     };
   }
   const x: number[] = [];
   const y: (number | null)[][] = columns.map(() => []);
-  for (let pixel = 0; pixel < pixels; pixel++) {
-    const from = first + Math.floor((count * pixel) / pixels);
-    const to = first + Math.floor((count * (pixel + 1)) / pixels);
+  // whole blocks where each is hardly wider than a pixel: no sample is then unpacked
+  const block = columns.reduce((longest, column) => Math.max(longest, column.isSummedUp ? column.block : 1), 1);
+  const whole = block > 1 && count >= (block * pixels) / WIDEST ? block : 1;
+  const steps = Math.min(pixels, Math.floor(count / whole));
+  const edge = (step: number): number =>
+    step === steps ? end : Math.max(first, whole * Math.round((first + (count * step) / steps) / whole));
+  for (let step = 0; step < steps; step++) {
+    const [from, to] = [step === 0 ? first : edge(step), edge(step + 1)];
     x.push(time[from] ?? 0, time[(from + to) >> 1] ?? 0);
     columns.forEach((column, k) => {
       const { low, high, count: values } = column.summary(from, to);

@@ -94,6 +94,11 @@ export function step(data: SceneData, store: Store, by: number): void {
   store.set({ sample, playing: false });
 }
 
+/** Whether samples come and go, so that one that is drawn cannot be chosen. */
+export function goesOn(data: SceneData, store: Store): boolean {
+  return data.scene.live !== null && store.state.playing;
+}
+
 /** Play or pause; from the start again if it is at its end. */
 export function togglePlay(data: SceneData, store: Store): void {
   const { playing, sample } = store.state;

@@ -32,8 +32,6 @@ interface Place {
 
 /** Everything that is drawn at sensors and contacts. */
 export class WrenchArrows extends Group {
-  /** Length of one newton and of one newton metre; m. */
-  readonly metresPer: Readonly<Record<Quantity, number>>;
   private readonly places: Place[];
 
   constructor(
@@ -41,7 +39,6 @@ export class WrenchArrows extends Group {
     private readonly size: number,
   ) {
     super();
-    this.metresPer = { force: this.unit("force"), moment: this.unit("moment") };
     const { sensors, contacts } = data.scene;
     this.places = [
       ...sensors.map((sensor, k) => this.place(k, sensor.name, sensor.link, sensor.link_H_sensor, sensor.wrenches)),
@@ -49,8 +46,14 @@ export class WrenchArrows extends Group {
     ];
   }
 
+  /** Length of one newton and of one newton metre; m. */
+  get metresPer(): Readonly<Record<Quantity, number>> {
+    return { force: this.unit("force"), moment: this.unit("moment") };
+  }
+
   /** Show the wrenches of the state in the posture of these poses. */
   update(state: State, poses: ReadonlyMap<string, Pose>): void {
+    const { metresPer } = this;
     for (const place of this.places) {
       const pose = compose(poses.get(place.link) ?? IDENTITY, place.link_H_frame);
       const shown = place.sensor === null ? state.contacts : state.allSensors || place.sensor === state.sensor;
@@ -60,21 +63,11 @@ export class WrenchArrows extends Group {
         const visible = shown && !("role" in series && state.hidden.has(series.name));
         for (const quantity of QUANTITIES) {
           const wanted = visible && (quantity === "force" ? state.forceArrows : state.momentArrows);
-          this.turn(arrows[quantity], series, quantity, wanted ? pose : null, state.sample);
+          const vector = new Vector3(...this.data.vector(series, state.sample, quantity)).multiplyScalar(metresPer[quantity]);
+          turn(arrows[quantity], vector, wanted ? pose : null);
         }
       }
     }
-  }
-
-  private turn(arrow: Arrow, series: Drawn["series"], quantity: Quantity, pose: Pose | null, sample: number): void {
-    if (pose === null) {
-      arrow.visible = false;
-      return;
-    }
-    const matrix = toMatrix(pose);
-    const vector = new Vector3(...this.data.vector(series, sample, quantity));
-    vector.applyMatrix3(new Matrix3().setFromMatrix4(matrix)).multiplyScalar(this.metresPer[quantity]);
-    arrow.point(new Vector3().setFromMatrixPosition(matrix), vector);
   }
 
   private place(
@@ -111,9 +104,19 @@ export class WrenchArrows extends Group {
   private unit(quantity: Quantity): number {
     const largest = this.data.scene.sensors.flatMap(({ wrenches }) => {
       const expected = wrenches.filter(({ role }) => role === "expected");
-      return (expected.length > 0 ? expected : wrenches).map(({ peak }) => peak[quantity === "force" ? 0 : 1] ?? 0);
+      return (expected.length > 0 ? expected : wrenches).map((one) => this.data.peak(one, quantity));
     });
     const peak = Math.max(0, ...largest);
     return peak > 0 ? (LONGEST * this.size) / peak : 1;
   }
+}
+
+/** Let an arrow begin at a pose and be a vector of its frame; hidden without a pose. */
+function turn(arrow: Arrow, vector: Vector3, pose: Pose | null): void {
+  if (pose === null) {
+    arrow.visible = false;
+    return;
+  }
+  const matrix = toMatrix(pose);
+  arrow.point(new Vector3().setFromMatrixPosition(matrix), vector.applyMatrix3(new Matrix3().setFromMatrix4(matrix)));
 }

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final
 import typer
 
 from forcetorque.app.dataset_input import with_datasets
+from forcetorque.app.live_view import with_live_view
 from forcetorque.app.view_output import with_view
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
@@ -58,7 +59,18 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
     ),
     "robot": (
         "Examine a whole robot: feet, net force, collisions, motion, torque loops.",
-        {name: name for name in ("balance", "coherence", "collisions", "joint-collisions", "motion", "torque-loop")},
+        {
+            name: name
+            for name in (
+                "balance",
+                "coherence",
+                "collisions",
+                "joint-collisions",
+                "motion",
+                "torque-loop",
+                "oscillation-causes",
+            )
+        },
     ),
     "dataset": (
         "Examine and compensate the forces of datasets for learning.",
@@ -100,7 +112,7 @@ def _add(program: typer.Typer, name: str, reference: str) -> None:
     if isinstance(found, typer.Typer):
         program.add_typer(found)
     else:
-        program.command(name)(with_view(name, with_datasets(name, command_function(found))))
+        program.command(name)(with_live_view(name, with_view(name, with_datasets(name, command_function(found)))))
 
 
 def _add_group(program: typer.Typer, group: str, members: Mapping[str, str]) -> None:

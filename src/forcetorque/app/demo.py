@@ -54,19 +54,22 @@ _PUSH_N, _LEVER_M, _PUSHES = 50.0, 0.3, 1000
 
 
 def demo(
-    folder: Annotated[Path, typer.Argument(help="Folder for the files; made if it is not there.")] = Path("demo"),
+    folder: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for the files; made if it is not there.")
+    ] = Path("demo"),
 ) -> None:
     """Calibrate a simulated sensor whose true matrix is known, and compare.
 
-    Example: forcetorque demo build/demo
+    Example: forcetorque demo -o build/demo
 
     Python: `forcetorque.load_experiment(file)` reads what it made
     """
     from forcetorque.app.python.experiment import load_experiment
     from forcetorque.results.answer import answer_text
-    from forcetorque.results.terminal.output import shows_colours, start_logging, width
+    from forcetorque.results.terminal.output import refuse_standard_output, shows_colours, start_logging, width
 
     log = start_logging()
+    refuse_standard_output("--output", folder)
     log.info("simulating an arm for 120 s")
     mounted, factory = _simulated(folder)
     file, result = folder / "experiment.toml", folder / "calibration.json"
@@ -120,8 +123,8 @@ def _simulated(folder: Path) -> tuple[FloatArray, FloatArray]:
     from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
     from forcetorque.simulation.trace import simulate_recording
 
-    folder.mkdir(parents=True, exist_ok=True)
     _refuse_foreign(folder)
+    folder.mkdir(parents=True, exist_ok=True)
     factory = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
     mounted = distorted_by_mounting(factory, relative=0.05, rng=np.random.default_rng(7))
     model = read_urdf(ARM_URDF)
@@ -151,6 +154,8 @@ def _refuse_foreign(folder: Path) -> None:
     """Refuse a folder with an experiment that no demonstration made: its files have the same names."""
     from forcetorque.base.errors import OutputError
 
+    if folder.exists() and not folder.is_dir():
+        raise OutputError(f"{folder}: expected a folder, or a name for a new one, got a file")
     file = folder / "experiment.toml"
     made = file.is_file() and file.read_bytes() == _EXPERIMENT.encode()
     if not made and any((folder / name).exists() for name in _FILES):

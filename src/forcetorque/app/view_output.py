@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import wraps
 from inspect import Parameter, cleandoc, signature
@@ -54,13 +54,23 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
         if view is None:
             return command(**given)
         from forcetorque.experiment.kept_experiments import kept_experiments
+        from forcetorque.experiment.loading import Purpose, load_experiment
 
         files = _declared(view, given)
+
+        def write(path: Path, experiment: Experiment | None, result: Result) -> None:
+            _write(name, path, files[path], given, result, experiment)
+
         # estimates of many recordings let one go after the other
-        with kept_experiments(f"--view {view}", keep=name != "estimate" or len(files) == 1) as known:
+        one_by_one = name == "estimate" and len(files) > 1
+        if one_by_one and any(file.exists() for file in files.values()):
+            for path in files:  # what is written first may be an input of what is read last
+                load_experiment(path, Purpose.FORCES)
+        with kept_experiments(f"--view {view}", write if one_by_one else None) as known:
             result = command(**given)
-        if result is not None:
-            _write(name, files, given, result, known)
+        if result is not None and not one_by_one:
+            for path in files:
+                write(path, known.get(path), result)
         return result
 
     run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
@@ -87,22 +97,21 @@ def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
 
 
 def _write(
-    name: str,
-    files: Mapping[Path, Path],
-    given: Mapping[str, Any],
-    result: Result,
-    known: Mapping[Path, Experiment],
+    name: str, path: Path, file: Path, given: Mapping[str, Any], result: Result, known: Experiment | None
 ) -> None:
     from forcetorque.results.terminal.output import start_logging
     from forcetorque.viewer.view_file import view_files, write_view
 
     log = start_logging()
-    for path, file in files.items():
-        built = _scene(path, known.get(path), given, log.info)
-        for note in built.scene.notes:
-            log.info("%s", note)
-        built = _with_notes(built, tuple(_verdicts(name, result)))
-        log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
+    built = _scene(path, known, given, log.info)
+    for note in built.scene.notes:
+        log.info("%s", note)
+    verdicts = [
+        f"{name}: {answer.subject}: {answer.verdict}" + "".join(f"; {text}" for text in answer.why)
+        for answer in result.answers()
+    ]
+    built = replace(built, scene=replace(built.scene, notes=(*verdicts, *built.scene.notes)))
+    log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
 
 
 def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress) -> BuiltScene:
@@ -127,12 +136,3 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progr
             contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")
         ),
     )
-
-
-def _verdicts(name: str, result: Result) -> Iterator[str]:
-    for answer in result.answers():
-        yield f"{name}: {answer.subject}: {answer.verdict}" + "".join(f"; {text}" for text in answer.why)
-
-
-def _with_notes(built: BuiltScene, notes: Sequence[str]) -> BuiltScene:
-    return replace(built, scene=replace(built.scene, notes=(*notes, *built.scene.notes)))

@@ -34,6 +34,7 @@ SI_FACTORS: dict[str, tuple[str, float]] = {
     "mN": ("N", 1e-3),
     "kN": ("N", 1e3),
     "kgf": ("N", STANDARD_GRAVITY),
+    "gf": ("N", STANDARD_GRAVITY * 1e-3),
     "lbf": ("N", _POUND_FORCE),
     "N m": ("N m", 1.0),
     "N mm": ("N m", 1e-3),

@@ -50,7 +50,7 @@ def calibration_answer(
     """
     sensor, source = calibration.sensor, calibration.provenance
     labels = [interval.label for interval in source.intervals]
-    intervals = ", ".join(labels) if len(labels) <= _MOST_INTERVALS else counted(len(labels), "interval")
+    intervals = ", ".join(map(repr, labels)) if len(labels) <= _MOST_INTERVALS else counted(len(labels), "interval")
     force, moment = (float(np.linalg.norm(calibration.residual_rms[part])) for part in FORCE_AND_MOMENT)
     fitted = f"{source.samples} samples" if source.means is None else f"{counted(source.means, 'mean')} of 1 s"
     unknowns = 0 if calibration.posterior is None else calibration.posterior.mean.shape[1]
@@ -340,8 +340,8 @@ def learnt_words(directions: Sequence[InformationGain]) -> str:
     shares = f"{own}; of the cross-talk of others: {others}" if others else own
     little = [row.direction for row in directions if row.uncertainty_reduction < LITTLE_LEARNT]
     if not little:
-        return f"learnt: {shares}"
-    return f"learnt: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
+        return f"information gained: {shares}"
+    return f"information gained: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
 
 
 def _shares(rows: Iterable[InformationGain]) -> str:

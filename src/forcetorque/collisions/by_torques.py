@@ -18,7 +18,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_over
 from forcetorque.base.units import NORMAL_95
-from forcetorque.collisions.detection import HOLD_S, RELEASE, Threshold, threshold_of
+from forcetorque.collisions.detection import Release, Threshold, threshold_of
 from forcetorque.collisions.momentum import CUT_OFF_HZ, ArmMotion, external_torque, low_passed
 from forcetorque.collisions.residual import PAUSE_S, WARM_UP_S, WINDOW_S, FreeModel
 from forcetorque.collisions.torque_result import JointCollisions, JointRow, TorqueContactRow, TorqueCurve
@@ -220,18 +220,20 @@ def _contacts(
 
 
 def _spans(ratio: FloatArray, time_s: FloatArray) -> Sequence[slice]:
-    """Spans that begin above 1, and end before `HOLD_S` below `RELEASE` or a pause."""
-    spans, start, last = [], None, 0
+    """Spans that begin above 1, and end as contacts do or before a pause."""
+    spans, start, release = [], None, Release()
+    pauses = np.diff(time_s, prepend=time_s[:1]) > PAUSE_S
     for k, value in enumerate(ratio):
-        if start is not None and time_s[k] - time_s[last] > HOLD_S:
-            spans.append(slice(start, last + 1))
+        if start is not None and pauses[k]:
+            spans.append(slice(start, k - release.quiet))
             start = None
         if start is None and value > 1.0:
-            start = last = k
-        elif start is not None and value >= RELEASE:
-            last = k
+            start, release = k, Release()
+        if start is not None and release.follows(value):
+            spans.append(slice(start, k + 1 - release.quiet))
+            start = None
     if start is not None:
-        spans.append(slice(start, last + 1))
+        spans.append(slice(start, len(ratio) - release.quiet))
     return spans
 
 

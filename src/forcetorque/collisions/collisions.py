@@ -9,7 +9,6 @@ from typing import Final, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.collisions.detection import (
     Contact,
@@ -26,6 +25,8 @@ from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisio
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.inspection.residual_findings import UNEXPLAINED
 from forcetorque.recording.recording import Interval, Use
 
 SHORT_S: Final = 0.5
@@ -36,6 +37,8 @@ _LEAST_FREE_S: Final = 10.0
 """Time without contact below which noise is not known."""
 _ENOUGH_FREE_S: Final = 60.0
 """Time without contact that shows how heavy the tail of the noise is."""
+_MARGIN_S: Final = 0.5
+"""Time before and after a contact in which noise and errors are not learnt."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -82,9 +85,9 @@ def find_collisions(
             f"sensor {run.sensor.name!r}: expected an interval with a support in which nothing that the file states "
             "touches the robot beyond it; it has none"
         )
-    signals = {interval.label: signals_of(run, correction, interval) for interval in watched}
-    learnt = [signals.get(one.label) or signals_of(run, correction, one) for one in _free(run, free)]
-    model, threshold = _learnt(run, learnt, alarms_per_hour)
+    learnt = _free(run, free)
+    signals = {one.label: signals_of(run, correction, one) for one in (*watched, *learnt)}
+    model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
     looked = [
         _Looked(interval=one, signals=signals[one.label], detected=detect(signals[one.label], model, threshold.value))
         for one in watched
@@ -98,9 +101,9 @@ def find_collisions(
     return Collisions(
         experiment=run.experiment.name,
         collisions=tuple(sorted(rows, key=lambda row: row.start_s)),
-        sensitivity=(_sensitivity(run, looked, model, threshold),),
+        sensitivity=(_sensitivity(run, looked, threshold),),
         curves=(_curve(run, looked),),
-        warnings=tuple(_warnings(run, rows, threshold, [one.label for one in _free(run, free)])),
+        warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt])),
     )
 
 
@@ -116,9 +119,8 @@ def _require_rate(run: SensorRun) -> None:
 
 def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> tuple[FreeModel, Threshold]:
     """What is learnt from windows without contact."""
-    changes = [changes_of(one) for one in free]
-    residual = np.concatenate([one[0][one[2]] for one in changes])
-    terms = np.concatenate([one[1][one[2]] for one in changes])
+    changes = [changes_of(one) for one in _untouched(run, free)]
+    residual, terms = (np.concatenate([one[part] for one in changes]) for part in range(2))
     free_s = len(residual) * WINDOW_S
     if free_s < _LEAST_FREE_S:
         raise ExperimentError(
@@ -128,6 +130,24 @@ def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> 
     model = FreeModel.of(residual, terms, np.max([one.unmodelled for one in free], axis=0))
     statistic = statistics_of(residual, terms, model)
     return model, threshold_of(statistic, model.correlation_s, alarms_per_hour=alarms_per_hour)
+
+
+def _untouched(run: SensorRun, free: Sequence[Signals]) -> Sequence[Signals]:
+    """Windows without what `inspect` finds unexplained, which needs no free interval; all if a minute is not left."""
+    start_ns = run.experiment.recording.start_ns
+    found = inspect_experiment(run.experiment, with_causes=False, sensors=[run.sensor.name], computed=run)
+    spans = [
+        (one.start_ns - start_ns, one.end_ns - start_ns)
+        for one in found
+        if one.kind in UNEXPLAINED and one.start_ns is not None and one.end_ns is not None
+    ]
+    kept = []
+    for one in free:
+        marks = np.ones(len(one), dtype=np.bool_)
+        for first, last in spans:
+            marks &= (one.time_s < 1e-9 * first - _MARGIN_S) | (one.time_s > 1e-9 * last + _MARGIN_S)
+        kept.append(one.kept(marks))
+    return kept if sum(map(len, kept)) * WINDOW_S >= _ENOUGH_FREE_S else free
 
 
 def _free(run: SensorRun, labels: Collection[str]) -> list[Interval]:
@@ -184,24 +204,17 @@ def _kind(contact: Contact, duration_s: float) -> Literal["collision", "contact"
     return "collision" if duration_s < SHORT_S else "contact"
 
 
-def _sensitivity(run: SensorRun, looked: Sequence[_Looked], model: FreeModel, threshold: Threshold) -> SensitivityRow:
-    every = np.concatenate([_uncertainty(one.signals, model) for one in looked]) if looked else model.noise[None]
+def _sensitivity(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) -> SensitivityRow:
+    covariances = np.concatenate([one.detected.covariances for one in looked])
     return SensitivityRow(
         sensor=run.sensor.name,
-        smallest_force_N=smallest_force(every, threshold.value),
+        smallest_force_N=smallest_force(covariances, threshold.value),
         threshold=threshold.value,
         tail_decides=threshold.by_tail is not None and threshold.value <= threshold.by_tail,
         alarms_per_hour=threshold.alarms_per_hour,
         free_s=threshold.free_s,
-        looked_at_s=sum(int(np.isfinite(one.detected.excess[:, 0]).sum()) for one in looked) * WINDOW_S,
+        looked_at_s=len(covariances) * WINDOW_S,
     )
-
-
-def _uncertainty(signals: Signals, model: FreeModel) -> FloatArray:
-    """Covariance of what a sensor reads without a contact; shape (w, 6, 6)."""
-    _, terms, known = changes_of(signals)
-    own = terms[known]
-    return model.noise + np.einsum("wip,pq,wjq->wij", own, model.covariance, own, optimize=True)
 
 
 def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:

@@ -9,13 +9,12 @@ tail); the higher counts.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import FloatArray
 from forcetorque.collisions.residual import WINDOW_S, FreeModel, Level, Signals
 from forcetorque.experiment.calibration.assumptions import LOADS
 
@@ -87,6 +86,27 @@ def threshold_of(
     )
 
 
+class Release:
+    """The rule that ends a contact: the statistic stays below `RELEASE` of its threshold for `HOLD_S`."""
+
+    def __init__(self) -> None:
+        """Begin with a contact."""
+        self.quiet = 0
+        """Windows below it, up to the last one."""
+
+    def follows(self, over_threshold: float) -> bool:
+        """Take the next window.
+
+        Args:
+            over_threshold: Its statistic over the threshold.
+
+        Returns:
+            Whether the contact is over; its last `quiet` windows are none of it.
+        """
+        self.quiet = self.quiet + 1 if over_threshold < RELEASE else 0
+        return self.quiet * WINDOW_S >= HOLD_S
+
+
 @dataclass(slots=True, kw_only=True, eq=False)
 class Contact:
     """A span in which something touches the robot beyond a sensor."""
@@ -117,6 +137,8 @@ class Detected:
     excess: FloatArray
     """What the sensor reads too much in every window, the level held during contacts; NaN while there is no level;
     shape (w, 6); N, N m."""
+    covariances: FloatArray
+    """Its covariance without a contact, of the k windows with a level; shape (k, 6, 6)."""
 
 
 def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
@@ -131,46 +153,48 @@ def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
         Contacts.
     """
     level, excess = Level(signals), np.full((len(signals), LOADS), np.nan)
+    covariances: list[FloatArray] = []
     contacts: list[Contact] = []
     current: Contact | None = None
-    quiet = 0
+    release = Release()
     starts = signals.starts()
+
+    def close(contact: Contact, *, stays: bool) -> None:
+        contact.stays = stays
+        for values in (contact.windows, contact.wrenches, contact.covariances, contact.statistics):
+            del values[len(values) - release.quiet :]
+        contacts.append(contact)
+
     for window in range(len(signals)):
         if starts[window] and current is not None:
-            _close(contacts, current, quiet, stays=True)
-            current, quiet = None, 0
+            close(current, stays=True)
+            current = None
         change, known = level.change(window, held=current is not None)
         if not known:
             continue
         wrench, covariance = model.wrench(change)
+        covariances.append(covariance)
         excess[window], value = wrench, float(wrench @ np.linalg.solve(covariance, wrench))
         if current is None and value <= threshold:
             continue
         if current is None:
-            current, quiet = Contact(), 0
+            current, release = Contact(), Release()
         current.windows.append(window)
         current.wrenches.append(wrench)
         current.covariances.append(covariance)
         current.statistics.append(value)
-        quiet = quiet + 1 if value < RELEASE * threshold else 0
-        if quiet * WINDOW_S >= HOLD_S:
-            _close(contacts, current, quiet, stays=False)
-            current, quiet = None, 0
+        if release.follows(value / threshold):
+            close(current, stays=False)
+            current = None
         elif len(current.windows) * WINDOW_S >= LONGEST_S:
-            _close(contacts, current, quiet, stays=True)
-            current, quiet = None, 0
+            close(current, stays=True)
+            current = None
             level.restart()
     if current is not None:
-        _close(contacts, current, quiet, stays=True)
-    return Detected(contacts=tuple(contacts), excess=excess)
-
-
-def _close(contacts: list[Contact], contact: Contact, quiet: int, *, stays: bool) -> None:
-    """Keep a contact without its quiet end."""
-    contact.stays = stays
-    for values in (contact.windows, contact.wrenches, contact.covariances, contact.statistics):
-        del values[len(values) - quiet :]
-    contacts.append(contact)
+        close(current, stays=True)
+    return Detected(
+        contacts=tuple(contacts), excess=excess, covariances=np.array(covariances).reshape(-1, LOADS, LOADS)
+    )
 
 
 def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> FloatArray:
@@ -189,7 +213,7 @@ def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> 
     return np.einsum("wi,wi->w", left, np.linalg.solve(covariance, left[..., None])[..., 0])
 
 
-def smallest_force(covariances: Sequence[FloatArray] | FloatArray, threshold: float) -> float:
+def smallest_force(covariances: FloatArray, threshold: float) -> float:
     """Give the force that a single window notices with a probability of `NOTICED`, wherever and however it acts.
 
     Args:
@@ -203,21 +227,5 @@ def smallest_force(covariances: Sequence[FloatArray] | FloatArray, threshold: fl
     from scipy.stats import ncx2
 
     far = brentq(lambda square: float(ncx2.sf(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
-    of_force = np.asarray(covariances)[:, :3, :3]
+    of_force = covariances[:, :3, :3]
     return float(np.median(np.sqrt(far * np.linalg.eigvalsh(of_force)[:, -1])))
-
-
-def inside(time_s: FloatArray, spans: Sequence[tuple[float, float]]) -> BoolArray:
-    """Tell which instants lie in any of some spans.
-
-    Args:
-        time_s: Instants; shape (w,); s.
-        spans: First and last instant of each; s.
-
-    Returns:
-        Marks; shape (w,).
-    """
-    marks = np.zeros(len(time_s), dtype=bool)
-    for start, end in spans:
-        marks |= (time_s >= start) & (time_s <= end)
-    return marks

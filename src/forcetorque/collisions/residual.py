@@ -15,7 +15,7 @@ expected wrench, times the tolerances of the robot model.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -179,21 +179,28 @@ class Level:
         self._count = 0
 
 
-def changes_of(signals: Signals) -> tuple[FloatArray, FloatArray, BoolArray]:
+class Changes(NamedTuple):
+    """What the windows with a known level change against those before them; w windows."""
+
+    residual: FloatArray
+    """Changes of the residual; shape (w, 6); N, N m."""
+    terms: FloatArray
+    """Changes of the terms; shape (w, 6, p)."""
+
+
+def changes_of(signals: Signals) -> Changes:
     """Take all windows against the level of those before them.
 
     Args:
         signals: The windows.
 
     Returns:
-        Changes of the residual, shape (w, 6), and of the terms, shape (w, 6, p), and which are known; shape (w,).
+        Changes, without the windows that have no level yet.
     """
     level = Level(signals)
-    changes, known = np.empty((len(signals), LOADS, 1 + signals.terms.shape[2])), np.zeros(len(signals), dtype=bool)
-    for window in range(len(signals)):
-        change, known[window] = level.change(window)
-        changes[window] = change.reshape(changes.shape[1:])
-    return changes[:, :, 0], changes[:, :, 1:], known
+    pairs = [level.change(window) for window in range(len(signals))]
+    columns = np.array([change for change, known in pairs if known]).reshape(-1, LOADS, 1 + signals.terms.shape[2])
+    return Changes(columns[:, :, 0], columns[:, :, 1:])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -8,6 +8,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.number_text import plus_minus
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, Values, table_of
 
@@ -88,7 +90,6 @@ class CollisionCurve(Row):
 class Collisions(DrawnResult):
     """Contacts that the file does not state."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.collisions.answers:collisions_answers"
     drawn_by: ClassVar[str] = "forcetorque.collisions.figures:collisions_figure"
 
     schema_name: Literal["forcetorque/collisions/1"] = Field(default="forcetorque/collisions/1", alias="schema")
@@ -101,6 +102,25 @@ class Collisions(DrawnResult):
     """A row for every sensor."""
     curves: tuple[CollisionCurve, ...] = Field(default=(), exclude=True, repr=False)
     """Forces over time, for the figure."""
+
+    def answers(self) -> Iterator[Answer]:
+        """Say what every sensor noticed.
+
+        Yields:
+            One answer per sensor.
+        """
+        for sensor in self.sensitivity:
+            rows = [row for row in self.collisions if row.sensor == sensor.sensor]
+            strongest = max(rows, key=lambda row: row.over_threshold, default=None)
+            count = f"{len(rows)} CONTACT{'S' if len(rows) > 1 else ''}" if rows else "NO CONTACT"
+            yield Answer(
+                subject=f"{sensor.sensor}, {self.experiment}",
+                verdict=f"{count} in {sensor.looked_at_s:.3g} s",
+                why=(*([_strongest(strongest)] if strongest is not None else []), _noticed(sensor)),
+                step="look at the log around it" if rows else "",
+                command=typed("view", FIRST_EXPERIMENT) if rows else "",
+                concern=Concern.UNCERTAIN if rows else Concern.NONE,
+            )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give contacts, and what the sensors can notice.
@@ -119,3 +139,17 @@ class Collisions(DrawnResult):
             One line per contact.
         """
         return [row.flat() for row in self.collisions]
+
+
+def _strongest(row: CollisionRow) -> str:
+    link = row.link if not row.other_links else f"{row.link} (or {', '.join(row.other_links[:2])})"
+    stays = ", and stays, or an earlier contact ended" if row.kind == "new_level" else ""
+    force = plus_minus(row.force_N, row.force_half_width_95_N, "N")
+    return f"clearest: {row.start_s:.2f} to {row.end_s:.2f} s, {force} on {link}{stays}"
+
+
+def _noticed(sensor: SensitivityRow) -> str:
+    return (
+        f"noticed: any force from {sensor.smallest_force_N:.2g} N; threshold for {sensor.alarms_per_hour:g} false "
+        f"alarms per hour, from {sensor.free_s:.3g} s without contact"
+    )

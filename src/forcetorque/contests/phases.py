@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, read_only
 from forcetorque.base.errors import RecordingError
-from forcetorque.sensor.temperature.drift import LEAST_RANGE_DEGC
+from forcetorque.sensor.temperature.drift_regression import LEAST_RANGE_DEGC
 
 STEP_RAD = 0.05
 """What moves less than this from the last point of the path stands still: more than encoders and IMUs jitter; rad."""

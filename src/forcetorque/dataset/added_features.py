@@ -220,7 +220,7 @@ def _schema(schema: Any, features: Sequence[AddedFeature]) -> Any:
         described = json.loads(metadata[b"huggingface"])
         known = described["info"]["features"]
         vectors = [one for one in known.values() if isinstance(one, dict) and one.get("_type") in ("List", "Sequence")]
-        kind = vectors[0]["_type"] if vectors else "List"
+        kind = vectors[0]["_type"] if vectors else "Sequence"  # which `datasets` of all versions knows, unlike List
         for feature in features:
             value = {"dtype": "float32", "_type": "Value"}
             known[feature.name] = {"feature": value, "length": len(feature.names), "_type": kind}

@@ -82,6 +82,7 @@ def estimate(
     from forcetorque.estimation.result import estimates_of_recordings
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import file_of_each, stated_in
+    from forcetorque.experiment.kept_experiments import experiment_finished
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.formats.sample_table import SUFFIXES
     from forcetorque.results.terminal.output import refuse_ending, refuse_figure
@@ -103,7 +104,7 @@ def estimate(
         # a recording goes when its estimates are written: there may be more of them than memory holds
         content = read_experiment(path, log, Purpose.FORCES)
         with stated_in(str(path)):
-            summaries[str(path)] = _estimated(
+            summary = summaries[str(path)] = _estimated(
                 content,
                 calibrations,
                 contacts,
@@ -114,6 +115,7 @@ def estimate(
                 fuse=fuse,
                 figure=figures.get(path),
             )
+        experiment_finished(path, content, summary)
     several = len(summaries) > 1
     result = estimates_of_recordings(summaries) if several else summaries[str(experiments[0])]
     show(result, output_format, details=details, experiments=experiments)

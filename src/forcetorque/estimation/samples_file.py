@@ -89,8 +89,9 @@ def _of_skin(span: IntervalEstimates, uncertain: UncertainEstimates, model: Robo
             yield f"centre.{name}.{axis}", "m", values
     for name in uncertain.contacts:
         yield from _wrenches("sd.contact", [name], uncertain.contact_sd(name)[:, None])
-    for k, joint in enumerate(uncertain.joints):
-        yield f"sd.torque.{joint}", _torque_unit(model, joint), uncertain.torque_sd[:, k]
+    for joint, deviations in zip(uncertain.joints, uncertain.torque_sd.T, strict=True):
+        # 0 says that nothing uncertain reaches the joint: the model, which is taken as exact, has an error all the same
+        yield f"sd.torque.{joint}", _torque_unit(model, joint), np.ma.masked_equal(deviations, 0.0)
     yield "determined", "1", uncertain.determined
 
 

@@ -51,7 +51,9 @@ def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
         if row.offset is not Offset.JUDGED_MEAN:  # every candidate once
             continue
         uses = [use for use in evaluation.load_cases if (use.sensor, use.calibration) == (row.sensor, row.calibration)]
-        subject = f"{row.sensor} ({row.serial}), {names[row.calibration]}"
+        subject = f"{row.sensor} ({row.serial})"
+        if not names[row.calibration].startswith(f"{row.sensor}_{row.serial}."):  # the file has another name
+            subject = f"{subject}, {names[row.calibration]}"
         if uses:
             compared = [
                 one for one in evaluation.comparisons if (one.sensor, one.calibration) == (row.sensor, row.calibration)
@@ -86,7 +88,9 @@ def _of_uses(
     reason = worst.reasons[0]
     predicted = "; ".join(_predicted(error) for error in worst.errors)
     # what was measured speaks in the second line; other reasons, such as warnings, are said here
-    first = f"{worst.loads}: {predicted or worst.message}"
+    first = (
+        f"{worst.loads}: {predicted or worst.message}" if worst.load_case != RECORDED else predicted or worst.message
+    )
     beyond = () if worst.beyond_range is None else (worst.beyond_range,)
     step, command = _step(worst)
     return Answer(

@@ -38,7 +38,7 @@ _SPHERE_INTERVALS = Option(
 )
 
 
-@command()
+@command(figure="the predicted errors at the loads of use, of calibration and prior matrix")
 def evaluate(
     run: Annotated[
         "Runs", Option("Sensor in one recording or in several; their validation intervals are evaluated.", "--sensor")

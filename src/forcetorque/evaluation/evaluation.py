@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.means import joined_times
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
@@ -40,7 +41,7 @@ from forcetorque.experiment.validity import (
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import (
     COMPONENTS,
     VAGUE_WORDS,
@@ -179,10 +180,13 @@ class RecordingErrors(CalibrationErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-class Evaluation(Result):
+class Evaluation(DrawnResult):
     """Errors of calibrations, and of the priors that they came from, on data that was not fitted."""
 
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.answers:evaluation_answers"
+
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.load_cases:use_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("predicted", "shown_names")
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
@@ -204,6 +208,25 @@ class Evaluation(Result):
     """One per calibration: how far the validation samples lie outside what it was fitted on."""
     load_cases: tuple[LoadCaseVerdict, ...] = ()
     """One per calibration and load case: whether it may be used."""
+
+    @property
+    def predicted(self) -> tuple[LoadCaseVerdict, ...]:
+        """Verdicts with a predicted error, which the figure shows.
+
+        Raises:
+            ShapeError: If there is none, or if sensors measure different quantities, which have no panels in common.
+        """
+        verdicts = tuple(use for use in self.load_cases if use.errors)
+        if not verdicts:
+            raise ShapeError("figure: expected a load case with a predicted error, there is none to draw")
+        if len({tuple(error.quantity for error in use.errors) for use in verdicts}) > 1:
+            raise ShapeError("figure: expected sensors of the same quantities, got some of force alone; name one")
+        return verdicts
+
+    @property
+    def shown_names(self) -> dict[str, str]:
+        """Calibrations by file, as short as they can be told apart."""
+        return short_names([row.calibration for row in self.verdicts])
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -116,6 +117,19 @@ def _mount_kind(value: Any) -> str:
     return "word" if isinstance(value, str) else "table"
 
 
+def require_component_order(components: Sequence[str] | None) -> None:
+    """Refuse components that are named twice, or in another order than fx to tz.
+
+    Args:
+        components: Their names; None for all six.
+
+    Raises:
+        PydanticCustomError: If so.
+    """
+    if components is not None and list(components) != [name for name in WRENCH_COMPONENTS if name in components]:
+        raise PydanticCustomError("component_order", "components: expected each once, in the order fx to tz")
+
+
 class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
@@ -198,10 +212,9 @@ class Sensor(Table):
 
     @model_validator(mode="after")
     def _fewer_components_are_complete(self) -> Sensor:
+        require_component_order(self.components)
         if self.components is None:
             return self
-        if list(self.components) != [name for name in WRENCH_COMPONENTS if name in self.components]:
-            raise PydanticCustomError("component_order", "components: expected each once, in the order fx to tz")
         if len(self.components) < _AXES and (self.full_scale is None or self.prior is None):
             raise PydanticCustomError(
                 "components_rules",

@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
-from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names, measured_part
 from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
 from forcetorque.experiment.sensor_mount import SensorMount, with_mount
@@ -150,7 +150,7 @@ class ExperimentSensor:
         Returns:
             The same, with zeros for components that it does not measure.
         """
-        return np.where(self.measured, load, 0.0)
+        return measured_part(load, self.measured)
 
     def variable(self, name: str) -> SensorVariable:
         """Find a linear variable of the sensor.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
@@ -11,29 +11,36 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from forcetorque.experiment.experiment import Experiment
+    from forcetorque.results.result import Result
+
+    Finished = Callable[[Path, Experiment, Result], None]
 
 _KEPT: ContextVar[dict[Path, Experiment] | None] = ContextVar("forcetorque_kept_experiments", default=None)
+_FINISHED: ContextVar[Finished | None] = ContextVar("forcetorque_finished", default=None)
 _ASKED_BY: ContextVar[str] = ContextVar("forcetorque_experiments_asked_by", default="")
 
 
 @contextmanager
-def kept_experiments(asked_by: str, *, keep: bool = True) -> Iterator[Mapping[Path, Experiment]]:
+def kept_experiments(asked_by: str, finished: Finished | None = None) -> Iterator[Mapping[Path, Experiment]]:
     """Keep every experiment that is read in the body, so that its log need not be read again.
 
     Args:
         asked_by: Option that needs them, with its value, for messages.
-        keep: Whether to; a command that reads more recordings than memory holds keeps none.
+        finished: Called with file, experiment and result of each experiment by a command that reads more recordings
+            than memory holds; then none is kept.
 
     Yields:
         Experiments by their file, or by the log that one was made of; empty until they are read.
     """
     experiments: dict[Path, Experiment] = {}
-    token, option = _KEPT.set(experiments if keep else None), _ASKED_BY.set(asked_by)
+    token, option = _KEPT.set(experiments if finished is None else None), _ASKED_BY.set(asked_by)
+    done = _FINISHED.set(finished)
     try:
         yield experiments
     finally:
         _KEPT.reset(token)
         _ASKED_BY.reset(option)
+        _FINISHED.reset(done)
 
 
 def experiments_asked_by() -> str:
@@ -55,3 +62,16 @@ def keep_experiment(path: Path, experiment: Experiment) -> Experiment:
     if kept is not None:
         kept[path] = experiment
     return experiment
+
+
+def experiment_finished(path: Path, experiment: Experiment, result: Result) -> None:
+    """Hand on an experiment before the next one is read.
+
+    Args:
+        path: Its file.
+        experiment: The experiment.
+        result: What the command says of it.
+    """
+    finished = _FINISHED.get()
+    if finished is not None:
+        finished(path, experiment, result)

@@ -14,6 +14,7 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFi
 from forcetorque.base.output_file import declare_outputs
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
 from forcetorque.calibration.calibrate_command import calibration_files, end_with
+from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
@@ -51,24 +52,26 @@ def calibrate_sensors(
     for sensor, file in zip(sensors, files, strict=True):
         try:
             with stated_in(f"{dataset.folder}: sensor {sensor!r}"):
-                records = dataset.records(dataset.of_sensor(sensor))
+                moments, warnings = _moments(dataset, sensor)
                 made = calibrate_for_file(
                     None,
                     file,
                     code_version=code_version,
                     created=created,
-                    moments=dataset.moments(records),
+                    moments=moments,
                     nonlinear=nonlinear,
                 )
-                doubts = dict.fromkeys(text for record in records for text in record.warnings)
-                results.append(made.model_copy(update={"warnings": (*doubts, *_others(made.warnings, doubts))}))
+                others = [text for text in made.warnings if text not in warnings]
+                results.append(made.model_copy(update={"warnings": (*warnings, *others)}))
         except ForceTorqueError as error:
             refusals.append(error)
     return results, refusals
 
 
-def _others(warnings: Sequence[str], said: Mapping[str, None]) -> list[str]:
-    return [text for text in warnings if text not in said]
+def _moments(dataset: Dataset, sensor: str) -> tuple[list[RecordingMoments], list[str]]:
+    """Moments of a sensor without the records that they were in, and warnings of these, each once."""
+    records = dataset.records(dataset.of_sensor(sensor))
+    return dataset.moments(records), list(dict.fromkeys(text for record in records for text in record.warnings))
 
 
 def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:

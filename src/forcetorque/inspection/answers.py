@@ -268,8 +268,10 @@ def inspection_answer(inspection: Inspection) -> Answer:
     source, is_experiment = inspection.source, inspection.source.endswith(".toml")
     begin, go_on = typed("init", source, "-o", "experiment.toml"), typed("run", source, "-o", "results")
     step = _NEXT[is_experiment]
-    if not inspection.has_sensor:
+    if inspection.to_calibrate is None:
         step, go_on = "look at it, or state a [[sensor]] to calibrate", typed("view", source)
+    elif inspection.to_calibrate == "skin":
+        step, go_on = "calibrate its taxels", typed("skin", "calibrate", source, "-o", "skin.json")
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
     in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
     spoiling = [event for event in grouped if event.spoils(in_use)]

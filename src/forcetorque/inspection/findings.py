@@ -45,9 +45,28 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
         recording: The recording.
 
     Returns:
-        Findings of its readers and of single streams.
+        Findings of its readers and of single streams; of patches that share their messages, one for all of them.
     """
-    return (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
+    found = (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
+    messages = {
+        name: (stream.clock, stream.stamp_ns.tobytes())
+        for name, stream in recording.streams.items()
+        if _OF_SKIN & set(stream.signals)
+    }
+    streams: dict[tuple[object, Finding], list[str]] = {}
+    for finding in found:
+        key = (messages.get(finding.stream, finding.stream), replace(finding, stream=""))
+        streams.setdefault(key, []).append(finding.stream)
+    return tuple(
+        replace(finding, stream=names[0])
+        if len(names) == 1 or names[0] not in messages
+        else replace(finding, stream=names[0], message=f"{finding.message}; the same of {', '.join(names[1:])}")
+        for (_, finding), names in streams.items()
+    )
+
+
+_OF_SKIN = {"skin_event", "taxel_counts"}
+"""Quantities of which one message has those of several patches."""
 
 
 def inspect_experiment(

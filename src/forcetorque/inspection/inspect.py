@@ -79,6 +79,10 @@ class FindingRow(Row):
         return self.stream, self.kind, self.channel or ""
 
 
+ToCalibrate = Literal["sensor", "skin"] | None
+"""What an experiment file states to be calibrated."""
+
+
 class Inspection(Result):
     """Contents of a log, and findings."""
 
@@ -112,8 +116,8 @@ class Inspection(Result):
     """The calibration of the maker, where the file is one."""
     in_use_s: tuple[tuple[float, float], ...] = ()
     """Begin and end of the intervals for calibration and validation; s from the earliest stamp; none of a log."""
-    has_sensor: bool = Field(default=True, exclude=True, repr=False)
-    """Whether the experiment file states a sensor or skin; true of a log."""
+    to_calibrate: ToCalibrate = Field(default="sensor", exclude=True, repr=False)
+    """What the experiment file states to be calibrated; a sensor of a log; None for nothing."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
@@ -187,8 +191,8 @@ def inspect_log(
     progress(f"reading {source}")
     unread = _without_experiment(source, log_format)
     if unread is None and calibration is None:
-        recording, findings, has_sensor = _recorded(source, log_format, progress)
-        return _inspection(str(source), recording, findings, has_sensor=has_sensor)
+        recording, findings, to_calibrate = _recorded(source, log_format, progress)
+        return _inspection(str(source), recording, findings, to_calibrate=to_calibrate)
     if unread is not None and calibration is None:
         return unread
     if unread is not None or log_format is not None or recognised_format(source) is not None:
@@ -226,7 +230,7 @@ def inspected(
 
 
 def _inspection(
-    source: str, recording: Recording, findings: Iterable[Finding], *, has_sensor: bool = True
+    source: str, recording: Recording, findings: Iterable[Finding], *, to_calibrate: ToCalibrate = "sensor"
 ) -> Inspection:
     start, end = recording.span_ns
     return Inspection(
@@ -235,7 +239,7 @@ def _inspection(
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
         clocks=clock_rows(recording.clocks),
-        has_sensor=has_sensor,
+        to_calibrate=to_calibrate,
         in_use_s=tuple(
             ((one.start_ns - start) * 1e-9, (min(one.end_ns, end) - start) * 1e-9)
             for one in recording.intervals
@@ -283,8 +287,8 @@ def _prior(source: Path) -> PriorFile:
     return replace(file, notes=(words,))
 
 
-def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...], bool]:
-    """Recording and findings of a log or an experiment file, and as of `Inspection.has_sensor`."""
+def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...], ToCalibrate]:
+    """Recording and findings of a log or an experiment file, and as of `Inspection.to_calibrate`."""
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
     log_format = recognised_format(source) if name is None else format_named(name)
@@ -294,24 +298,25 @@ def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recor
         findings = inspect_recording(recording)
         if isinstance(log_format, RobotLoggingFormat):
             findings = (*robot_findings(log_format.robot(source), recording), *findings)
-        return recording, findings, True
+        return recording, findings, "sensor"
     if source.is_dir():
         raise not_recognised(source)
     parsed = _parsed(source)
     patches = load_patches(source) if parsed.table(PATCHES) else None
     if patches is not None and not parsed.sensor:
-        return patches.recording, inspect_patches(patches), True
+        fitted = any(interval.use is Use.CALIBRATION for interval in patches.intervals)
+        return patches.recording, inspect_patches(patches), "skin" if fitted else None
     if patches is None and not parsed.sensor:
         recording = load_experiment(source, Purpose.DISPLAY).recording
-        return recording, inspect_recording(recording), False
+        return recording, inspect_recording(recording), None
     try:
         experiment = load_experiment(source)
     except RecordingError:
         recording = load_tried_clocks(source)
         if all(clock.undetermined is None for clock in recording.clocks):
             raise
-        return recording, inspect_recording(recording), True
-    return experiment.recording, _of_experiment(experiment, patches, progress=progress), True
+        return recording, inspect_recording(recording), "sensor"
+    return experiment.recording, _of_experiment(experiment, patches, progress=progress), "sensor"
 
 
 def _of_experiment(

@@ -6,6 +6,9 @@ half a second takes vibration out and keeps steps sharp. The limit is a tenth of
 four times the usual scatter if that is more: heuristics, chosen so that a log of a laboratory gives few and useful
 findings. A contact in samples in use shifts their median and widens their scatter, so that both are taken again
 without it.
+
+This search needs no interval that is known to be free of contact. `robot collisions` learns noise and errors of the
+model from such an interval, less what this search finds there, and then finds weaker contacts.
 """
 
 from __future__ import annotations
@@ -21,6 +24,7 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.inspection.model_errors import ModelErrors
+from forcetorque.recording.frozen_and_saturated_samples import mask_of
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream_faults import true_runs
 
@@ -118,7 +122,7 @@ def model_findings(
     for _ in range(_ROUNDS):
         # what carries or moves the limb is no level of the sensor
         firm = [run for run in (*contacts, *pushes) if _is_firm(residual, *run)]
-        at_level = in_use & ~_inside(firm, len(stamp_ns))
+        at_level = in_use & ~mask_of(firm, len(stamp_ns))
         if np.count_nonzero(at_level) < max(_LEAST_AT_LEVEL * np.count_nonzero(in_use), residual.samples(_LEVEL_S)):
             break
         if (at_level == residual.in_use).all():
@@ -126,8 +130,8 @@ def model_findings(
         residual = _at_level(residual, at_level)
         contacts, pushes = _contacts_and_pushes(residual)
     # a light contact may as well be a step of the sensor: its axes are then reported too
-    free = ~_inside([run for run in contacts if _is_firm(residual, *run)], len(stamp_ns))
-    untouched = ~_inside(pushes, len(stamp_ns))
+    free = ~mask_of([run for run in contacts if _is_firm(residual, *run)], len(stamp_ns))
+    untouched = ~mask_of(pushes, len(stamp_ns))
     usable = residual.in_use & free
     errors = ModelErrors(
         residual=residual.smooth, expected=expected, usable=usable if usable.any() else residual.in_use
@@ -150,19 +154,11 @@ def _contacts_and_pushes(residual: _Residual) -> tuple[list[tuple[int, int]], li
     usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[residual.in_use])))
     least = np.maximum(LOAD_SHARE * weight, usual)
     contacts = [run for run in _merged(residual, carried > least) if not _is_no_contact(residual, least, errors, *run)]
-    free = residual.in_use & ~_inside([run for run in contacts if _is_firm(residual, *run)], len(weight))
+    free = residual.in_use & ~mask_of([run for run in contacts if _is_firm(residual, *run)], len(weight))
     if free.any():
         errors = replace(errors, usable=free)
     contacts = _whole(residual, contacts, errors)
     return contacts, _pushes(residual, contacts, errors)
-
-
-def _inside(runs: Sequence[tuple[int, int]], count: int) -> BoolArray:
-    """Samples of any of the runs; shape (count,)."""
-    inside = np.zeros(count, dtype=bool)
-    for first, last in runs:
-        inside[first : last + 1] = True
-    return inside
 
 
 def _whole(residual: _Residual, contacts: Sequence[tuple[int, int]], errors: ModelErrors) -> list[tuple[int, int]]:
@@ -170,7 +166,7 @@ def _whole(residual: _Residual, contacts: Sequence[tuple[int, int]], errors: Mod
     if not contacts:
         return []
     together = (np.abs(residual.quick) > residual.limit).sum(axis=1) > 1
-    grown = _inside(contacts, len(together))
+    grown = mask_of(contacts, len(together))
     reach = residual.samples(_QUIET_S)
     for first, last in _joined(residual, together, _QUIET_S):
         beside = grown[max(0, first - reach) : last + 1 + reach].any() and not grown[first : last + 1].all()

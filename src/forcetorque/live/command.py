@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 from contextlib import ExitStack, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -17,6 +17,7 @@ from forcetorque.results.terminal.output import Format, refuse_standard_output, 
 
 if TYPE_CHECKING:
     from forcetorque.live.outputs import Output
+    from forcetorque.live.run import LivePage
 
 _STANDARD_INPUT = 0
 """Its descriptor."""
@@ -175,6 +176,7 @@ def live(
     output_format: Annotated[
         Format, typer.Option("--format", help="Form of the account at the end, on standard error.")
     ] = Format.TABLE,
+    page: Any = None,
 ) -> None:
     """Correct wrenches while the robot runs, of lines, recordings, a box or ROS 2.
 
@@ -220,7 +222,7 @@ def live(
         "session": session, "tare_s": tare_s,
         "tool_mass_kg": tool_mass, "tool_centre_m": tool_centre, "take_tool_off": take_tool_off,
         "random_walk": random_walk, "tracking_noise": tracking_noise, "with_temperature": with_temperature,
-        "policy": policy, "limit_counts": limit_counts, "frozen_after_s": frozen_after,
+        "policy": policy, "limit_counts": limit_counts, "frozen_after_s": frozen_after, "shown": page is not None,
     })  # fmt: skip
     read = read_calibrations(calibrations, None)
     clock = time.monotonic
@@ -253,6 +255,9 @@ def live(
         shown = Watch(
             sys.stderr, clock=clock, period_s=0.2 if sys.stderr.isatty() else 1.0, in_place=sys.stderr.isatty()
         )
+        shown_by: LivePage | None = None
+        if page is not None:  # made at the top, which has the viewer: a context of settings, source and correctors
+            shown_by = stack.enter_context(page(settings, source, correctors))
         loop = LiveLoop(
             source,
             correctors,
@@ -261,13 +266,18 @@ def live(
             silence_s=silence,
             warn=log.warning,
             checks=checks,
+            recent=None if shown_by is None else shown_by.recent,
             **({"show": shown.show} if watch else {}),
         )
+        if shown_by is not None:
+            shown_by.follow(loop)
         # to be terminated ends a run as Ctrl-C does: with its file and its account
         stack.callback(signal.signal, signal.SIGTERM, signal.signal(signal.SIGTERM, signal.default_int_handler))
         ended_by = loop.run()
         if watch:
             shown.show(loop, at_once=True)
+        if shown_by is not None:
+            shown_by.end(ended_by)
     result = loop.result(ended_by, sum(one.lost for one in losing))
     result = result.model_copy(
         update={"replayed": replay is not None, "output_file": None if output is None else str(output)}

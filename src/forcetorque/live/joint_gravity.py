@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gravity in the frame of a reading, by a robot model and the positions of its joints, as they come."""
+"""Positions of joints as they come, and gravity in the frame of a reading by them and a robot model."""
 
 from __future__ import annotations
 
@@ -14,6 +14,35 @@ from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
+
+
+class JointPositions:
+    """Keeps the positions that came last; joints may come in several messages."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        """Begin.
+
+        Args:
+            names: Joints, in the order of the vector.
+        """
+        self.names = tuple(names)
+        """Joints."""
+        self.vector = np.full(len(self.names), np.nan)
+        """Their positions; shape (d,); rad or m; NaN until they come; another array after each message."""
+        self._places = {name: place for place, name in enumerate(self.names)}
+
+    def add(self, names: Sequence[str], positions: Sequence[float]) -> None:
+        """Take positions in, as of `JointGravity`.
+
+        Args:
+            names: Joints, in any order; others are left out.
+            positions: Their positions; rad, or m where prismatic; none where the message has none.
+        """
+        vector = self.vector.copy()
+        for name, value in zip(names, positions, strict=False):
+            if name in self._places and math.isfinite(value):
+                vector[self._places[name]] = value
+        self.vector = vector
 
 
 class JointGravity:

@@ -50,6 +50,8 @@ class Packet:
     """Bits of `Status` per sensor that the source knows of."""
     begins: bool = False
     """Whether it is the first after the sender was asked to begin again."""
+    positions: FloatArray | None = None
+    """Joint positions that came last; shape (d,); rad or m; None where the stream has none, or nobody looks at them."""
     group: int = 0
     """Which corrector it is for, where streams have stamps of their own."""
 

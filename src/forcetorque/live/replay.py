@@ -109,6 +109,7 @@ class ReplaySource:
         rate_hz: float | None = None,
         clock: Callable[[], float],
         sleep: Callable[[float], None],
+        experiment: Experiment | None = None,
     ) -> None:
         """Begin.
 
@@ -118,13 +119,14 @@ class ReplaySource:
             rate_hz: Rate of the recording, so that gaps in time are counted; Hz; None for not known.
             clock: Gives seconds.
             sleep: Waits for seconds.
+            experiment: What the groups are of, for who shows its robot.
 
         Raises:
             RecordingError: If the speed is not above 0.
         """
         if not speed > 0.0:
             raise RecordingError(f"speed: expected more than 0, got {speed}")
-        self.counts = PacketCounts()
+        self.counts, self.experiment = PacketCounts(), experiment
         self.rate_hz = rate_hz
         self._groups, self._speed, self._clock, self._sleep = tuple(groups), speed, clock, sleep
 

@@ -24,7 +24,7 @@ import numpy as np
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import encoder_of, read_positions, read_wrench
-from forcetorque.live.joint_gravity import JointGravity
+from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.outputs import CorrectedRow
 from forcetorque.live.packets import Packet, PacketCounts
 from forcetorque.live.sample_status import FAULTS, Status
@@ -156,6 +156,7 @@ class RosSource:
         clock: Callable[[], float],
         frame: str | None = None,
         gravity: JointGravity | None = None,
+        positions: JointPositions | None = None,
         joints_topic: str | None = None,
         warn: Callable[[str], None] = lambda _: None,
         messages: int | None = None,
@@ -169,6 +170,7 @@ class RosSource:
             clock: Gives seconds.
             frame: Frame that all wrenches must be in; None for any.
             gravity: Gives gravity by joint positions; None without.
+            positions: Takes joint positions, for who looks at the robot; None for nobody.
             joints_topic: Topic of the joint positions.
             warn: Called with the reason for the first message that is no sample.
             messages: Wrenches after which to stop; None for no end.
@@ -177,6 +179,8 @@ class RosSource:
         self.rate_hz: float | None = None
         self.frames = {sensor: frame or sensor for sensor in topics}
         """Frame of the last message, by sensor."""
+        self.positions = positions
+        """Joint positions that came last."""
         self._frame, self._gravity, self._clock, self._warn = frame, gravity, clock, warn
         self._sensors, self._left = tuple(topics), messages
         self._heard: list[bytes | None] = [None] * len(topics)
@@ -226,6 +230,8 @@ class RosSource:
         _, names, positions = read_positions(data)
         if self._gravity is not None:
             self._gravity.add(names, positions, self._clock())
+        if self.positions is not None:
+            self.positions.add(names, positions)
 
     def _packet(self, group: int, data: bytes, attached: bytes | None) -> Packet | None:
         number, identifier = read_attachment(attached)
@@ -250,6 +256,7 @@ class RosSource:
             gravity=gravity,
             faults=faults,
             begins=heard is not None and identifier != heard,
+            positions=None if self.positions is None else self.positions.vector,
             group=group,
         )
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, Protocol
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from forcetorque.live.corrector import Corrected, Corrector
 from forcetorque.live.outputs import CorrectedRow, Output
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.program_check import ProgramCheck
+from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.result import LivePackets, LiveRun, LiveSensor
 from forcetorque.live.sample_status import FAULTS, Status
 from forcetorque.live.sources import Source
@@ -78,6 +79,7 @@ class LiveLoop:
         warn: Callable[[str], None] = lambda _: None,
         show: Callable[[LiveLoop], None] = lambda _: None,
         checks: Sequence[ProgramCheck] = (),
+        recent: RecentSamples | None = None,
     ) -> None:
         """Prepare.
 
@@ -90,6 +92,7 @@ class LiveLoop:
             warn: Called when it falls silent.
             show: Called after packets, to show the state.
             checks: Programs that get the same samples.
+            recent: Keeps the last samples for who looks at them; None for nobody.
         """
         self.correctors = tuple(correctors)
         self.accounts = [PacketAccount(source.rate_hz) for _ in correctors]
@@ -97,7 +100,7 @@ class LiveLoop:
             [SensorState(name=one.sensor.name, serial=one.sensor.serial) for one in corrector.calibrations]
             for corrector in correctors
         ]
-        self._checks = tuple(checks)
+        self._checks, self._recent = tuple(checks), recent
         self._source, self._outputs, self._clock = source, tuple(outputs), clock
         self._silence_s, self._warn, self._show = silence_s, warn, show
         self._first_s: float | None = None
@@ -129,9 +132,14 @@ class LiveLoop:
             close = getattr(packets, "close", None)
             if close is not None:
                 close()
-            if self._silent or self._clock() - self._last_s > self._silence_s:
+            if self._silent or self.silent_s > self._silence_s:
                 self._count_silence(self._clock())
         return "end of input"
+
+    @property
+    def silent_s(self) -> float:
+        """Time since the last packet; s."""
+        return self._clock() - self._last_s
 
     def counts(self) -> PacketCounts:
         """Add up what became of packets.
@@ -195,7 +203,7 @@ class LiveLoop:
         )
 
     def _wait(self) -> None:
-        silent_s = self._clock() - self._last_s
+        silent_s = self.silent_s
         if silent_s > self._silence_s and not self._silent:
             self._silent = True
             self._warn(f"the source has been silent for {silent_s:.1f} s; waiting for it")
@@ -234,6 +242,8 @@ class LiveLoop:
             if check.corrector is corrector:
                 check.add(packet, corrected)
         self._give(corrector, states, corrected, stamp_ns)
+        if self._recent is not None:
+            self._recent.take(packet, corrected, stamp_ns)
         took = self._clock() - now
         self._slowest_s = took if math.isnan(self._slowest_s) else max(self._slowest_s, took)
 
@@ -262,3 +272,24 @@ class LiveLoop:
                 row = CorrectedRow(stamp_ns, state.name, values, status)
                 for output in self._outputs:
                     output.write(row)
+
+
+class LivePage(Protocol):
+    """Shows a run while it lasts."""
+
+    recent: RecentSamples
+    """Takes the samples."""
+
+    def follow(self, loop: LiveLoop) -> None:
+        """Show the state of a run, too.
+
+        Args:
+            loop: The run.
+        """
+
+    def end(self, ended_by: str) -> None:
+        """Show that the run ended.
+
+        Args:
+            ended_by: Why.
+        """

@@ -74,6 +74,8 @@ class Settings:
     """Topic of JointState."""
     base_gravity: str | None = None
     """Acceleration of free fall along the axes of the root link; x,y,z; m/s2."""
+    shown: bool = False
+    """Whether a page shows the run, with the robot where it is stated."""
     offset: OffsetSource = OffsetSource.FITTED
     """Where the offset comes from."""
     session: str | None = None

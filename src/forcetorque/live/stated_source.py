@@ -14,7 +14,7 @@ from forcetorque.base.errors import RecordingError, known_names
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.live.choices import HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
-from forcetorque.live.joint_gravity import JointGravity
+from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.net_ft import CountUnits, NetFtSource, fetch_units
 from forcetorque.live.replay import ReplayedGroup, ReplaySource, replayed_groups
 from forcetorque.live.ros_topics import RosSession, RosSource, require_topic
@@ -171,17 +171,44 @@ def _topics(
                 f"--ros2: the calibration needs {', '.join(corrector.variables[0])}, which such messages lack; take "
                 "--input csv"
             )
+    gravity = None if is_robot_shown_alone(settings) else _joint_gravity(settings, len(calibrations))
     source = RosSource(
         ros,
         heard,
         domain=settings.domain,
         clock=clock,
         frame=settings.frame,
-        gravity=_joint_gravity(settings, len(calibrations)),
+        gravity=gravity,
+        positions=_joint_positions(settings),
         joints_topic=settings.joints and require_topic("--joints", settings.joints),
         warn=warn,
     )
     return source, correctors
+
+
+def is_robot_shown_alone(settings: Settings) -> bool:
+    """Say whether the robot of ROS is there for a page and not for a tool.
+
+    Args:
+        settings: What is stated.
+
+    Returns:
+        Whether a page shows the run, and neither tool nor gravity is stated.
+    """
+    return settings.shown and settings.tool_mass_kg is None and settings.base_gravity is None
+
+
+def _joint_positions(settings: Settings) -> JointPositions | None:
+    if not settings.shown or settings.robot is None:
+        return None
+    if settings.joints is None or settings.frame is None:
+        raise RecordingError("--robot: a page needs --joints and --frame too, the link that the reading is in")
+    model = read_urdf(settings.robot)
+    if settings.frame not in model.links:
+        raise RecordingError(
+            f"--frame {settings.frame}: expected a link of {model.name!r}; {known_names(settings.frame, model.links)}"
+        )
+    return JointPositions([name for name, joint in model.joints.items() if joint.type.moves and joint.mimic is None])
 
 
 def _joint_gravity(settings: Settings, sensors: int) -> JointGravity | None:
@@ -249,7 +276,12 @@ def _replayed(
     else:
         correctors = [Corrector(group.calibrations, corrector_options(settings, group.quantity)) for group in groups]
     source = ReplaySource(
-        groups, speed=settings.speed or math.inf, rate_hz=settings.rate_hz, clock=clock, sleep=time.sleep
+        groups,
+        speed=settings.speed or math.inf,
+        rate_hz=settings.rate_hz,
+        clock=clock,
+        sleep=time.sleep,
+        experiment=experiment,
     )
     return source, tuple(correctors)
 

@@ -7,7 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.locomotion.commands import balance, coherence, torque_loop
+    from forcetorque.locomotion.commands import balance, coherence, oscillation_causes, torque_loop
     from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
     from forcetorque.locomotion.motion_quality import motion
     from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
@@ -26,6 +26,7 @@ CAPABILITY = Capability(
         "forcetorque.locomotion.commands:coherence",
         "forcetorque.locomotion.commands:motion",
         "forcetorque.locomotion.commands:torque_loop",
+        "forcetorque.locomotion.commands:oscillation_causes",
     ),
     sections=("forcetorque.locomotion.section:SOLES",),
 )
@@ -37,6 +38,7 @@ __all__ = [
     "motion",
     "motion_signals",
     "motion_signals_of_arrays",
+    "oscillation_causes",
     "read_torque_loop",
     "torque_loop",
 ]
@@ -50,6 +52,7 @@ __getattr__, __dir__ = lazy_names(
         "motion": "forcetorque.locomotion.motion_quality",
         "motion_signals": "forcetorque.locomotion.logged_signals",
         "motion_signals_of_arrays": "forcetorque.locomotion.logged_signals",
+        "oscillation_causes": "forcetorque.locomotion.commands",
         "read_torque_loop": "forcetorque.locomotion.torque_control.file",
         "torque_loop": "forcetorque.locomotion.commands",
     },

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answers of `balance`, `coherence`, `motion` and `torque-loop` in a few lines."""
+"""The answers of `balance`, `coherence`, `motion`, `torque-loop` and `oscillation-causes` in a few lines."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary
     from forcetorque.locomotion.standing.result import SupportPhaseRow
     from forcetorque.locomotion.standing.standing import Balance
+    from forcetorque.locomotion.torque_control.causes import CauseRow, OscillationCauses
     from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
 
 _NAMED = 3
@@ -199,3 +200,39 @@ def _falls(rows: Sequence[TorqueLoopRow]) -> str:
 
 def _tracking(row: TorqueLoopRow) -> str:
     return within(row.tracking_rms_Nm, row.tracking_half_width_95_Nm, "N m")
+
+
+def oscillation_causes_answers(causes: OscillationCauses) -> Iterator[Answer]:
+    """Say which cause lets the larger errors oscillate most where the smaller ones hardly do, per loop and sole.
+
+    Args:
+        causes: Limits of both loops.
+
+    Yields:
+        One answer each.
+    """
+    for loop, tilt_deg in dict.fromkeys((row.loop, row.tilt_deg) for row in causes.rows):
+        rows = sorted(
+            (row for row in causes.rows if (row.loop, row.tilt_deg) == (loop, tilt_deg)), key=lambda row: -row.share
+        )
+        hit = [row for row in rows if row.larger]
+        first = rows[0]
+        in_file = first.in_file
+        yield Answer(
+            subject=f"{loop}, sole {tilt_deg:g} deg",
+            verdict=(
+                f"OSCILLATES: {_hit(first)} with errors '{causes.larger}', {first.smaller} with '{causes.smaller}'"
+                if hit
+                else f"NO CAUSE makes errors '{causes.larger}' oscillate where '{causes.smaller}' hardly do"
+            ),
+            why=(
+                f"with the values of the file {in_file} of {first.draws} draws oscillate",
+                f"then {', '.join(_hit(row) for row in hit[1:_NAMED])}" if hit[1:] else "by no other cause",
+            ),
+            written=(causes.figure_file,),
+            concern=Concern.UNCERTAIN if in_file else Concern.NONE,
+        )
+
+
+def _hit(row: CauseRow) -> str:
+    return f"{row.larger} of {row.draws} at {row.cause.partition(',')[0]} {row.at:.3g}{row.cause.partition(',')[2]}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque robot balance`, `coherence`, `motion` and `torque-loop`."""
+"""`forcetorque robot balance`, `coherence`, `motion`, `torque-loop` and `oscillation-causes`."""
 
 import logging
 from collections.abc import Collection, Sequence
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.foot_wrenches import FootForces
     from forcetorque.locomotion.standing.standing import Balance
+    from forcetorque.locomotion.torque_control.causes import OscillationCauses
     from forcetorque.locomotion.torque_control.file import TorqueLoopFile
     from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
 
@@ -298,3 +299,33 @@ def torque_loop(
     if file is None:
         file = TorqueLoopFile()
     return study_torque_loop(file if isinstance(file, TorqueLoopFile) else read_torque_loop(file), progress)
+
+
+@command("unstable draws per cause")
+def oscillation_causes(
+    file: Annotated[
+        "TorqueLoopFile | Path | str | None",
+        Option("File of the loop (TOML), as that of `robot torque-loop`; its motion is not run."),
+    ] = None,
+    *,
+    progress: Annotated["Progress", Option("Called with a line for people as work goes on.")] = lambda _: None,
+) -> "OscillationCauses":
+    """Find which delay, gain or compliance makes sensor errors oscillate a robot.
+
+    Example: forcetorque robot oscillation-causes loop.toml --figure causes.png
+
+    Python: `locomotion.oscillation_causes(progress=print)`, two minutes
+
+    Returns:
+        Per cause the value that robots with small errors bear, and the share of larger errors that oscillate there.
+
+    Raises:
+        MissingExtraError: If MuJoCo is not installed.
+        ControlError: If a loop is unstable without any error.
+    """
+    from forcetorque.locomotion.torque_control.causes import study_causes
+    from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
+
+    if file is None:
+        file = TorqueLoopFile()
+    return study_causes(file if isinstance(file, TorqueLoopFile) else read_torque_loop(file), progress)

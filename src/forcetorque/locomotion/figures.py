@@ -13,6 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.locomotion.motion_quality import Motion, MotionCurve
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, policy_words
 from forcetorque.locomotion.standing.interval import IntervalBalance
+from forcetorque.locomotion.torque_control.causes import OscillationCauses
 from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
 from forcetorque.results.figures import (
     GRID,
@@ -333,3 +334,40 @@ def _draw_torque_loop(panels: Sequence[Axes], rows: Sequence[TorqueLoopRow], k: 
         panel.plot(size, values, linewidth=1.0, markersize=5.0, **style.key)
         for x, (_, least, most) in zip(size, counts, strict=True):
             panel.plot([x, x], [least, most], color=style.colour, linewidth=1.0)
+
+
+@in_figure_style
+def oscillation_causes_figure(causes: OscillationCauses) -> Figure:
+    """Draw the share of either errors that oscillates, a bar per cause, a panel per loop and sole.
+
+    Args:
+        causes: The result.
+
+    Returns:
+        The figure; lines are 95 % intervals of the larger errors.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    groups = {key: list(rows) for key, rows in groupby(causes.rows, key=lambda row: (row.loop, row.tilt_deg))}
+    figure = new_figure(0.75 * ROW_INCHES[1] * len(groups))
+    panels = np.ravel(figure.subplots(len(groups), 1, sharex=True, squeeze=False))
+    for panel, ((loop, tilt_deg), rows) in zip(panels, groups.items(), strict=True):
+        most = max(rows, key=lambda row: row.share)
+        for k, row in enumerate(rows):
+            panel.plot([row.larger_least_percent, row.larger_most_percent], [k, k], color=look(0).colour)
+            for style, share in enumerate((row.share, row.smaller / row.draws)):
+                panel.plot([100.0 * share], [k], markersize=5.0, **{**look(style).key, "linestyle": "none"})
+        panel.set_yticks(
+            range(len(rows)), [row.cause + ("" if row.at is None else f": {row.at:.3g}") for row in rows], fontsize=7
+        )
+        panel.invert_yaxis()
+        panel.set_xlim(-3.0, 103.0)
+        panel.set_title(
+            f"{loop}, sole {tilt_deg:g} deg: at most {100.0 * most.share:.0f} % of '{causes.larger}' oscillate",
+            loc="left",
+            fontweight="bold",
+        )
+    panels[-1].set_xlabel("unstable draws, %")
+    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate((causes.larger, causes.smaller))])
+    return figure

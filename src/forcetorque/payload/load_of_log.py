@@ -138,20 +138,6 @@ def _format_of(path: Path) -> LogFormat[Any]:
     return known
 
 
-def experiment_of_log(path: Path, specified: Mapping[str, object], folder: Path) -> LogAlone:
-    """Make the experiment of a log of an arm.
-
-    Args:
-        path: The log.
-        specified: As of `described_log`.
-        folder: Folder of the experiment file, from which its paths count.
-
-    Returns:
-        The experiment, with one sensor.
-    """
-    return experiment_of_description(path, described_log(path, specified), specified, folder)
-
-
 def experiment_of_description(
     path: Path, description: LogDescription, specified: Mapping[str, object], folder: Path
 ) -> LogAlone:

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.joint.interval import part_residuals
 from forcetorque.calibration.joint.outcome import SubModelRow
 from forcetorque.calibration.joint.robust_fit import PartResidual
+from forcetorque.calibration.joint.untouched_interval import part_residuals
+from forcetorque.collisions.findings import with_collisions
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.section import FUSION
 from forcetorque.estimation.torque.experiment_fusion import (
@@ -191,7 +192,7 @@ def assess_experiment(
         duration_s=(end - start) * 1e-9,
         streams=stream_overviews(experiment.recording),
         intervals=interval_overviews(experiment.recording),
-        findings=finding_rows(start, inspect_experiment(experiment)),
+        findings=finding_rows(start, with_collisions(inspect_experiment(experiment), experiment, first)),
         sensors=tuple(sensors),
         sub_models=tuple(map(SubModelRow.of, residuals)),
         part_residuals=tuple(residuals),

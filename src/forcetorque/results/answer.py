@@ -94,14 +94,15 @@ def answer_text(
     most: int | None = None,
     coloured: bool = False,
 ) -> str:
-    """Write answers for people: a line for each, the worst first, and why and what next for the worst.
+    """Write answers for people: a line for each with its reason, the worst first, and what next for the worst.
 
     Args:
         answers: The answers.
         width: Characters of a line.
         experiment: What stands for the experiment files in commands; a word for any if empty.
         first: What stands for the first of them.
-        most: Lines; what there is no room for of why, is left out, but one line; None for as many as there are.
+        most: Lines. Where there is no room for all of why, its sentences are cut, the last ones first, then left
+            out; one line of the worst answer stays. None for as many lines as there are.
         coloured: Whether the words of each verdict that are in capitals have the colour of its concern.
 
     Returns:
@@ -111,21 +112,43 @@ def answer_text(
         return ""
     ordered = sorted(answers, key=lambda answer: -answer.concern)
     names = {EXPERIMENT: experiment or _ANY, FIRST_EXPERIMENT: first or experiment or _ANY}
-    why = [line for sentence in ordered[0].why for line in _indented(sentence, width).splitlines()]
-    lines = [line for part in _lines(ordered, width, names, (), coloured) for line in part.splitlines()]
-    if most is not None and len(lines) + len(why) > most:
-        why = why[: max(1, most - len(lines))]
-        why[-1] = _INDENT + shortened(f"{why[-1]} …", width - len(_INDENT))
-    return "".join(f"{line}\n" for line in _lines(ordered, width, names, why, coloured))
+    headlines = [_headline(answer, width, coloured) for answer in ordered]
+    end = [*_end(ordered, width, names)]
+    # the reasons of further answers that ask for attention, before more of the worst
+    worst, *others = ordered
+    sentences = [(0, sentence) for sentence in worst.why]
+    further = [(k, one.why[0]) for k, one in enumerate(others, start=1) if one.concern and one.why]
+    sentences[1:1] = further
+    room = None if most is None else most - len("\n".join([*headlines, *end]).splitlines())
+    parts = _cut([sentence for _, sentence in sentences], len(further), width, room)
+    reasons = [
+        [headline, *(line for (k, _), lines in zip(sentences, parts, strict=True) if k == number for line in lines)]
+        for number, headline in enumerate(headlines)
+    ]
+    return "".join(f"{part}\n" for part in [*(line for lines in reasons for line in lines), *end])
 
 
-def _lines(
-    answers: Sequence[Answer], width: int, names: Mapping[str, str], why: Sequence[str], coloured: bool
-) -> Iterator[str]:
-    for answer in answers:
-        yield _headline(answer, width, coloured)
-        if answer is answers[0]:
-            yield from why
+def _cut(sentences: Sequence[str], further: int, width: int, room: int | None) -> list[list[str]]:
+    """Lines of each sentence: one as far as there is room, then more of the first ones."""
+    lines = [_indented(sentence, width).splitlines() for sentence in sentences]
+    if room is None or sum(map(len, lines)) <= room:
+        return lines
+    room = max(room, 1)
+    counts = [int(k < room) for k in range(len(lines))]
+    for k, own in enumerate(lines):
+        counts[k] += min(max(room - sum(counts), 0), len(own) - counts[k]) if counts[k] else 0
+    shown = sum(map(bool, counts))
+    last = shown - 1 if shown - 1 > further else 0  # of the worst answer
+    for k, own in enumerate(lines):
+        cut = counts[k] < len(own) or (k == last and shown < len(lines))
+        del own[counts[k] :]
+        if cut and own:
+            own[-1] = _INDENT + shortened(f"{own[-1]} …", width - len(_INDENT))
+    return lines
+
+
+def _end(answers: Sequence[Answer], width: int, names: Mapping[str, str]) -> Iterator[str]:
+    """Files that were written, and what to do next for the worst answer."""
     files = dict.fromkeys(file for answer in answers for file in answer.written if file is not None)
     if files:
         yield wrapped(f"written: {', '.join(files)}", width)

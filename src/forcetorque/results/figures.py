@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cache, wraps
-from typing import TYPE_CHECKING, Any, ParamSpec
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -125,20 +125,21 @@ _BEFORE = ("prior", "logged")
 """Names of curves before a calibration."""
 
 _P = ParamSpec("_P")
+_Drawn = TypeVar("_Drawn")
 
 
-def in_figure_style(draw: Callable[_P, Figure]) -> Callable[_P, Figure]:
-    """Draw a figure with the settings of `FIGURE_STYLE`; those of the program are as before afterwards.
+def in_figure_style(draw: Callable[_P, _Drawn]) -> Callable[_P, _Drawn]:
+    """Draw with the settings of `FIGURE_STYLE`; those of the program are as before afterwards.
 
     Args:
-        draw: Function that makes a figure.
+        draw: Function that makes a figure, or a file of several.
 
     Returns:
         The function with these settings.
     """
 
     @wraps(draw)
-    def drawn(*args: _P.args, **kwargs: _P.kwargs) -> Figure:
+    def drawn(*args: _P.args, **kwargs: _P.kwargs) -> _Drawn:
         with _figure_style():
             return draw(*args, **kwargs)
 

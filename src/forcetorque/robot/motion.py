@@ -259,18 +259,6 @@ class JointUnits:
                 )
 
 
-def require_joints_in_radians(model: RobotModel, motion: JointMotion) -> None:
-    """Refuse positions that lie far beyond the limits of the URDF as radians, and within them as degrees.
-
-    Args:
-        model: The robot; joints without limits are not judged.
-        motion: Positions of its joints.
-    """
-    units = JointUnits(model, motion.names)
-    units.add(motion)
-    units.require_radians()
-
-
 BLOCK: Final = 16384
 """Instants of a log that are evaluated at a time: long against the cost of starting, and small in memory."""
 

@@ -20,7 +20,15 @@ if TYPE_CHECKING:
 _PATCH = Option("Name of the patch. Default: the only one.")
 
 
-@command("positions and normals, as written and as rebuilt")
+@command(
+    "positions and normals, as written and as rebuilt",
+    Saved(
+        flags=("--repaired",),
+        help="Table of the layout (CSV) to write, with normals rebuilt from the positions; no taxel is moved.",
+        function="forcetorque.skin.layout.check:save_repaired_layout",
+        endings=(".csv",),
+    ),
+)
 def check_skin(
     layout: Annotated["Path | str", Option("File with the layout of a patch; see docs/skin/layout.md.")],
 ) -> "SkinCheck":
@@ -60,7 +68,7 @@ def calibrate_skin(
         str,
         Option(
             "Form of the curves to keep; all are compared where not fitted.",
-            choices=("monotone", "line", "polynomial", "capacitor"),
+            choices=("monotone", "line", "polynomial", "capacitor", "logarithmic"),
         ),
     ] = "monotone",
     highest_pa: Annotated[
@@ -105,7 +113,15 @@ def calibrate_skin(
     )
 
 
-@command("the field of pressure and of forces over time")
+@command(
+    "the field of pressure and of forces over time",
+    Saved(
+        flags=("--film",),
+        help="GIF of the field of pressure over time.",
+        function="forcetorque.skin.film:save_skin_film",
+        endings=(".gif",),
+    ),
+)
 def skin_wrench(
     experiment: Annotated[
         "PatchExperiment | Path | str", Option("Experiment file (TOML) with [[patch]]; see docs/skin/wrench.md.")

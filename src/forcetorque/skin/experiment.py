@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import Field
@@ -36,6 +36,8 @@ class Patch(Table):
     """Stream of the recording that holds its `taxel_counts`."""
     pressure: Text | None = None
     """Stream with the `pressure` of the chamber or bag that it was calibrated in."""
+    pressure_of: Literal["chamber", "bag"] = "chamber"
+    """`bag`: the gauge is inside a vacuum bag, and the skin feels by how much it falls below its level at rest."""
     serial: Text | None = None
     """Serial number, or another mark that distinguishes it from patches of the same name."""
     layout: Path | None = None
@@ -63,6 +65,8 @@ class ExperimentPatch:
     """Stream of the counts."""
     pressure: str | None
     """Stream of the pressure that it was calibrated with."""
+    in_bag: bool = False
+    """Whether that is the pressure inside a vacuum bag, which falls as that on the skin rises."""
     layout: Path | None
     """File with its layout."""
     link: str | None
@@ -240,6 +244,7 @@ def _patch(where: str, entry: Patch, recording: Recording, inputs: Inputs) -> Ex
         serial=entry.serial,
         counts=entry.counts,
         pressure=entry.pressure,
+        in_bag=entry.pressure_of == "bag",
         layout=None if entry.layout is None else inputs.folder / entry.layout,
         link=entry.link,
         table=None if entry.table is None else inputs.folder / entry.table,

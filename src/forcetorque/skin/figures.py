@@ -35,6 +35,7 @@ from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.collections import TriMesh
     from matplotlib.figure import Figure
 
 
@@ -234,8 +235,8 @@ def skin_wrench_figure(picture: SkinWrenchPicture, reference: FloatArray | None 
     """
     figure = new_figure(ROW_INCHES[1])
     field, lines = figure.subplots(1, 2, width_ratios=(2.0, 3.0))
-    _draw_field(figure, field, picture)
-    _draw_forces(lines, picture, reference)
+    draw_field(figure, field, picture)
+    draw_forces(lines, picture, reference)
     headline(figure, _force_message(picture, reference))
     keys = [(shown_name(name), _style(k)) for k, name in enumerate(picture.forces)]
     legend_below(figure, [*keys, *([] if reference is None else [("true force", _REFERENCE)])])
@@ -256,22 +257,48 @@ def _force_message(picture: SkinWrenchPicture, reference: FloatArray | None) -> 
     return f"{'Largest' if reference is None else 'Least'} {what}: {sizes[best]:.3g} N ({shown_name(best)})"
 
 
-def _draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> None:
+def draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> TriMesh:
+    """Draw the pressures when the force was largest.
+
+    Args:
+        figure: Figure of the panel.
+        panel: Where to draw.
+        picture: Pressures.
+
+    Returns:
+        The coloured facets, whose array is the pressure on each taxel in kPa; the scale is that of all times.
+    """
     from matplotlib.tri import Triangulation
 
     across, along = 1e3 * picture.places.T
     facets = Triangulation(across, along, picture.triangles)
-    drawn = panel.tripcolor(facets, picture.pressed_kPa, shading="gouraud", cmap="cividis")
+    pressures = 1e-3 * picture.pressures
+    drawn: TriMesh = panel.tripcolor(
+        facets,
+        pressures[picture.strongest],
+        shading="gouraud",
+        cmap="cividis",
+        vmin=0.0,
+        vmax=max(float(pressures.max()), float(np.finfo(np.float32).tiny)),
+    )
     panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color=PAPER)
     bar = figure.colorbar(drawn, ax=panel)
     bar.set_label("pressure, kPa")
     panel.set_aspect("equal")
     panel.set_xlabel("around, mm")
     panel.set_ylabel("along, mm")
-    panel.set_title(f"{shown_name(picture.patch)} at {picture.pressed_s:.1f} s", loc="left")
+    panel.set_title(f"{shown_name(picture.patch)} at {picture.seconds[picture.strongest]:.1f} s", loc="left")
+    return drawn
 
 
-def _draw_forces(panel: Axes, picture: SkinWrenchPicture, reference: FloatArray | None) -> None:
+def draw_forces(panel: Axes, picture: SkinWrenchPicture, reference: FloatArray | None) -> None:
+    """Draw forces over time.
+
+    Args:
+        panel: Where to draw.
+        picture: Forces.
+        reference: What the force truly is, where that is known; shape (k,); N.
+    """
     if reference is not None:
         time, drawn = thinned_line(picture.seconds, np.asarray(reference)[:, None])
         panel.plot(time, drawn[:, 0], linewidth=1.4, **_REFERENCE)

@@ -25,9 +25,14 @@ ALIGNMENT = 8
 class Block:
     """Collects the arrays of a scene in one block of bytes."""
 
-    def __init__(self) -> None:
+    def __init__(self, begin: int = 0) -> None:
+        """Collect nothing yet.
+
+        Args:
+            begin: Where the block begins in a longer one; bytes.
+        """
         self._parts: list[bytes] = []
-        self._size = 0
+        self._size = begin
 
     def add(self, values: npt.NDArray[Any], dtype: Literal["float32", "float64", "uint32"]) -> ArrayRef:
         """Append an array.

@@ -132,7 +132,7 @@ def _serve(
     path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format, *, details: bool
 ) -> None:
     from forcetorque.viewer.packing import packed
-    from forcetorque.viewer.page import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer, page_of
+    from forcetorque.viewer.page import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer, open_in_browser, page_of
     from forcetorque.viewer.scene_builder import View
 
     log = start_logging()
@@ -143,18 +143,9 @@ def _serve(
         with ViewerServer(page, served.block, session.save, port=port) as server:
             show(View.of(built).model_copy(update={"url": server.url}), output_format, details=details)
             sys.stdout.flush()
-            if open_browser and not _opened(server.url):
+            if open_browser and not open_in_browser(server.url):
                 log.warning("no browser could be opened; open the address yourself")
             log.info("served until Ctrl-C")
             server.wait()
     except KeyboardInterrupt:
         log.info("stopped")
-
-
-def _opened(url: str) -> bool:
-    import webbrowser
-
-    try:
-        return webbrowser.open(url)
-    except webbrowser.Error:
-        return False

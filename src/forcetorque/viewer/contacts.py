@@ -10,8 +10,8 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.joint.interval import part_residuals
 from forcetorque.calibration.joint.robust_fit import PartResidual
+from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.calibration.joint.windows import WINDOW_S
 from forcetorque.estimation.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.experiment.calibration.artefact import Calibration

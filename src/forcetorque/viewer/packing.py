@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
@@ -30,7 +31,8 @@ import numpy.typing as npt
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.viewer.arrays import ALIGNMENT, peak, read_array
-from forcetorque.viewer.scene import ArrayRef, Scene
+from forcetorque.viewer.overview import with_overviews
+from forcetorque.viewer.scene import ArrayRef, Scene, SeriesOverview
 from forcetorque.viewer.scene_builder import BuiltScene
 
 ROWS = 4096
@@ -46,7 +48,7 @@ POSE_STEP = 5e-7
 BAND_STEP = 2.0**-8
 """Step of a standard deviation, as a share of the largest of its column: bands are drawn, not read."""
 ARROW_STEP = 2.0**-11
-"""Step of contact wrenches, as a share of the largest of all contacts: they are drawn as arrows alone."""
+"""Step of contact wrenches and of the points of overviews, as a share of the largest: both are drawn, not read."""
 _ABSENT, _LARGEST = 65535, 32767
 _FIRST_ABSENT = 128
 _LINEAR, _ALMOST_ALL = 0.1, 0.99
@@ -65,7 +67,9 @@ _OUTERMOST = 0.1
 
 
 def packed(built: BuiltScene, progress: Progress = lambda _: None) -> BuiltScene:
-    """Pack the arrays of a scene that have a row for each sample; all others stay as they are.
+    """Pack the arrays of a scene that have a row for each sample, or are points of its overviews; no others.
+
+    Overviews are added first, so that they are of the values before packing.
 
     So does an array with outliers: one damaged sample would set the step of its column, and hide all others.
 
@@ -76,11 +80,13 @@ def packed(built: BuiltScene, progress: Progress = lambda _: None) -> BuiltScene
     Returns:
         The scene with a smaller block.
     """
+    built = with_overviews(built)
     parts: list[bytes] = []
     size = done = 0
     time_left = TimeLeft(progress, "packing the page", len(built.block))
     known: dict[tuple[int, tuple[int, ...]], ArrayRef] = {}
     steps, bases = _largest_steps(built), _bases(built.scene)
+    points = {overview.points.offset for overview in _overviews(built.scene)}
 
     def moved(reference: ArrayRef) -> ArrayRef:
         nonlocal size, done
@@ -91,7 +97,8 @@ def packed(built: BuiltScene, progress: Progress = lambda _: None) -> BuiltScene
         moved_to = reference
         time_left.at(done)
         done += values.nbytes
-        over_time = reference.dtype == "float32" and len(values) == built.scene.samples and values.ndim == 2
+        has_rows = reference.offset in points or len(values) == built.scene.samples
+        over_time = reference.dtype == "float32" and has_rows and values.ndim == 2
         if over_time and values.size and not _has_outliers(values):
             base = bases.get(reference.offset)
             rest = None if base is None else _rest(values, read_array(built.block, base))
@@ -125,7 +132,15 @@ def _largest_steps(built: BuiltScene) -> dict[int, FloatArray | float]:
     if peaks:
         arrow = _some(ARROW_STEP * np.repeat(np.max(peaks, axis=0), 3))
         steps |= {contact.values.offset: arrow for contact in scene.contacts}
+    for overview in _overviews(scene):
+        points = read_array(block, overview.points)
+        steps[overview.points.offset] = _some(ARROW_STEP * np.repeat(peak(points), 3))
     return steps
+
+
+def _overviews(scene: Scene) -> Iterator[SeriesOverview]:
+    for sensor in scene.sensors:
+        yield from (series.overview for series in sensor.wrenches if series.overview is not None)
 
 
 def _some(steps: FloatArray) -> FloatArray:

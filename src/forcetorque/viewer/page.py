@@ -136,8 +136,10 @@ def _policy(script: str, *, served: bool) -> str:
     return "; ".join(rules)
 
 
-DATA_URL, ANNOTATIONS_URL = "data.bin", "annotations"
+DATA_URL, ANNOTATIONS_URL, STREAM_URL = "data.bin", "annotations", "stream"
 """Addresses relative to that of the page."""
+
+_STREAM = rf"{STREAM_URL}\?after=(-?\d{{1,15}})"
 
 MOST_BYTES = 1 << 20
 """Largest list of saved samples."""
@@ -148,11 +150,16 @@ _PATIENCE_S = 30.0
 Save = Callable[[Annotations], Sequence[str]]
 """Saves what was annotated and gives the names of the files."""
 
+Stream = Callable[[int], bytes]
+"""Gives what came of a stream from a number on; nothing but its state for a number below 0."""
+
 
 class ViewerServer:
     """A server on 127.0.0.1, started and stopped with a `with` block."""
 
-    def __init__(self, page: bytes, data: bytes, save: Save | None, *, port: int = 0) -> None:
+    def __init__(
+        self, page: bytes, data: bytes, save: Save | None, *, port: int = 0, stream: Stream | None = None
+    ) -> None:
         """Take a port; nothing is answered before the block begins.
 
         Args:
@@ -160,12 +167,13 @@ class ViewerServer:
             data: Its arrays.
             save: Saves what was annotated; None to accept nothing.
             port: Port; 0 for any that is free.
+            stream: Gives what a page that follows a stream asks for; None for none.
 
         Raises:
             ForceTorqueError: If the port is taken or may not be used.
         """
         token = secrets.token_urlsafe(16)
-        content = _Content(page=page, data=data, save=save, token=token)
+        content = _Content(page=page, data=data, save=save, token=token, stream=stream)
         try:
             self._server = _Server(("127.0.0.1", port), partial(_Handler, content))
         except (OSError, OverflowError) as error:
@@ -199,6 +207,7 @@ class _Content:
     data: bytes
     save: Save | None
     token: str
+    stream: Stream | None
 
 
 class _Server(ThreadingHTTPServer):
@@ -225,6 +234,8 @@ class _Handler(BaseHTTPRequestHandler):
             self._send(HTTPStatus.OK, self.content.page, "text/html; charset=utf-8")
         elif self.path == f"/{self.content.token}/{DATA_URL}":
             self._send_data()
+        elif self.content.stream and (asked := re.fullmatch(f"/{self.content.token}/{_STREAM}", self.path)):
+            self._send(HTTPStatus.OK, self.content.stream(int(asked[1])), "application/octet-stream")
         else:
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here; use the address that the command printed")
 
@@ -320,6 +331,23 @@ class _Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:
         """Say nothing."""
+
+
+def open_in_browser(url: str) -> bool:
+    """Open an address in the browser of the user.
+
+    Args:
+        url: The address.
+
+    Returns:
+        Whether there is one.
+    """
+    import webbrowser
+
+    try:
+        return webbrowser.open(url)
+    except webbrowser.Error:
+        return False
 
 
 def byte_range(text: str, total: int) -> tuple[int, int] | None:

@@ -124,6 +124,24 @@ class Ellipsoid:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SeriesOverview:
+    """What the page shows of all of a series; columns are fx, fy, fz and norm of the force, then of the moment."""
+
+    samples: int
+    """Samples of a block; there are b blocks, and a rest that is shorter."""
+    wrench: ArrayRef
+    """Lowest, then highest of each column; shape (b, 16) float32; N, N m; NaN where all are absent."""
+    error: ArrayRef | None
+    """Lowest, highest, sum, sum of squares, number of the errors in use; shape (b, 40) float32; N, N m; or null."""
+    deviation: ArrayRef | None
+    """As `wrench`, of the standard deviation; or null."""
+    every: int
+    """One sample in so many is in `points`."""
+    points: ArrayRef
+    """Values of the first sample and every one that follows; shape (p, 6) float32; N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class WrenchSeries:
     """Wrenches of a sensor, in its frame and in its own sign convention."""
 
@@ -147,6 +165,8 @@ class WrenchSeries:
     """Ellipsoid that the forces draw; N; null where it is not identifiable."""
     ellipsoid_moment: Ellipsoid | None
     """Ellipsoid that the moments draw; N m; null where it is not identifiable."""
+    overview: SeriesOverview | None = None
+    """What is shown of all of it; null where it is short."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -270,6 +290,59 @@ class SceneFinding:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LiveFeed:
+    """Where samples of a running stream come from; the arrays over time are then none of the block and begin empty."""
+
+    url: str
+    """Address that answers with a `LiveUpdate`."""
+    window_s: float
+    """Time that is shown; s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LiveSensorState:
+    """A sensor of a running stream, as it is now."""
+
+    status: str
+    """`ok`, or what is wrong with the last sample."""
+    samples: int
+    """Samples so far."""
+    faulty: int
+    """Samples with a fault."""
+    drift: tuple[float, ...] | None
+    """Change of the bias since the tare; 6 numbers; N, N m; null without a tare."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LiveUpdate:
+    """What came since the last one, in a line.
+
+    After it come the new rows, array by array: time, positions, root, and values and deviation of every series.
+    """
+
+    first: int
+    """Number of the first row, from 0 at the begin of the stream."""
+    rows: int
+    """Rows that follow."""
+    total: int
+    """Samples so far."""
+    received: int
+    """Packets that could be read."""
+    lost: int | None
+    """Packets that never came; null where that cannot be known."""
+    late: int
+    """Packets that came late."""
+    repeated: int
+    """Packets that came twice."""
+    silent_s: float
+    """Time since the last packet; s."""
+    ended_by: str | None
+    """Why the stream ended; null while it lasts."""
+    sensors: tuple[LiveSensorState, ...]
+    """Sensors in the order of the scene."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
     """Everything that the page shows."""
 
@@ -311,6 +384,8 @@ class Scene:
     """What is absent, and why."""
     annotations_url: str | None
     """Where the page sends saved samples; null in a file."""
+    live: LiveFeed | None = None
+    """Where samples come from while a robot runs; null for a recording."""
 
 
 def scene_json(scene: Scene) -> str:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import html
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
@@ -16,6 +17,7 @@ from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileEr
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.validation_text import first_error
+from forcetorque.collisions.findings import with_collisions
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import by_sensor
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -30,11 +32,12 @@ from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.model import RobotModel
 from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.geometry import robot_geometry
-from forcetorque.viewer.posture import Posture, posture_at, root_poses, scene_joints, shown_stream
+from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_stream
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
 from forcetorque.viewer.skin import scene_skin, scene_skin_events
@@ -125,7 +128,7 @@ def build_scene(
     patches = computed.section(PATCHES)
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
-    robot, missing = _robot(experiment, posture, urdf, draft.block, mesh_folders)
+    robot, missing = drawn_robot(model, posture.names, urdf, draft.block, mesh_folders)
     parts = scene_parts(computed, groups, posture, draft)
     time_left.at(_POSTURE + _SENSOR * len(shown) + _CONTACTS)
     scene = Scene(
@@ -144,7 +147,12 @@ def build_scene(
         skin_events=events,
         intervals=_intervals(experiment),
         findings=tuple(
-            _finding(finding, recording.start_ns) for finding in inspect_experiment(usable, with_causes=False)
+            _finding(finding, recording.start_ns)
+            for finding in with_collisions(
+                inspect_experiment(usable, with_causes=False),
+                usable,
+                {name: next(iter(group.values())) for name, group in groups.items() if group},
+            )
         ),
         notes=tuple(draft.notes) if skin_alone else (*draft.notes, *missing),
         provenance=tuple(draft.sources),
@@ -153,16 +161,27 @@ def build_scene(
     return BuiltScene(scene=scene, block=draft.block.bytes(), urdf=urdf)
 
 
-def _robot(
-    experiment: Experiment, posture: Posture, urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
+def drawn_robot(
+    model: RobotModel, coordinates: Sequence[str], urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
 ) -> tuple[Robot, tuple[str, ...]]:
-    model = experiment.model
+    """Collect what is drawn of a robot.
+
+    Args:
+        model: The robot.
+        coordinates: Joints whose position is known.
+        urdf: Its file; None for a load without one.
+        block: Takes the meshes.
+        mesh_folders: Folders with packages of meshes that are looked at first.
+
+    Returns:
+        The robot, and what is missing.
+    """
     geometry = robot_geometry(model, urdf, block, mesh_folders=mesh_folders)
     robot = Robot(
         name=model.name,
         root_link=model.root_link,
         links=tuple(model.links),
-        joints=scene_joints(model, posture.names),
+        joints=scene_joints(model, coordinates),
         shapes=geometry.shapes,
         meshes=geometry.meshes,
     )
@@ -258,6 +277,8 @@ def scene_of(
     )
 
 
+INLINE_BYTES = 8_000_000
+"""Largest page that a notebook shows inside itself."""
 _FORMS = {".rrd": "recording of Rerun", ".mcap": "bag of ROS 2"}
 
 
@@ -309,6 +330,21 @@ class View(Result):
             video_frames=None,
             notes=tuple(built.scene.notes),
         )
+
+    def _repr_html_(self) -> str:
+        """The page itself, where it is short enough to be kept in a notebook; then what every result says."""
+        said = super()._repr_html_()
+        file = None if self.file is None else Path(self.file)
+        if file is None or file.suffix.lower() != ".html" or not file.is_file():
+            return said
+        if (size := file.stat().st_size) > INLINE_BYTES:
+            return (
+                f"{said}<p>The page has {size / 1e6:.0f} MB and is not shown here, as the notebook would keep it: "
+                f"open {html.escape(str(file))}</p>"
+            )
+        page = html.escape(file.read_text(encoding="utf-8"))
+        frame = 'sandbox="allow-scripts allow-downloads" style="width:100%;height:720px;border:0"'
+        return f'<iframe title="{html.escape(self.experiment)}" {frame} srcdoc="{page}"></iframe>{said}'
 
     def answers(self) -> Iterator[Answer]:
         """Say what is shown, and where.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypedDict
 
 import numpy as np
 
@@ -27,14 +28,14 @@ from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support
 from forcetorque.robot.mechanics.samples import robot_motion_at
-from forcetorque.robot.model import SensorFrame
+from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, peak
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.posture import Posture
 from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
 
-_SPHERE_SAMPLES = 20_000
+_SPHERE_SAMPLES = 5_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""
 _COVARIANCES = 20_000
 """Covariances that are held at once."""
@@ -87,18 +88,38 @@ def scene_sensor(
         fits = _ellipsoids(by_candidate.get(reading.candidate), offset)
         deviation = _deviation(experiment, reading.correction, expected, posture)
         series.append(_series(reading.name, draft.block, values, reading, deviation, force=fits[0], moment=fits[1]))
-    tag = experiment.model.sensor(sensor.name)
-    joint = experiment.model.joints[tag.joint]
+    place = sensor_place(experiment.model, sensor.name)
+    return Sensor(name=sensor.name, serial=sensor.serial, wrenches=tuple(series), **place)
+
+
+class SensorPlace(TypedDict):
+    """Where a sensor is in a robot, as the fields of `Sensor`."""
+
+    link: str
+    link_H_sensor: tuple[float, ...]
+    acting: str | None
+    acted_on: str
+
+
+def sensor_place(model: RobotModel, name: str) -> SensorPlace:
+    """Find where a sensor is.
+
+    Args:
+        model: The robot.
+        name: One of its sensors.
+
+    Returns:
+        Its frame, and who acts on whom.
+    """
+    tag = model.sensor(name)
+    joint = model.joints[tag.joint]
     ends = (joint.child, joint.parent)
     acting, acted_on = ends if tag.direction is MeasureDirection.CHILD_TO_PARENT else ends[::-1]
-    return Sensor(
-        name=sensor.name,
-        serial=sensor.serial,
+    return SensorPlace(
         link=joint.parent if tag.frame is SensorFrame.PARENT else joint.child,
         link_H_sensor=flat(tag.child_H_sensor if tag.frame is SensorFrame.SENSOR else np.eye(4)),
         acting=acting,
         acted_on=acted_on,
-        wrenches=tuple(series),
     )
 
 

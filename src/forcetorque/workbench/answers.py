@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_UNITS
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount
 
@@ -67,6 +67,8 @@ def _verdict(workbench: Workbench, row: BenchSensorRow) -> tuple[str, Concern]:
         return "REJECTED", Concern.BAD
     if row.unmoved:
         return "FITTED, LOADS NOT EXCITED", Concern.UNCERTAIN
+    if len(row.components) < len(WRENCH_COMPONENTS):
+        return f"FITTED, {', '.join(row.components)}", Concern.NONE
     return "FITTED, NO FAULT OF THE BENCH", Concern.NONE
 
 
@@ -88,14 +90,16 @@ def _reasons(workbench: Workbench, row: BenchSensorRow) -> Iterator[str]:
     elif row.unmoved and row.fitted:
         yield f"no position loads {', '.join(row.unmoved)}: there the matrix is the prior matrix, or undetermined"
     if row.held_out is not None:
-        beside = f", prior {_sizes(row.prior)}" if row.prior is not None else ""
-        yield f"error of positions that are left out one by one: {_sizes(row.held_out)}{beside}"
+        beside = f", prior {_sizes(row.prior, row.components)}" if row.prior is not None else ""
+        yield f"error of positions that are left out one by one: {_sizes(row.held_out, row.components)}{beside}"
 
 
-def _sizes(error: FloatArray) -> str:
-    """Root mean square of the norms of force and moment."""
+def _sizes(error: FloatArray, components: Sequence[str]) -> str:
+    """Root mean square of the norms of force and moment, of those that are measured."""
     return " and ".join(
-        amount(float((error[part] ** 2).sum() ** 0.5), WRENCH_UNITS[part][0]) for part in FORCE_AND_MOMENT
+        amount(float((error[part] ** 2).sum() ** 0.5), WRENCH_UNITS[part][0])
+        for part in FORCE_AND_MOMENT
+        if set(WRENCH_COMPONENTS[part]) & set(components)
     )
 
 

@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, read_only, require_shape
 from forcetorque.base.errors import FormatError, SensorError, ShapeError
 from forcetorque.base.noise.means import APART_S, mean_error
 from forcetorque.base.wrench import FORCE_AND_MOMENT
+from forcetorque.calibration.generative.agreement import ALL_COMPONENTS
 from forcetorque.workbench.loads import BenchLoads
 
 
@@ -58,6 +59,10 @@ class Bench(ArrayRecord):
     """Nominal matrix; shape (6, c); N/count, N m/count; None for none."""
     placement: Placement | None = None
     """Uncertainty of the loads; None where none is given."""
+    measured: BoolArray = field(default_factory=ALL_COMPONENTS.copy, metadata=array(6, dtype="bool"))
+    """Components that the sensor measures; shape (6,)."""
+    load_full_scale: FloatArray | None = field(default=None, metadata=array(6))
+    """Largest loads to come; shape (6,); N, N m; needed with fewer than six components."""
 
     def __post_init__(self) -> None:
         require_shape(np.asarray(self.raw), name="raw", shape=(len(self.loads), None))
@@ -66,8 +71,10 @@ class Bench(ArrayRecord):
             if getattr(self, name) is None:
                 object.__setattr__(self, name, np.zeros(shape))
         check_arrays(self)
-        if c < 6:
-            raise ShapeError(f"bench: expected at least six channels, which six load directions need, got {c}")
+        if c < (components := int(self.measured.sum())):
+            raise ShapeError(f"bench: expected at least {components} channels, one for each component, got {c}")
+        if not self.measured.all() and self.load_full_scale is None:
+            raise SensorError("bench: expected load_full_scale with fewer than six components, got none")
 
     def __len__(self) -> int:
         return len(self.loads)

@@ -219,7 +219,8 @@ def workbench(
     if full_matrix:
         _require_full(fits)
     with_matrix = [fit for fit in fits if fit.fitted is not None]
-    searchable = [fit for fit in fits if fit.fitted is not None or not fit.row.unmoved]
+    # residuals of faults are told from scatter in all six components
+    searchable = [fit for fit in fits if (fit.fitted is not None or not fit.row.unmoved) and fit.bench.measured.all()]
     searches = search_faults([fit.bench for fit in searchable], [fit.matrix for fit in searchable])
     faults = tuple(row for search in searches for row in search.rows())
     calibrations = tuple(
@@ -272,8 +273,8 @@ def _require_full(fits: Sequence[SensorFit]) -> None:
     for fit in fits:
         if fit.row.unmoved:
             raise FitError(
-                f"{fit.row.file}: expected loads that excite all six directions, got {fit.row.rank}, not "
-                f"{'; '.join(fit.row.unmoved)}; hang a load there"
+                f"{fit.row.file}: expected loads that excite all {len(fit.row.components)} directions, got "
+                f"{fit.row.rank}, not {'; '.join(fit.row.unmoved)}; hang a load there"
             )
         if not fit.row.fitted:
             raise FitError(f"{fit.row.file}: {fit.row.reason}")
@@ -313,6 +314,9 @@ def _others(calibrations: Sequence[Calibration], serial: str) -> dict[str, Float
     }
 
 
+_UNSEARCHED = "faults of the bench are not searched, which takes a sensor of six components"
+
+
 def _warnings(fits: Sequence[SensorFit], searches: Sequence[FaultSearch]) -> Iterator[str]:
     for fit in fits:
         row = fit.row
@@ -324,11 +328,16 @@ def _warnings(fits: Sequence[SensorFit], searches: Sequence[FaultSearch]) -> Ite
         if row.unmoved:
             kept = "the prior matrix is kept" if row.fitted else "there is no matrix"
             directions = "; ".join(row.unmoved)
-            yield f"{row.serial}: the loads excite {row.rank} of 6 directions, not {directions}: {kept} there"
+            yield (
+                f"{row.serial}: the loads excite {row.rank} of {len(row.components)} directions, not {directions}: "
+                f"{kept} there"
+            )
         if row.unexcited_raw:
             yield f"{row.serial}: raw directions that no load excites: {row.unexcited_raw}"
         if not row.fitted and (fit.bench.prior is not None or not row.unmoved):
             yield f"{row.serial}: {row.reason}"
+        if row.fitted and not fit.bench.measured.all():
+            yield f"{row.serial}: {_UNSEARCHED}"
         yield from (f"{row.serial}: {warning}" for warning in fit.warnings)
         for series in fit.series:
             if series.reason or series.ratio > _PREDICTED_RATIO:

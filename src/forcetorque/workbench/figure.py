@@ -47,7 +47,9 @@ def bench_figure(picture: BenchPicture | None) -> Figure:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figures 6.3 and 6.4.
     """
     if picture is None:
-        raise ForceTorqueError("figure: expected measurements that determine a matrix, there are none to draw")
+        raise ForceTorqueError(
+            "figure: expected measurements that determine a matrix of six components, there are none to draw"
+        )
     figure = new_figure(2.6 * ROW_INCHES[1])
     above, below = figure.subplots(2, 3)
     for panel, (first, second) in zip(above, _PLANES, strict=True):

@@ -321,10 +321,10 @@ def fit_means(bench: Bench, means: WindowMeans) -> GenerativeFit:
         The fit.
     """
     # errors of the loads differ from position to position: they are in the residual, and are not systematic
-    assumptions = Assumptions(full_scale=bench.full_scale, accuracy=np.zeros(6))
+    assumptions = Assumptions(full_scale=bench.full_scale, accuracy=np.zeros(6), load_full_scale=bench.load_full_scale)
     # the instant is unknown: the error of one position does not predict that of the next
     shapes = CANDIDATES if bench.time_s is not None else CANDIDATES[:1]
-    return fit_generative([means], bench.prior, assumptions, quadratic=False, shapes=shapes)
+    return fit_generative([means], bench.prior, assumptions, quadratic=False, shapes=shapes, measured=bench.measured)
 
 
 def _fitted(bench: Bench, weight: FloatArray) -> GenerativeFit:

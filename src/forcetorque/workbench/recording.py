@@ -5,16 +5,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, FormatError, known_names
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import ExperimentError, FormatError, UnitError, known_names
 from forcetorque.base.toml_file import one_for_each, read_toml
-from forcetorque.base.wrench import MeasureDirection
+from forcetorque.base.units import si_factor
+from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
 from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.sensors import IDENTITY
 from forcetorque.formats.icub_matrix import read_matrix_file
@@ -106,14 +108,15 @@ def _blocks_of_log(
             yield block
 
 
-def _table_of_means(readings: RowReadings, inputs: Inputs) -> tuple[FloatArray, BenchLoads | None]:
+def _table_of_means(readings: RowReadings, measured: BoolArray, inputs: Inputs) -> tuple[FloatArray, BenchLoads | None]:
     """Mean raw samples, shape (n, c), counts, NaN where missing; and loads by line, where the table has them."""
     path = inputs.file(readings.file)
     (stream,) = read_table(path, _row_layout(readings), stream=readings.file.name, clock="rows").streams
     raw = _raw(stream)
     if readings.known is None:
         return raw, None
-    wrench = stream.signal("wrench").values
+    states_components = _states_components(readings)
+    wrench = _measured_loads(readings, measured, path) if states_components else stream.signal("wrench").values
     first = 1 if readings.columns is not None else 2
     lines = [str(first + k) for k in range(len(raw))]
     filled = np.flatnonzero(np.isfinite(raw).any(axis=1) | np.isfinite(wrench).any(axis=1))
@@ -125,6 +128,34 @@ def _table_of_means(readings: RowReadings, inputs: Inputs) -> tuple[FloatArray, 
         series=tuple(f"from line {first_lines[number]}" for number in series),
     )
     return raw[filled], loads
+
+
+def _states_components(readings: RowReadings) -> bool:
+    """Whether the table has fewer than six components of the known wrench."""
+    return readings.known is not None and len(readings.known) < len(WRENCH_COMPONENTS)
+
+
+def _measured_loads(readings: RowReadings, measured: BoolArray, path: Path) -> FloatArray:
+    """Known wrenches of a table that has the measured components alone, zeros for the others; shape (n, 6); N, N m."""
+    columns, units = readings.known or (), readings.known_units or ()
+    names = np.array(WRENCH_COMPONENTS)[measured].tolist()
+    if len(columns) != len(names):
+        raise ExperimentError(
+            f"measurements.known: expected a column for each of fx, fy, fz, tx, ty, tz, or for each of the components "
+            f"that are measured ({', '.join(names)}), got {len(columns)}"
+        )
+    factors = []
+    for column, unit, expected in zip(columns, units, np.array(WRENCH_UNITS)[measured], strict=True):
+        si_unit, factor = si_factor(unit)
+        if si_unit != expected:
+            raise UnitError(f"{path}: {column!r}: expected a unit that converts to {expected}, got {unit!r}")
+        factors.append(factor)
+    signal = TableSignal(quantity="raw", columns=columns, units=("counts",) * len(columns), names=columns)
+    layout = replace(_row_layout(readings), signals=(signal,))
+    (stream,) = read_table(path, layout, stream=readings.file.name, clock="rows").streams
+    wrench = np.zeros((len(_raw(stream)), len(WRENCH_COMPONENTS)))
+    wrench[:, measured] = _raw(stream) * factors
+    return wrench
 
 
 def _raw(stream: Stream) -> FloatArray:
@@ -144,7 +175,7 @@ def _layout(readings: BlockReadings | LogReadings, stamp: StampColumn | None = N
 
 def _row_layout(readings: RowReadings) -> TableLayout:
     signals = [_signal(readings)]
-    if readings.known is not None and readings.known_units is not None:
+    if readings.known is not None and readings.known_units is not None and not _states_components(readings):
         signals.append(
             TableSignal(quantity="wrench", columns=readings.known, units=readings.known_units, frame="sensor")
         )
@@ -188,6 +219,8 @@ class BenchRecording:
             measure_direction=measure_direction,
             frame=frame,
             full_scale=tuple(bench.full_scale.tolist()),
+            components=tuple(np.array(WRENCH_COMPONENTS)[bench.measured].tolist()),
+            load_full_scale=None if bench.load_full_scale is None else tuple(bench.load_full_scale.tolist()),
         )
         return cls(
             file=bench.serial,
@@ -217,10 +250,15 @@ def read_bench(path: Path | str) -> BenchRecording:
 
 def _recording(file: str, content: BenchFile, inputs: Inputs) -> BenchRecording:
     sensor, readings = content.sensor, content.measurements
+    if len(readings.channels) < (components := int(sensor.measured.sum())):
+        raise ExperimentError(
+            f"measurements.channels: expected at least {components}, one for each component, got "
+            f"{len(readings.channels)}; a sensor that measures fewer names them as components of [sensor]"
+        )
     full_scale = _full_scale(sensor, len(readings.channels))
     blocks: list[Block] = []
     if isinstance(readings, RowReadings):
-        raw, known = _table_of_means(readings, inputs)
+        raw, known = _table_of_means(readings, sensor.measured, inputs)
         loads = known or _loads(content, inputs)
         if len(raw) > len(loads):
             raise ExperimentError(
@@ -256,6 +294,8 @@ def _recording(file: str, content: BenchFile, inputs: Inputs) -> BenchRecording:
             bias=bias,
             time_s=None if time is None else time[used],
             prior=_prior(sensor, len(readings.channels), inputs),
+            measured=sensor.measured,
+            load_full_scale=None if sensor.load_full_scale is None else np.array(sensor.load_full_scale),
             placement=None if content.placement is None else _placement(content.placement),
         )
     return BenchRecording(
@@ -305,11 +345,19 @@ def _prior(sensor: BenchSensorTable, channels: int, inputs: Inputs) -> FloatArra
     if sensor.prior is None:
         return None
     if sensor.prior == IDENTITY:
-        if channels != 6:
-            raise ExperimentError(f'sensor.prior: "identity" expects six channels, got {channels}')
-        return np.eye(6)
+        count = int(sensor.measured.sum())
+        if channels != count:
+            raise ExperimentError(
+                f'sensor.prior: "identity" expects a channel for each of {count} components, got {channels}'
+            )
+        return np.eye(6)[:, sensor.measured]
     path = inputs.file(Path(sensor.prior))
     matrix = read_calibration(path).matrix if path.suffix == ".json" else read_matrix_file(path).matrix
     if matrix.shape[1] != channels:
         raise ExperimentError(f"sensor.prior: expected a matrix of {channels} channels, got {matrix.shape[1]}")
+    if (wrong := measured_components(matrix) != sensor.measured).any():
+        raise ExperimentError(
+            f"sensor.prior: expected rows that are zero just where components names none, got otherwise for "
+            f"{component_names(wrong)}; write components for the rows that are not zero"
+        )
     return matrix

@@ -14,6 +14,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.units import MAD_TO_DEVIATION
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.acceptance.criteria import Criterion
@@ -39,6 +40,8 @@ class BenchSensorRow(Row):
     """Positions that were fitted."""
     without_load: tuple[str, ...]
     """Positions whose load, or raw sample, is unknown: they are not used."""
+    components: tuple[str, ...]
+    """Components that the sensor measures; errors of the others are zero."""
     rank: Annotated[int, Shown("rank")]
     """Number of directions of load that the positions excite."""
     unmoved: Annotated[tuple[str, ...], Shown("loads not excited")]
@@ -337,7 +340,7 @@ class Workbench(DrawnResult):
             if rows:
                 yield table_of(rows, caption)
         yield from (f"{row.message} ({_chance(row.probability)})" for row in self.faults)
-        if self.sensors and not self.faults:
+        if any(len(row.components) == len(COMPONENTS) for row in self.sensors) and not self.faults:
             yield "no fault of the bench is detected"
         if self.criteria:
             yield criteria_table(self.criteria, "acceptance")
@@ -374,7 +377,13 @@ def _error_table(sensor: BenchSensorRow, series: Sequence[SeriesRow]) -> Table:
         caption=f"{sensor.serial}: root mean square error of {sensor.positions} positions",
         headings=("positions", *COMPONENTS),
         rows=tuple(
-            (name, *(["-"] * 6 if error is None else [number(value, 3) for value in error]))
+            (
+                name,
+                *(
+                    "-" if error is None or component not in sensor.components else number(error[k], 3)
+                    for k, component in enumerate(WRENCH_COMPONENTS)
+                ),
+            )
             for name, error in errors.items()
         ),
     )

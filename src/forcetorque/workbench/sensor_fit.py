@@ -17,6 +17,7 @@ from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration,
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection, SensorIdentity
+from forcetorque.experiment.calibration.sensor_model import component_names
 from forcetorque.inspection.plausibility.compared_wrenches import Doubt, Setup
 from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.fit import SESSION, BenchFit, fit_bench, fit_means
@@ -196,13 +197,14 @@ def fit_sensor(
         raise ExperimentError(f"{recording.file}: expected raw samples at positions, there are none yet")
     bench = recording.bench.usable()
     _require_force_first(bench, recording.file)
-    unmoved = unmoved_directions(bench.loads.wrench, [len(bench)])
+    unmoved = unmoved_directions(bench.loads.wrench, [len(bench)], bench.measured)
+    count = int(bench.measured.sum())
     fitted, reason = None, ""
     warnings: tuple[str, ...] = ()
     try:
-        doubts = _plausibility_doubts(bench, setup) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
+        doubts = _plausibility_doubts(bench, setup) if len(unmoved) < count else ()
         fitted, contradiction = _fitted(bench, doubts, check_prior)
-        warnings = (*(doubt.message for doubt in doubts), *contradiction)
+        warnings = (*(doubt.message for doubt in doubts), *contradiction, *_unknown_disturbances(bench))
     except FitError as error:
         reason = str(error)
     held_out = None if fitted is None else one_by_one(fitted)
@@ -215,22 +217,30 @@ def fit_sensor(
         serial=bench.serial,
         positions=len(bench),
         without_load=tuple(_unused_positions(recording.bench)),
-        rank=6 - len(unmoved),
+        components=tuple(np.array(WRENCH_COMPONENTS)[bench.measured].tolist()),
+        rank=count - len(unmoved),
         unmoved=unmoved,
-        unexcited_raw=excitation.describe_unexcited(channel_names=channels) if len(channels) > 6 else "",
+        unexcited_raw=excitation.describe_unexcited(channel_names=channels) if len(channels) > count else "",
         fitted=fitted is not None,
         reason=reason,
-        held_out=held_out,
+        held_out=None if held_out is None else held_out,
         folds_mean=None if folds is None else folds.mean(axis=0),
         folds_least=None if folds is None else folds.min(axis=0),
         folds_largest=None if folds is None else folds.max(axis=0),
-        prior=None if bench.prior is None else rms(bench.wrenches(bench.prior) - bench.loads.wrench),
+        prior=None if bench.prior is None else rms(bench.wrenches(bench.prior) - bench.loads.wrench) * bench.measured,
         scatter="",
     )
     series: tuple[SeriesRow, ...] = ()
     if with_series and fitted is not None and held_out is not None:
         series = _series_rows(fitted, held_out)
     return SensorFit(recording=recording, row=row, bench=bench, fitted=fitted, series=series, warnings=warnings)
+
+
+def _unknown_disturbances(bench: Bench) -> Iterator[str]:
+    """Components that are neither measured nor loaded, to which the response stays unknown."""
+    loaded = np.ptp(bench.loads.wrench, axis=0) > 0.0
+    if (unknown := ~bench.measured & ~loaded).any():
+        yield f"no position loads {component_names(unknown)}: what they add to a measurement is not known"
 
 
 def _unused_positions(bench: Bench) -> Iterator[str]:

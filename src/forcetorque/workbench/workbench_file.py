@@ -6,16 +6,19 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from forcetorque.base.arrays import BoolArray
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
-from forcetorque.base.wrench import MeasureDirection
+from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection
+from forcetorque.experiment.core_tables import Component, FullScale, require_component_order
 from forcetorque.formats.tabular.table_layout import StampUnit
 from forcetorque.workbench.bench import BIAS
 from forcetorque.workbench.loads import THESIS_TABLE
 
-_Six = Annotated[tuple[Text, ...], Field(min_length=6, max_length=6)]
+_Known = Annotated[tuple[Text, ...], Field(min_length=1, max_length=6)]
 
 
 class BenchSensorTable(Table):
@@ -31,8 +34,29 @@ class BenchSensorTable(Table):
     """Frame along whose axes loads are specified."""
     full_scale: tuple[Positive, ...] | Positive
     """Largest magnitude of a raw sample, one for all channels or one for each; counts."""
+    components: Annotated[tuple[Component, ...], Field(min_length=1)] | None = None
+    """Components that the sensor measures, such as `["fz"]` of a load cell; all six if left out."""
+    load_full_scale: FullScale | None = None
+    """Largest loads fx, fy, fz, tx, ty, tz to come; N, N m; needed with fewer than six components: by it the cross-talk
+    of those that are not measured is sized."""
     prior: Path | Literal["identity"] | None = None
     """Nominal matrix: a matrix file or a calibration; `identity` where the raw samples are wrenches already."""
+
+    @model_validator(mode="after")
+    def _fewer_components_are_complete(self) -> BenchSensorTable:
+        require_component_order(self.components)
+        if not self.measured.all() and self.load_full_scale is None:
+            raise PydanticCustomError(
+                "components_rules",
+                "fewer than six components need load_full_scale, the largest fx, fy, fz, tx, ty, tz to come: loads "
+                "that are not measured disturb those that are in proportion to it",
+            )
+        return self
+
+    @property
+    def measured(self) -> BoolArray:
+        """Whether the sensor measures each component; shape (6,)."""
+        return np.isin(WRENCH_COMPONENTS, WRENCH_COMPONENTS if self.components is None else self.components)
 
 
 class LoadsTable(Table):
@@ -56,7 +80,7 @@ class PlacementTable(Table):
 
 
 class _Readings(Table):
-    channels: Annotated[tuple[Text, ...], Field(min_length=6)]
+    channels: Annotated[tuple[Text, ...], Field(min_length=1)]
     """Columns of the channels, in their order."""
     columns: tuple[Text, ...] | None = None
     """Names of all columns of a file without a line of headings."""
@@ -120,9 +144,10 @@ class RowReadings(_Readings):
     """This form."""
     file: Path
     """The table."""
-    known: _Six | None = None
-    """Columns of the known wrench fx fy fz tx ty tz, where the table has it; the rows are those of `[loads]` if not."""
-    known_units: _Six | None = None
+    known: _Known | None = None
+    """Columns of the known wrench fx fy fz tx ty tz, or of the measured `components` alone, where the table has it; the
+    rows are those of `[loads]` if not."""
+    known_units: _Known | None = None
     """Unit of each."""
     series_from_zero: bool = False
     """Whether every row without load begins a series of its own."""
@@ -131,6 +156,8 @@ class RowReadings(_Readings):
     def _require_units(self) -> RowReadings:
         if (self.known is None) != (self.known_units is None):
             raise PydanticCustomError("half_known", "give known and known_units, or neither")
+        if self.known is not None and self.known_units is not None and len(self.known) != len(self.known_units):
+            raise PydanticCustomError("known_units", "known_units: expected one for each column of known")
         return self
 
 

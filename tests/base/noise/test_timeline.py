@@ -36,6 +36,22 @@ def test_product_and_determinant_are_those_of_the_covariance_written_out(noise: 
     assert log_determinant == pytest.approx(np.linalg.slogdet(covariance)[1], rel=1e-9)
 
 
+def test_blocks_add_up_to_the_product() -> None:
+    """Blocks end within recordings and between them; negative control: what goes on from one to the next counts."""
+    line, noise = _two_recordings(np.random.default_rng(3)), SlowNoise(time_constant_s=50.0, ratio=3.0)
+    columns = np.random.default_rng(4).normal(size=(95, 4))
+    factors, before, product, across = line.factors(noise), None, np.zeros((4, 4)), np.zeros((4, 4))
+    for start, end in ((0, 30), (30, 65), (65, 80), (80, 95)):
+        block = factors.solve(columns[start:end], slice(start, end), before)
+        product += columns[start:end].T @ block.columns
+        if before is not None:
+            across += np.outer(before, block.across)
+        before = block.after
+    whole = line.product(columns, noise)[0]
+    np.testing.assert_allclose(product + across, whole, rtol=1e-12, atol=1e-12 * np.abs(whole).max())
+    assert np.abs(product - whole).max() > 1e-3 * np.abs(whole).max()
+
+
 @pytest.mark.parametrize("noise", CANDIDATES[::5], ids=lambda noise: f"{noise.time_constant_s:g}s-{noise.ratio:g}")
 def test_what_an_instant_is_worth_is_the_diagonal_of_the_inverse(noise: SlowNoise) -> None:
     """The cheap way and the plain one; and of one instant alone."""

@@ -71,7 +71,7 @@ def test_what_was_hardly_learnt_differs_in_colour_marker_and_line(drawn: list[Fi
         assert [line.get_color() for line in after] == [look(k).colour for k in (0, 0, 1)]
         stems = [line for line in panel.lines if len(line.get_xdata()) == 2 and line.get_color() != "#000000"]
         assert [line.get_linestyle() for line in stems] == ["-", "-", ":"]
-    assert legend_of(drawn[0])[2] == "after, where less than half is learnt: the prior decides"
+    assert legend_of(drawn[0])[2] == "after, where less than half is gained: the prior decides"
 
 
 def test_numbers_stand_outside_of_their_points_where_the_error_grew_too(drawn: list[Figure]) -> None:

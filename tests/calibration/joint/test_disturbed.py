@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import windows
-from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches
+from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.experiment.calibration.model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
@@ -55,6 +57,17 @@ def test_three_pushes_in_twenty_seconds_are_survived() -> None:
         )
         survived += known and _errors(pushed.fit, other).mean() < 1.3 * _errors(clean.fit, other).mean()
     assert survived >= 9
+
+
+def test_what_was_left_out_reaches_over_its_windows() -> None:
+    """From half a window before the middle of the first to half a window after that of the last, each span alone."""
+    label = SimpleNamespace(label="swing")
+    part: Any = SimpleNamespace(part="chest", stretch=label, time_s=np.arange(8) * windows.WINDOW_S + 3.0)
+    spans = touches_of(part, np.array([True, True, False, False, True, True, True, False]))
+    assert [(one.part, one.label, one.start_s, one.end_s) for one in spans] == [
+        ("chest", "swing", 3.375, 3.875),
+        ("chest", "swing", 4.625, 4.875),
+    ]
 
 
 @pytest.mark.long

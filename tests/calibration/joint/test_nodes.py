@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 
 from forcetorque.calibration.joint.nodes import Stretch, WindowNodes
 from forcetorque.calibration.joint.windows import PIECE_S, WINDOW_S, part_windows, window_means
@@ -132,3 +133,11 @@ def test_what_else_was_logged_is_averaged_over_the_windows_of_the_equations() ->
         np.testing.assert_array_equal(windows.time_s, times)
     # negative control: windows of the whole stretch are others
     assert not np.isin(WindowNodes(stretch.time_s, WINDOW_S).time_s, times).all()
+
+
+def test_windows_begin_with_the_first_sample() -> None:
+    """Wherever on the clock that lies, all windows but the last are whole."""
+    for start_s in (0.0, 0.1, 7.13):
+        windows = WindowNodes(start_s + 0.01 * np.arange(60), 0.25)
+        assert windows.counts.tolist() == [25, 25, 10]
+        assert windows.time_s[0] == pytest.approx(start_s + 0.12, abs=1e-12)

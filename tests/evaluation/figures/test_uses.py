@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
+from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.figures.load_cases import use_figure
 from forcetorque.results.figures import look
 from tests.report.drawing import legend_of, panels, use_of
@@ -100,3 +101,16 @@ def test_verdicts_that_predict_nothing_are_refused() -> None:
     for verdicts in ([], [use_of().model_copy(update={"errors": ()})]):
         with pytest.raises(ShapeError, match="uses: expected at least one verdict, each with predicted errors"):
             use_figure(verdicts, NAMES)
+
+
+def test_an_evaluation_draws_its_verdicts(drawn: list[Figure]) -> None:
+    """A row per verdict with a predicted error; sensors of other quantities, and none at all, are refused."""
+    use = use_of(force=4.0, before=20.0)
+    evaluation = Evaluation(experiment="walk", verdicts=(), load_cases=(use, use.model_copy(update={"errors": ()})))
+    assert evaluation.predicted == (use,)
+    use_figure(evaluation.predicted, NAMES)
+    assert len(panels(drawn[0])[0].get_yticks()) == 1
+    force_alone = use.model_copy(update={"errors": use.errors[:1]})
+    for cases, message in (((), "there is none to draw"), ((use, force_alone), "some of force alone")):
+        with pytest.raises(ShapeError, match=message):
+            evaluation.model_copy(update={"load_cases": cases}).figure()

@@ -68,7 +68,8 @@ def write_dataset(
     (root / "meta").mkdir(parents=True)
     (root / "meta" / "info.json").write_text(json.dumps(info, indent=4), encoding="utf-8")
     stats = [{key: stats_of(value, quantiles=not is_21) for key, value in episode.items()} for episode in frames]
-    tables = [_table(episode, features, variable_lists=variable_lists) for episode in frames]
+    kind = "Sequence" if is_21 else "List"  # as `datasets` wrote it when the layout was in use
+    tables = [_table(episode, features, variable_lists=variable_lists, kind=kind) for episode in frames]
     (_write_21 if is_21 else _write_30)(root, tables, stats, per_file)
     return root
 
@@ -119,7 +120,7 @@ def _feature(values: Any, names: Any) -> dict[str, Any]:
     return {"dtype": str(values.dtype), "shape": list(values.shape[1:]) or [1], "names": names}
 
 
-def _table(episode: Frames, features: Mapping[str, Any], *, variable_lists: bool) -> Any:
+def _table(episode: Frames, features: Mapping[str, Any], *, variable_lists: bool, kind: str) -> Any:
     arrays, described = {}, {}
     for key, values in episode.items():
         values = np.asarray(values)
@@ -130,7 +131,7 @@ def _table(episode: Frames, features: Mapping[str, Any], *, variable_lists: bool
         arrays[key] = pa.FixedSizeListArray.from_arrays(flat, values.shape[1])
         if variable_lists:
             arrays[key] = arrays[key].cast(pa.list_(flat.type))
-        described[key] = {"feature": value, "length": values.shape[1], "_type": "List"}
+        described[key] = {"feature": value, "length": values.shape[1], "_type": kind}
     metadata = {b"huggingface": json.dumps({"info": {"features": described}}).encode()}
     return pa.table(arrays).replace_schema_metadata(metadata)
 
@@ -165,6 +166,9 @@ def _write_30(root: Path, tables: Sequence[Any], stats: Sequence[Any], per_file:
                 start += len(table)
     pq.write_table(pa.Table.from_pylist(rows), root / "meta" / "episodes" / "chunk-000" / "file-000.parquet")
     tasks = pa.table({"task_index": [0], "__index_level_0__": ["hold"]})
+    text = {"name": None, "field_name": "__index_level_0__", "pandas_type": "unicode", "numpy_type": "object"}
+    described = {"index_columns": ["__index_level_0__"], "column_indexes": [], "columns": [text | {"metadata": None}]}
+    tasks = tasks.replace_schema_metadata({b"pandas": json.dumps(described).encode()})  # lerobot takes text as index
     pq.write_table(tasks, root / "meta" / "tasks.parquet")
     total = {key: pooled([own[key] for own in stats]) for key in stats[0]}
     (root / "meta" / "stats.json").write_text(json.dumps(total, indent=4), encoding="utf-8")

@@ -79,3 +79,26 @@ def test_damaged_messages_are_refused_or_read(data: st.DataObject) -> None:
             read(cut)
         except FormatError:
             continue
+
+
+def test_messages_of_a_ros_node_are_read() -> None:
+    """Bytes of `rclpy` 9.1.2 with Fast DDS, whose padding is not zero, are read; it reads what is written here."""
+    stamped = (
+        "0001000000f1536515cd5b070800000066745f6c696e6b00{padding}000000000000f83f00000000000002c00000000000000840"
+    )
+    stamped += "9a9999999999b9bf9a9999999999c93ffca9f1d24d62503f"
+    wrench = (1.5, -2.25, 3.0, -0.1, 0.2, 0.001)
+    assert read_wrench(bytes.fromhex(stamped.format(padding="2860e45f"))) == (
+        1_700_000_000_123_456_789,
+        "ft_link",
+        wrench,
+    )
+    written = WrenchEncoder("ft_link").encode(1_700_000_000_123_456_789, wrench)
+    assert written.hex() == stamped.format(padding="00000000")
+    joints = (
+        "0001000005000000000000000100000000000000030000000f00000073686f756c6465725f7069746368000006000000656c626f77000000"
+        "0200000077007c09030000009a9999999999b93f9a9999999999c9bf333333333333d33f0000000003000000000000000000f03f"
+        "000000000000004000000000000008c00000000001007c0d"
+    )
+    names = ("shoulder_pitch", "elbow", "w")
+    assert read_positions(bytes.fromhex(joints)) == (5_000_000_000, names, (0.1, -0.2, 0.3))

@@ -129,7 +129,7 @@ CASES: dict[str, tuple[Callable[[], LoadProblem], str, str]] = {
         "check the units of the columns, and mass_kg",
     ),
     "another tool": (
-        lambda: problem_of(_reading(), GRAVITY, loads=(replace(KNOWN[0], mass=0.4 * MASS),)),
+        lambda: problem_of(_reading(), GRAVITY, loads=(replace(KNOWN[0], mass=MASS / 2.1),)),
         "another size",
         "and mass_kg",
     ),

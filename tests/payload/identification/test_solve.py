@@ -290,3 +290,15 @@ def test_a_real_wrist_sensors_load(data_dir: Path) -> None:
     np.testing.assert_allclose(solution.residual_rms[:3], [0.13, 0.05, 0.06], atol=0.005)
     assert solution.disagreeing == ()
     assert solution.hypotheses == ()
+
+
+def test_what_is_known_before_the_rows_fills_what_they_leave_open() -> None:
+    """Still poses say nothing of the inertia, which is as expected; of the mass they say all, whatever was expected."""
+    gravity = poses(12, np.random.default_rng(5))
+    expected, precision = np.array([2.0 * MASS, 0.0, 0.0, 0.0, 0.02, 0.03, 0.01, 1e-3, 2e-3, -1e-3]), np.zeros((10, 10))
+    precision[4:, 4:] = 1e8 * np.eye(6)
+    precision[0, 0] = 1e-3
+    load = Load(name="tool", inertia="unknown", expected=expected, precision=precision)
+    (found,) = solve(problem_of(weight(gravity) + BIAS, gravity, loads=(load,))).loads
+    assert found.mass == pytest.approx(MASS, abs=1e-3)
+    np.testing.assert_allclose(found.as_inertia().second_moment[SIX], expected[4:], atol=1e-5)

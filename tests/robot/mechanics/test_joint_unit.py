@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.robot.model import JointLimit, RobotModel
-from forcetorque.robot.motion import JointMotion, require_joints_in_radians
+from forcetorque.robot.motion import JointMotion, JointUnits
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
 
@@ -28,6 +28,12 @@ def _motion(position: FloatArray) -> JointMotion:
     return JointMotion(names=(JOINT,), position=position[:, None], velocity=still, acceleration=still)
 
 
+def _require_radians(model: RobotModel, motion: JointMotion) -> None:
+    units = JointUnits(model, motion.names)
+    units.add(motion)
+    units.require_radians()
+
+
 LIMIT = JointLimit(lower=-2.6, upper=2.6)
 TURNING = 1.2 * np.sin(np.linspace(0.0, 12.0, 1000))
 
@@ -40,7 +46,7 @@ def test_degrees_that_are_stated_as_radians_are_refused() -> None:
         r"joint 'elbow': expected .* -2.6 to 2.6 rad, got up to -?68.8 rad, which fits them in degrees; check the unit"
     )
     with pytest.raises(RecordingError, match=match):
-        require_joints_in_radians(_model(LIMIT), _motion(position))
+        _require_radians(_model(LIMIT), _motion(position))
 
 
 @pytest.mark.parametrize(
@@ -60,4 +66,4 @@ def test_degrees_that_are_stated_as_radians_are_refused() -> None:
 )
 def test_what_limits_do_not_tell_passes(limit: JointLimit | None, position: FloatArray) -> None:
     """Negative controls."""
-    require_joints_in_radians(_model(limit), _motion(position))
+    _require_radians(_model(limit), _motion(position))

@@ -127,5 +127,17 @@ def test_a_flat_patch_of_boards_tells_its_outer_side_by_them() -> None:
     turned = replace(patch, positions=patch.positions * [-1.0, -1.0, 1.0])
     assert np.abs(patch_normals(turned) - [-1.0, 0.0, 0.0]).max() < 1e-4
     assert np.abs(patch_normals(patch, np.array([-1.0, 0.2, 0.0])) - [-1.0, 0.0, 0.0]).max() < 1e-4
+    other_boards = replace(patch, modules=patch.modules + 100)
     with pytest.raises(SkinError, match="outer side"):
-        patch_normals(replace(patch, modules=patch.modules + 100))
+        patch_normals(replace(other_boards, normals=None))
+
+
+def test_a_flat_patch_without_boards_looks_where_its_file_says() -> None:
+    """Rough normals of the file choose the side; those along the patch say nothing, and are refused."""
+    flat = cylinder_patch(radius_m=1e6)
+    patch = replace(flat, positions=np.round(flat.positions - [1e6, 0.0, 0.0], 7), modules=flat.modules + 100)
+    for sign in (1.0, -1.0):
+        written = replace(patch, normals=np.tile([0.8 * sign, 0.6, 0.0], (len(patch), 1)))
+        assert np.abs(patch_normals(written) - [sign, 0.0, 0.0]).max() < 1e-4
+    with pytest.raises(SkinError, match="outer side"):
+        patch_normals(replace(patch, normals=np.tile([0.0, 0.0, 1.0], (len(patch), 1))))

@@ -11,11 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base.errors import SkinError
+from forcetorque.skin.layout.check import layout_findings
 from forcetorque.skin.layout.defects import FACETED_DEG, NEAREST_CENTRES_M, OBLIQUE_DEG
 from forcetorque.skin.layout.finding import Defect
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
 from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
-from tests.page_scripts import unmarked
+from tests.page_scripts import marked, printed, unmarked
 from tests.scenes.patches import cylinder_patch, position_text
 
 PAGE = (Path(__file__).resolve().parents[3] / "docs" / "skin" / "layout.md").read_text(encoding="utf-8")
@@ -38,6 +40,21 @@ def test_the_script_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     (code,) = unmarked(PAGE)
     exec(compile(code, "skin_layout.md", "exec"), {})
     assert len(read_layout("right_leg_lower.csv")) == 210
+
+
+def test_a_cover_becomes_a_layout_without_findings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """From centres and a plan, as far off the cover as the page says; a module with another's number is found."""
+    monkeypatch.chdir(tmp_path)
+    (code,) = marked(PAGE)
+    assert printed(code, "skin_layout.md").strip() in PAGE
+    cover = tmp_path / "build" / "cover"
+    assert layout_findings(describe_patch(cover / "shank.csv")) == ()
+    text = (cover / "cover.urdf").read_text(encoding="utf-8")
+    for one, other in (("shank_skin_3", "x"), ("shank_skin_20", "shank_skin_3"), ("x", "shank_skin_20")):
+        text = text.replace(f'"{one}"', f'"{other}"')
+    (cover / "cover.urdf").write_text(text, encoding="utf-8")
+    with pytest.raises(SkinError, match="module 3: .*does a frame have the number of another module"):
+        describe_patch(cover / "cover.toml")
 
 
 def test_the_table_is_read(tmp_path: Path) -> None:

@@ -78,6 +78,7 @@ def test_a_frame_with_axes_places_the_template(folder: Path) -> None:
     assert np.abs(patch.normals - TURNED[:, 2]).max() < 1e-12
     (folder / "patch.toml").write_text(STATED + "mirrored = [3]\n", encoding="utf-8")
     mirrored = describe_patch(folder / "patch.toml")
+    np.testing.assert_array_equal(placed_pads(np.eye(4), mirrored=True), placed_pads(np.eye(4)) * [-1.0, 1.0, 1.0])
     assert np.abs(mirrored.positions - placed_pads(pose, mirrored=True)[MODULE_TAXELS]).max() < 1e-15
 
 

@@ -25,6 +25,8 @@ TABLE = np.arange(256.0)
         (CurveKind.LINE, 4e3 * FALL - 2e3),
         (CurveKind.POLYNOMIAL, 3e3 * FALL - 50.0 * FALL**2 + 2.0 * FALL**3 - 1e-3 * FALL**4 + 1e-5 * FALL**5),
         (CurveKind.CAPACITOR, 6e3 * FALL / (1.0 + 0.004 * FALL)),
+        (CurveKind.LOGARITHMIC, 2e4 * np.expm1(0.03 * FALL)),
+        (CurveKind.LOGARITHMIC, 5e3 * FALL),
     ],
 )
 def test_a_truth_of_its_form_is_found(kind: CurveKind, truth: np.ndarray) -> None:

@@ -45,11 +45,17 @@ def test_it_writes_curves_tables_and_a_figure(run: Run, palm: Path) -> None:
 
 
 def test_the_curve_is_chosen_by_name(run: Run, palm: Path) -> None:
-    """Another form is kept; the comparison has all four all the same."""
+    """Another form is kept; the comparison has all five all the same."""
     result = run(*CALIBRATE, "--curve", "polynomial", "--highest-kpa", "50", "--format", "json").result()
     assert result["curve"] == "polynomial"
     assert result["highest_kPa"] == pytest.approx(50.0, rel=0.01)
-    assert {row["curve"] for row in result["candidates"]} == {"monotone", "line", "polynomial", "capacitor"}
+    assert {row["curve"] for row in result["candidates"]} == {
+        "monotone",
+        "line",
+        "polynomial",
+        "capacitor",
+        "logarithmic",
+    }
     assert read_patch_calibration(palm / "palm.json").table().falls().any()
 
 
@@ -124,3 +130,40 @@ def test_other_commands_refuse_a_patch_alone(run: Run, palm: Path, words: tuple[
 def test_a_patch_that_is_on_no_link_is_not_shown(run: Run, palm: Path, words: tuple[str, ...]) -> None:
     """What shows patches alone needs to know on which link each is."""
     assert "fit.toml: expected [robot], or skin on links of some name: a [[patch]] with link" in run(*words).error()
+
+
+def _as_bag(folder: Path, *, stated: bool, scale: float = 1.0) -> None:
+    """Rewrite both logs with a gauge that reads the air left in a bag."""
+    for name in ("fit", "kept"):
+        log = read_recording(folder / name)
+        chamber = log.streams["chamber"]
+        signal = chamber.signal("pressure")
+        left = replace(signal, values=101325.0 - scale * signal.values)
+        rmtree(folder / name)
+        chamber = replace(chamber, signals={"pressure": left})
+        write_recording(folder / name, replace(log, streams={**log.streams, "chamber": chamber}))
+        if stated:
+            file = folder / f"{name}.toml"
+            text = file.read_text(encoding="utf-8")
+            file.write_text(text.replace('serial = "P7"', 'serial = "P7"\npressure_of = "bag"'), encoding="utf-8")
+
+
+def test_a_vacuum_bag_gives_the_curves_of_the_chamber(run: Run, palm: Path) -> None:
+    """Its gauge falls from the pressure of the air by what the skin feels; the logarithmic form is one of five."""
+    asked = (*CALIBRATE, "--curve", "logarithmic", "--format", "json")
+    chamber = run(*asked, "--force").result()
+    _as_bag(palm, stated=True)
+    bag = run(*asked, "--force").result()
+    assert bag["highest_kPa"] == pytest.approx(chamber["highest_kPa"], rel=1e-6)
+    assert len(bag["candidates"]) == len(chamber["candidates"]) > 0
+    for one, other in zip(bag["candidates"], chamber["candidates"], strict=True):
+        assert one["curve"] == other["curve"]
+        assert one["inside_kPa"] == pytest.approx(other["inside_kPa"], rel=1e-6)
+
+
+def test_a_bag_is_never_guessed(run: Run, palm: Path) -> None:
+    """A pressure that falls from rest is refused with the key; one that falls by more than air presses, too."""
+    _as_bag(palm, stated=False)
+    assert 'state pressure_of = "bag"' in run(*CALIBRATE).error()
+    _as_bag(palm, stated=True, scale=-10.0)
+    assert "expected a bag that is at most emptied" in run(*CALIBRATE).error()

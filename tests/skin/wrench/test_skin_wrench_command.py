@@ -39,7 +39,8 @@ def calibrated(made: tuple[Path, list[ContactTruth]], monkeypatch: pytest.Monkey
 
 def test_objects_are_found_while_they_rest(run: Run, truths: list[ContactTruth]) -> None:
     """Their forces within a fifth, no contact between them, and the broken taxel named."""
-    result = run(*WRENCH, "--format", "json").result()
+    ended = run(*WRENCH, "--format", "json")
+    result = ended.result()
     assert result["schema"] == "forcetorque/skin_wrench/2"
     assert result["left_out"] == [BROKEN]
     loading = Loading()
@@ -55,6 +56,16 @@ def test_objects_are_found_while_they_rest(run: Run, truths: list[ContactTruth])
         between = rests + loading.hold_s + 2.0 * loading.ramp_s + 0.2
         assert not [row for row in result["contacts"] if between < row["time_s"] < between + 1.0]
     assert len(truths) == OBJECTS
+    # a warning counts the contacts that it is of, and without any there is none
+    rows, warnings = result["contacts"], " ".join(ended.err.split())
+    for text, number in (
+        ("contacts have several hills", sum(row["lobes"] > 1 for row in rows)),
+        ("contacts have over 10 % of their force at the edge", sum(row["edge_share"] > 0.1 for row in rows)),
+        ("contacts press a taxel beyond", sum(row["beyond_range"] for row in rows)),
+        ("contacts lasted so long", 0),
+    ):
+        assert (f"{number} of {len(rows)} {text}" in warnings) == (number > 0)
+        assert (text in warnings) == (number > 0)
 
 
 def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
@@ -66,12 +77,14 @@ def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
 
 @pytest.mark.long
 def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path) -> None:
-    """Field of pressure and forces over time."""
-    png = tmp_path / "contacts.png"
+    """Field of pressure and forces over time, and the film of it."""
+    png, gif = tmp_path / "contacts.png", tmp_path / "contacts.gif"
+    files = ("--figure", str(png), "--film", str(gif))
     assert f"drawn to {png}" in run(
-        *WRENCH, "--figure", str(png), "--average", "20", "--taxel-area-mm2", "39", "--details"
+        *WRENCH, *files, "--average", "20", "--taxel-area-mm2", "39", "--details"
     ).out.replace("\n", " ")
     assert size_of(png.read_bytes())[0] == 1200
+    assert gif.read_bytes()[:6] == b"GIF89a"
 
 
 @pytest.mark.long

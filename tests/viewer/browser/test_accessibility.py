@@ -25,7 +25,7 @@ FEWEST_RULES = 40
 """Rules that find something to check on the page."""
 
 
-def _violations(page: Page) -> list[tuple[str, list[str]]]:
+def violations(page: Page) -> list[tuple[str, list[str]]]:
     """Rules that are broken, and by what."""
     result: dict[str, list[dict[str, Any]]] = page.evaluate(RUN)
     assert len(result["passes"]) + len(result["violations"]) >= FEWEST_RULES
@@ -46,12 +46,12 @@ def test_no_violation(visit: Visit, arm: Arm, size: tuple[int, int], dark: bool)
     page.goto(file.as_uri())
     page.evaluate("window.ft.ready")
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    assert _violations(page) == []
+    assert violations(page) == []
     page.evaluate(OPEN)
-    assert _violations(page) == []
+    assert violations(page) == []
     page.get_by_role("button", name="Enlarge time plots").click()
-    assert _violations(page) == []
+    assert violations(page) == []
     page.get_by_text("Keys", exact=True).click()
-    assert _violations(page) == []
+    assert violations(page) == []
     page.evaluate("document.querySelector('header').append(document.createElement('button'))")
-    assert [rule for rule, _ in _violations(page)] == ["button-name"]
+    assert [rule for rule, _ in violations(page)] == ["button-name"]

@@ -144,6 +144,12 @@ def _begun(
     )
     for sentence in draft.notes:
         start_logging().info("%s", sentence)
+    if draft.lacks_sensor:
+        raise ExperimentError(
+            f"{', '.join(map(str, logs))}: expected a wrench or raw samples of a force-torque sensor, got none; name "
+            "its columns by --column-names where the log has no headings; forcetorque payload weighs the load of a "
+            "Franka arm by its joint torques"
+        )
     return file
 
 

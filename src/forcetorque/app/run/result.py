@@ -18,6 +18,8 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 
 StageName = Literal["init", "inspect", "check", "calibrate", "payload", "workbench", "evaluate", "report", "export"]
+_NAMED = 3
+"""Files that the answer names; of more it has the number."""
 Outcome = Literal["done", "stopped", "overridden", "skipped"]
 
 
@@ -45,6 +47,8 @@ class Stage(Row):
     """Time that it took."""
     text: Annotated[str, Shown("result")]
     """What came out."""
+    reasons: tuple[str, ...] = ()
+    """Why the rest would mislead, one of each sensor, file or fault; empty where the stage went well."""
     remedy: str | None = None
     """What to change; None where nothing is to be changed."""
     command: str | None = None
@@ -108,7 +112,7 @@ class WholeRun(Result):
             yield Answer(
                 subject=self.experiment,
                 verdict=f"STOPPED AT {stage.name.upper()}",
-                why=(stage.text,),
+                why=stage.reasons or (stage.text,),
                 step=stage.remedy or "",
                 command=stage.command or "",
                 written=self.files,
@@ -116,8 +120,9 @@ class WholeRun(Result):
             )
             return
         folder = Path(self.files[0]).parent if self.files else None
-        names = [Path(file).name for file in self.files]
-        written = (f"{folder}: {', '.join(names)}",) if folder is not None else ()
+        names = [Path(file).name for file in sorted(self.files, key=lambda file: not file.endswith(".html"))]
+        more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+        written = (f"{folder}: {', '.join(names[:_NAMED])}{more}",) if folder is not None else ()
         for answer in self.final:
             yield replace(answer, written=written)
 

@@ -86,8 +86,9 @@ class _Way:
         self.stages.append(Stage(name=name, outcome="skipped" if skipped else "done", seconds=seconds, text=text))
         self.progress(f"{name}: {text} ({seconds:.1f} s)")
 
-    def stop(self, name: StageName, text: str, remedy: str, *command: str, for_good: bool = False) -> None:
+    def stop(self, name: StageName, reasons: Sequence[str], remedy: str, *command: str, for_good: bool = False) -> None:
         """Record a stage after which the rest would mislead, and stop there unless a person gave a reason to go on."""
+        text = "; ".join(reasons)
         seconds = monotonic() - self.started
         goes_on = self.override is not None and not for_good
         self.stages.append(
@@ -96,7 +97,8 @@ class _Way:
                 outcome="overridden" if goes_on else "stopped",
                 seconds=seconds,
                 text=text,
-                remedy=remedy if for_good else f"{remedy}, {_OVERRIDE}",
+                reasons=tuple(reasons),
+                remedy=remedy if for_good else f"{remedy}; {_OVERRIDE}",
                 command=typed(*command) if command else None,
             )
         )
@@ -188,18 +190,18 @@ def _by_known_loads(way: _Way) -> None:
             [read_bench(path) for path in way.files], code_version=version("forcetorque"), created=created_now()
         )
     except FitError as error:
-        way.stop("workbench", str(error), "correct the loads or readings", for_good=True)
+        way.stop("workbench", [str(error)], "correct the loads or readings", for_good=True)
         return
     way.results.append(result)
     way.answers = tuple(result.answers())
     if result.faults:
-        faults = "; ".join(fault.message for fault in result.faults)
-        way.stop("workbench", f"{len(result.faults)} fault(s) of the bench: {faults}", "correct the bench")
+        way.stop("workbench", [fault.message for fault in result.faults], "correct the bench")
     if len(result.sensors) == 1:
         way.output.mkdir(parents=True, exist_ok=True)
         file = way.output / f"{way.files[0].stem}.json"
         result.save(file, force=way.force)
         way.written.append(str(file))
+        way.answers = tuple(result.model_copy(update={"file": str(file)}).answers())
     way.end("workbench", f"{len(result.sensors)} sensor(s)")
 
 
@@ -211,9 +213,10 @@ def _of_experiments(
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
     if all(interval.use is not Use.CALIBRATION for one in experiments.values() for interval in one.recording.intervals):
+        proposes = typed("init", "--resume", str(way.files[0]))
         raise ExperimentError(
             f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
-            "not state touches the limb; got none"
+            f"not state touches the limb; got none; forcetorque {proposes} proposes intervals"
         )
     _refuse_outputs(way, experiments, names)
     wrong = _inspect(way, experiments, names)
@@ -273,7 +276,7 @@ def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequenc
         touched += [(path, f"{path}: {words}") for words in _contacts(experiment, inspection, sensors)]
     if touched:
         remedy = "leave the contact out of the [[interval]], state it as [[contact]]"
-        way.stop("inspect", "; ".join(words for _, words in touched), remedy, "init", "--resume", str(touched[0][0]))
+        way.stop("inspect", [words for _, words in touched], remedy, "init", "--resume", str(touched[0][0]))
     else:
         way.end(
             "inspect",
@@ -315,7 +318,7 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str]) -
                 unchecked.append(f"{name}: {error}")
     if contradicted:
         remedy = "correct what the file states"
-        way.stop("check", "; ".join(dict.fromkeys(contradicted)), remedy, "inspect", str(way.files[0]))
+        way.stop("check", list(dict.fromkeys(contradicted)), remedy, "inspect", str(way.files[0]))
     else:
         way.end("check", f"{len(campaigns)} sensor(s): nothing contradicts the file{_not_checked(unchecked)}")
 
@@ -330,7 +333,7 @@ def _weigh(way: _Way, campaign: Campaign) -> None:
     try:
         load = weigh_load(Campaign(campaign.runs_with(Use.CALIBRATION)))
     except FitError as error:
-        way.stop("payload", str(error), "correct the file or record other poses", for_good=True)
+        way.stop("payload", [str(error)], "correct the file or record other poses", for_good=True)
         return
     way.results.append(load)
     way.answers = tuple(load.answers())
@@ -357,7 +360,7 @@ def _calibrate(way: _Way, campaigns: Mapping[str, Campaign], experiments: Sequen
         except ForceTorqueError as error:
             failures.append(f"all at once: {error}")
     if failures:
-        way.stop("calibrate", "; ".join(failures), "correct the file or the recording", for_good=not results)
+        way.stop("calibrate", failures, "correct the file or the recording", for_good=not results)
     fitted = SensorCalibrations.together(results)
     way.results.append(fitted)
     way.answers = tuple(fitted.answers())
@@ -436,10 +439,8 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         except ForceTorqueError as error:
             if fitted.joint is None:
                 raise
-            subject = f"{name} ({campaign.sensor.serial}), {Path(entry.file).name}"
-            reason = str(error).partition("; ")[0]  # the rest is a remedy, which why has
-            verdict = f"NO VERDICT: {reason}"
-            without.append(Answer(subject=subject, verdict=verdict, why=(str(error),), concern=Concern.UNCERTAIN))
+            subject = f"{name} ({campaign.sensor.serial})"
+            without.append(Answer(subject=subject, verdict="NO VERDICT", why=(str(error),), concern=Concern.UNCERTAIN))
     way.uses = tuple(uses)
     if evaluations:
         evaluation = Evaluation.together(evaluations)
@@ -449,14 +450,14 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         way.answers = tuple(without)
     if fitted.joint is not None:
         at_once = f"{len(fitted.calibrations)} sensors are fitted at once, as by `calibrate --jointly`"
-        way.answers = tuple(replace(one, why=(at_once, *one.why)) for one in way.answers)
+        way.answers = tuple(replace(one, why=(*one.why[:1], at_once, *one.why[1:])) for one in way.answers)
     way.answers = _with_double_support(way)
     forbidden = [use for use in uses if use.decision == "do not use"]
     if forbidden:
-        worst = forbidden[0]
-        remedy = next((reason.remedy for reason in worst.reasons if reason.remedy is not None), "keep the prior matrix")
-        text = "; ".join(f"{use.sensor}: {use.message}" for use in forbidden)
-        way.stop("evaluate", text, remedy.rstrip("."), "inspect", str(way.files[0]))
+        given = ([reason.remedy for reason in use.reasons if reason.remedy is not None] for use in forbidden)
+        remedies = dict.fromkeys((own[0] if own else "keep the prior matrix").rstrip(".") for own in given)
+        texts = [f"{use.sensor}: {use.message}" for use in forbidden]
+        way.stop("evaluate", texts, "; ".join(remedies), "inspect", str(way.files[0]))
     elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
         texts += [f"{one.subject.split()[0]}: no verdict" for one in without]
@@ -500,13 +501,12 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
     named = {entry.file: entry.calibration for entry in saved.calibrations}
     table = way.output / TABLE
     export_calibrations(named, ExportFormat.CSV).save(table, force=way.force)
-    files, refused = [str(table)], []
+    files, refused, later = [str(table)], [], []
     for file, calibration in named.items():
         if _is_of_icub(calibration):
             matrix = way.output / _matrix_file(calibration.sensor.serial)
             if not _may_be_used(way, calibration.sensor.name):
-                command = typed("export", file, "--to", "icub-matrix", "-o", str(matrix))
-                refused.append(f"{matrix} is not written, for it may not be used yet: forcetorque {command} writes it")
+                later.append((matrix.name, typed("export", file, "--to", "icub-matrix", "-o", str(matrix))))
                 continue
             try:
                 export_calibrations({file: calibration}, ExportFormat.ICUB_MATRIX).save(matrix, force=way.force)
@@ -514,6 +514,9 @@ def _export(way: _Way, saved: SensorCalibrations) -> None:
                 refused.append(f"{matrix} is not written: {error}")
             else:
                 files.append(str(matrix))
+    if later:
+        names = ", ".join(name for name, _ in later)
+        refused.append(f"not written, for the sensor may not be used yet: {names}; forcetorque {later[0][1]} writes it")
     way.written += files
     way.end("export", "; ".join([", ".join(files), *refused]))
 

@@ -128,20 +128,36 @@ class Timeline(ArrayRecord):
         Raises:
             FitError: If instants are too close to each other.
         """
-        from scipy.linalg.lapack import dpttrs  # here because importing it takes longer than most commands
-
-        weighted, log_white = columns * self.share[:, None], -float(np.log(self.share).sum())
-        if noise.is_white or not len(self):
-            return weighted, log_white
+        log_white = -float(np.log(self.share).sum())
         if len(self) == 1:  # LAPACK wants a side diagonal
             total = 1.0 + noise.ratio * float(self.share[0])
-            return weighted / total, log_white + float(np.log(total))
+            return columns * self.share[:, None] / total, log_white + float(np.log(total))
+        factors = self.factors(noise)
+        return factors.solve(columns, slice(0, len(self))).columns, factors.log_determinant
+
+    def factors(self, noise: SlowNoise) -> NoiseFactors:
+        """Prepare the inverse covariance of at least two instants, to be multiplied with blocks of columns.
+
+        Args:
+            noise: Shape of the noise, whose covariance for s = 1 is V.
+
+        Returns:
+            The factors.
+
+        Raises:
+            FitError: If instants are too close to each other.
+        """
+        log_white = -float(np.log(self.share).sum())
+        if noise.is_white or not len(self):
+            return NoiseFactors(share=self.share, ratio=0.0, log_determinant=log_white)
         pivots, multipliers, log_inverse = self._factors(noise)
-        inner, wrong = dpttrs(pivots, multipliers, weighted)
-        if wrong:
-            raise FitError(_TOO_CLOSE)
-        solved = weighted - noise.ratio * self.share[:, None] * inner
-        return solved, log_white + float(np.log(pivots).sum()) - log_inverse
+        return NoiseFactors(
+            share=self.share,
+            ratio=noise.ratio,
+            log_determinant=log_white + float(np.log(pivots).sum()) - log_inverse,
+            pivots=pivots,
+            multipliers=multipliers,
+        )
 
     def precision_diagonal(self, noise: SlowNoise) -> FloatArray:
         """Give what every instant is worth where all others are known.
@@ -188,6 +204,68 @@ class Timeline(ArrayRecord):
         diagonal[1:] = 1.0 / lost
         diagonal[:-1] += kept**2 / lost
         return diagonal, -kept / lost, -float(np.log(lost).sum())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SolvedBlock:
+    """What a block of instants adds to `X^T V^-1 X`: `x^T columns + outer(before, across)`, x the block of X."""
+
+    columns: FloatArray
+    """Shape (k, m)."""
+    across: FloatArray
+    """Noise that goes on from the block before; shape (m,)."""
+    after: FloatArray
+    """What the next block takes as `before`; shape (m,)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NoiseFactors:
+    """The inverse covariance `V^-1 = D - r D (T + r D)^-1 D`, with `T + r D = L P L^T`."""
+
+    share: FloatArray
+    """Diagonal of D; shape (n,)."""
+    ratio: float
+    """r, 0 for white noise."""
+    log_determinant: float
+    """Logarithm of the determinant of V."""
+    pivots: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """Diagonal of P; shape (n,)."""
+    multipliers: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """Side diagonal of L; shape (n - 1,)."""
+
+    def solve(self, columns: FloatArray, rows: slice, before: FloatArray | None = None) -> SolvedBlock:
+        """Solve a block of instants, the blocks before it eliminated.
+
+        Args:
+            columns: Signals X at these instants; shape (k, m).
+            rows: Which k instants, at least two.
+            before: `after` of the block before; shape (m,); None for the first.
+
+        Returns:
+            The block.
+
+        Raises:
+            FitError: If instants are too close to each other.
+        """
+        from scipy.linalg.lapack import dpttrs  # here because importing it takes longer than most commands
+
+        share, none = self.share[rows, None], np.zeros(columns.shape[1])
+        weighted = columns * share
+        if not self.ratio or not len(columns):
+            return SolvedBlock(columns=weighted, across=none, after=none)
+        left, link = weighted, 0.0
+        if before is not None:
+            left, link = weighted.copy(order="K"), float(self.multipliers[rows.start - 1])
+            left[0] -= link * before
+        pivots = self.pivots[rows]
+        inner, wrong = dpttrs(pivots, self.multipliers[rows.start : rows.start + len(columns) - 1], left)
+        if wrong:
+            raise FitError(_TOO_CLOSE)
+        return SolvedBlock(
+            columns=weighted - self.ratio * share * inner,
+            across=self.ratio * link * inner[0],
+            after=pivots[-1] * inner[-1],
+        )
 
 
 CONFIDENCE = 0.95

@@ -89,7 +89,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[InformationGain]]) -> Figure:
         [
             ("before, by the prior", {**_BEFORE, "linestyle": "none"}),
             ("after", {**_AFTER, "linestyle": "-"}),
-            ("after, where less than half is learnt: the prior decides", {**_AFTER_LITTLE, "linestyle": ":"}),
+            ("after, where less than half is gained: the prior decides", {**_AFTER_LITTLE, "linestyle": ":"}),
             ("narrower by half", THIN_REFERENCE_LINE),
         ],
         title="predicted error where a load is added along a direction: one standard deviation of the error vector",

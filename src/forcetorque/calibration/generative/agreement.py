@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.assumptions import FLATTENED
@@ -97,37 +98,50 @@ _LEAST_GAIN = 0.3
 """Least singular value of measured over prior response; mounting takes up to half of it, not more."""
 
 
-def unmoved_directions(wrench: FloatArray, lengths: Sequence[int]) -> tuple[str, ...]:
+ALL_COMPONENTS: Final[BoolArray] = np.ones(6, dtype=np.bool_)
+"""Components that a six-axis sensor measures; shape (6,)."""
+
+
+def unmoved_directions(
+    wrench: FloatArray, lengths: Sequence[int], measured: BoolArray = ALL_COMPONENTS
+) -> tuple[str, ...]:
     """Name the directions that loads do not move.
 
     Args:
         wrench: Loads of all stretches; shape (n, 6); N, N m.
         lengths: Number of means in each stretch.
+        measured: Components that the sensor measures; shape (6,).
 
     Returns:
-        Directions such as `fz`; none where the loads have rank 6.
+        Directions of these components, such as `fz`; none where the loads move all.
     """
     parts = np.split(wrench, np.cumsum(lengths)[:-1])
     moved = np.concatenate([part - part.mean(axis=0) for part in parts])
     size = _load_sizes(moved)
-    _, strengths, directions = np.linalg.svd(np.vstack([moved / size, np.zeros((6, 6))]), full_matrices=False)
-    return tuple(direction_words(direction / size) for direction in directions[strengths < _RANK * strengths[0]])
+    axes = np.eye(6)[measured]
+    _, strengths, directions = np.linalg.svd(
+        np.vstack([moved / size @ axes.T, np.zeros((len(axes), len(axes)))]), full_matrices=False
+    )
+    weak = directions[strengths < _RANK * strengths[0]] @ axes
+    return tuple(direction_words(direction / size) for direction in weak)
 
 
-def require_rank(wrench: FloatArray, lengths: Sequence[int]) -> None:
-    """Refuse loads that do not move all six directions.
+def require_rank(wrench: FloatArray, lengths: Sequence[int], measured: BoolArray = ALL_COMPONENTS) -> None:
+    """Refuse loads that do not move all directions that the sensor measures.
 
     Args:
         wrench: Loads of all stretches; shape (n, 6); N, N m.
         lengths: Number of means in each stretch.
+        measured: Components that the sensor measures; shape (6,).
 
     Raises:
         FitError: If a direction does not move; the message names it.
     """
-    if weak := unmoved_directions(wrench, lengths):
+    if weak := unmoved_directions(wrench, lengths, measured):
+        count = int(measured.sum())
         raise FitError(
-            f"the loads move {6 - len(weak)} of 6 directions, not {'; '.join(weak)}; without a prior matrix all six "
-            f"are needed: give prior, or {_load_words(weak)}"
+            f"the loads move {count - len(weak)} of {count} directions, not {'; '.join(weak)}; without a prior matrix "
+            f"all {count} are needed: give prior, or {_load_words(weak)}"
         )
 
 
@@ -140,27 +154,33 @@ def _load_words(directions: Sequence[str]) -> str:
     return f"load {', '.join(directions)}{f': {elsewhere}' if moments_alone else ''}"
 
 
-def require_response(response: FloatArray, covariance: FloatArray, wrench: FloatArray) -> None:
+def require_response(
+    response: FloatArray, covariance: FloatArray, wrench: FloatArray, measured: BoolArray = ALL_COMPONENTS
+) -> None:
     """Refuse a matrix that is not known by half in some direction of load.
 
     Args:
         response: Response of every row to loads; shape (rows, 6).
         covariance: Its covariance; shape (rows, 6, 6).
         wrench: Loads, in whose sizes the direction is told; shape (n, 6); N, N m.
+        measured: Components that the sensor measures; shape (6,).
 
     Raises:
         FitError: If a direction is not known; the message names it.
     """
-    inverse_root = np.linalg.inv(np.linalg.cholesky(response.T @ response))
-    total = covariance.sum(axis=0)
+    axes = np.eye(6)[measured]
+    own = response @ axes.T
+    inverse_root = np.linalg.inv(np.linalg.cholesky(own.T @ own))
+    total = axes @ covariance.sum(axis=0) @ axes.T
     if np.linalg.eigvalsh(inverse_root @ total @ inverse_root.T)[-1] > _UNKNOWN**2:
         # the ratio is largest where a wild response to one load cancels that to others, so it does not name the load
-        size = _load_sizes(wrench)
+        size = _load_sizes(wrench) @ axes.T
         # said as what hardly changes from load to load, which `unmoved_directions` says too
-        least_known = np.linalg.eigh(total * np.outer(size, size))[1][:, -1] / size
+        least_known = np.linalg.eigh(total * np.outer(size, size))[1][:, -1] / size @ axes
         raise FitError(
             f"the loads hardly move {direction_words(least_known)}, the response to it is not known by half; without a "
-            "prior matrix all six directions are needed: give prior, or record a load with its centre of mass elsewhere"
+            f"prior matrix all {int(measured.sum())} directions are needed: give prior, or record a load with "
+            "its centre of mass elsewhere"
         )
 
 

@@ -42,7 +42,12 @@ from forcetorque.experiment.calibration.quadratic_correction import (
     quadratic_terms,
     steepness,
 )
-from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
+from forcetorque.experiment.calibration.sensor_model import (
+    LinearVariable,
+    WrenchModel,
+    measured_components,
+    measured_part,
+)
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, require_same_sensor
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
@@ -362,7 +367,7 @@ def _sessions(
 def _prior_offset(intervals: Sequence[IntervalMoments], session: str, prior: FloatArray) -> FloatArray:
     """Offset that the samples of a session give with the prior matrix."""
     moments = pooled(interval.moments for interval in intervals if interval.session == session)
-    return np.where(measured_components(prior), moments.reference_mean, 0.0) - prior @ moments.raw_mean
+    return measured_part(moments.reference_mean, measured_components(prior)) - prior @ moments.raw_mean
 
 
 def _variable(

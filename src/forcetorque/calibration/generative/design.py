@@ -19,8 +19,12 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import Timeline
+from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.experiment.calibration.moments import TermColumns, WindowMeans
 from forcetorque.experiment.calibration.quadratic_correction import quadratic_terms
+
+MOST_IN_BLOCK = 8192
+"""Means whose columns are in memory at a time, so that a recording of a day takes no more than one of some hours."""
 
 MOST_TOGETHER = 12
 """Recordings up to which all are one cell: what each has for itself is then too little to be worth a cell."""
@@ -42,16 +46,31 @@ def cells_of(stretches: Sequence[WindowMeans]) -> list[int]:
     return [numbers[stretch.recording] for stretch in stretches]
 
 
+def blocks_of(count: int) -> list[slice]:
+    """Divide means.
+
+    Args:
+        count: Number of means.
+
+    Returns:
+        Blocks of nearly one length, of at most `MOST_IN_BLOCK`.
+    """
+    ends = np.linspace(0, count, -(-count // MOST_IN_BLOCK) + 1).astype(np.int64).tolist()
+    return [slice(start, end) for start, end in zip(ends, ends[1:], strict=False)]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Design:
     """Columns at n means: 6 of the wrench, v of variables, 21 quadratic, 6 of flattening; then those that are free."""
 
     columns: FloatArray
     """Columns of all rows without their means; shape (n, a)."""
-    model: FloatArray
-    """Columns of terms of the robot model that several cells have, without their means; shape (n, rows, s)."""
-    model_places: IntArray
-    """Places of these among all t terms; shape (s,)."""
+    derivatives: TermColumns
+    """Terms of the robot model, of which the columns of s that several cells have are computed as they are used."""
+    reading: FloatArray
+    """How the rows read errors of the loads; shape (rows, 6)."""
+    member: IntArray
+    """Number of the session of every mean; shape (n,)."""
     local: FloatArray
     """Columns of the terms that the cell of each mean alone has; shape (n, rows, w). Without their means where the
     session is in that cell alone: other means of the session would depend on the term otherwise."""
@@ -82,6 +101,23 @@ class Design:
     load_centre: FloatArray
     """Mean wrench, about which the quadratic terms are taken; shape (6,); N, N m."""
 
+    def model(self, rows: slice) -> FloatArray:
+        """Give the columns of terms of the robot model that several cells have, without their means.
+
+        Args:
+            rows: Which k means.
+
+        Returns:
+            The columns; shape (k, rows, s).
+        """
+        means = self.model_means[:, :, self.derivatives.shared]
+        return _shared_in_rows(self.derivatives, self.reading, rows) - means[self.member[rows]]
+
+    @property
+    def blocks(self) -> list[slice]:
+        """Means in blocks, whose columns are computed together."""
+        return blocks_of(len(self.member))
+
     @property
     def shared_free(self) -> IntArray:
         """Places of the free columns that several cells have."""
@@ -93,6 +129,7 @@ def design_of(
     response: FloatArray,
     counts: FloatArray,
     model: TermColumns,
+    reading: FloatArray,
     *,
     drift: bool,
     centre: FloatArray,
@@ -103,8 +140,8 @@ def design_of(
         stretches: Means by recording, in the order of time.
         response: What is regressed; shape (n, rows).
         counts: Modelled readings, relative to full scale, that the quadratic terms are products of; shape (n, 6).
-        model: What the terms of the robot model add to every row of the response, in place of the six components,
-            with the number of the cell of every mean as its group.
+        model: Derivatives by terms of the robot model, with the number of the cell of every mean as its group.
+        reading: How the rows read errors of the loads; shape (rows, 6).
         drift: Whether the offset of a session may move in time.
         centre: Reference values of the variables; shape (v,).
 
@@ -125,7 +162,7 @@ def design_of(
     elapsed, session_time = _centred(time[:, None], member, count)
     ones = (member[:, None] == np.arange(len(sessions))).astype(np.float64)
     alone = np.array([len(np.unique(cell[member == number])) == 1 for number in range(len(sessions))])
-    shared, local, model_means = _centred_terms(model, member, cell, count, alone)
+    local, model_means = _centred_terms(model, reading, member, count, alone)
     centred_terms = np.ones((len(sessions), len(model.terms)), dtype=bool)
     for number in np.flatnonzero(~alone):
         of_cells = model.local[np.unique(cell[member == number])]
@@ -133,8 +170,9 @@ def design_of(
     recordings = list(dict.fromkeys(s.recording for s in stretches))
     return Design(
         columns=columns,
-        model=shared,
-        model_places=model.shared,
+        derivatives=model,
+        reading=reading,
+        member=member,
         local=local,
         local_places=model.local,
         free=np.hstack([ones, ones * elapsed]) if drift else ones,
@@ -156,16 +194,32 @@ def design_of(
     )
 
 
+def _shared_in_rows(model: TermColumns, reading: FloatArray, rows: slice) -> FloatArray:
+    """What terms that several cells have add to rows, per deviation of each term; shape (k, rows, s)."""
+    columns = model.columns[rows] * model.deviations[model.shared]
+    forget_pages([model.columns])
+    return np.einsum("kc,nct->nkt", reading, columns)
+
+
+def _local_in_rows(model: TermColumns, reading: FloatArray) -> FloatArray:
+    """The same of terms that one cell alone has; shape (n, rows, w)."""
+    # where a cell has fewer terms the column is 0
+    size = np.where(model.local >= 0, model.deviations[model.local], 0.0)
+    return np.einsum("kc,nct->nkt", reading, model.local_columns * size[model.group][:, None, :])
+
+
 def _centred_terms(
-    model: TermColumns, member: IntArray, cell: IntArray, count: FloatArray, alone: BoolArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Shared and local columns of terms without their means by session, where these are taken off, and all means."""
-    n, rows, shared = model.columns.shape
-    columns, of_shared = _centred(model.columns.reshape(n, rows * shared), member, count)
-    means = np.zeros((len(alone), rows, len(model.terms)))
-    means[:, :, model.shared] = of_shared.reshape(len(alone), rows, shared)
-    local = model.local_columns.copy()
-    weight = np.bincount(member, weights=count)
+    model: TermColumns, reading: FloatArray, member: IntArray, count: FloatArray, alone: BoolArray
+) -> tuple[FloatArray, FloatArray]:
+    """Local columns of terms without their means by session, where these are taken off, and means of all columns."""
+    cell, weight = model.group, np.bincount(member, weights=count)
+    means = np.zeros((len(alone), len(reading), len(model.terms)))
+    of_shared = np.zeros((len(alone), len(reading), len(model.shared)))
+    for rows in blocks_of(len(member)):
+        columns = _shared_in_rows(model, reading, rows)
+        np.add.at(of_shared, member[rows], columns * count[rows, None, None])
+    means[:, :, model.shared] = of_shared / weight[:, None, None]
+    local = _local_in_rows(model, reading)
     for number, places in enumerate(model.local):
         used = places >= 0
         for session in np.unique(member[cell == number]):
@@ -174,7 +228,7 @@ def _centred_terms(
             means[session][:, places[used]] = mean[:, used]
             if alone[session]:
                 local[inside] -= mean
-    return columns.reshape(n, rows, shared), local, means
+    return local, means
 
 
 def _own_sessions(member: IntArray, cell: IntArray, alone: BoolArray, *, drift: bool) -> IntArray:

@@ -9,17 +9,22 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray, read_only
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, read_only
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
-from forcetorque.calibration.generative.agreement import require_rank, require_response, require_sensor
+from forcetorque.calibration.generative.agreement import (
+    ALL_COMPONENTS,
+    require_rank,
+    require_response,
+    require_sensor,
+)
 from forcetorque.calibration.generative.design import Design, cells_of, design_of
 from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer
 from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
 from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, MountTolerance
-from forcetorque.experiment.calibration.moments import TermColumns, WindowMeans, in_order, model_terms
+from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
@@ -202,7 +207,8 @@ class SolvedRows:
         prior = self._before(unit) if self.with_prior else None
         if not self.with_prior:
             response = mean[:, :LOADS] if rows.space == "channel" else np.eye(LOADS) + mean[:, :LOADS]
-            require_response(response / unit[:, None], learnt / unit[:, None, None] ** 2, wrench)
+            measured = measured_components(self.matrix)
+            require_response(response / unit[:, None], learnt / unit[:, None, None] ** 2, wrench, measured)
         posterior = Posterior(
             space=rows.space,
             variables=tuple(variable.name for variable in variables),
@@ -400,6 +406,7 @@ def fit_generative(
     quadratic: bool = True,
     shapes: Sequence[SlowNoise] = CANDIDATES,
     noise_floor: bool = True,
+    measured: BoolArray = ALL_COMPONENTS,
 ) -> GenerativeFit:
     """Fit a sensor: readings are regressed on loads, and where no load speaks the prior stays.
 
@@ -413,12 +420,13 @@ def fit_generative(
         shapes: Shapes of the noise to choose from; white noise alone where nothing goes on from mean to mean.
         noise_floor: Whether the noise has at least the slow error of the expected wrench that is assumed; otherwise it
             is what the data show.
+        measured: Components that a sensor without a prior matrix measures; shape (6,). With one its rows tell.
 
     Returns:
         The fit.
 
     Raises:
-        FitError: If there are no data, fewer than six channels, no prior and loads that do not tell all of the
+        FitError: If there are no data, fewer channels than components, no prior and loads that do not tell all of the
             matrix, a variable that never moves and of which nothing is known, or the data say that the sensor has lost
             a direction.
         ShapeError: If the data do not fit each other, the prior or the variables.
@@ -434,12 +442,14 @@ def fit_generative(
     values = read_only(
         np.concatenate([s.variables for s in ordered]), name="variables", shape=(len(raw), len(variables))
     )
-    components = LOADS if prior is None else int(measured_components(prior).sum())
+    if prior is not None:
+        measured = measured_components(prior)
+    components = int(measured.sum())
     if raw.shape[1] < components:
         raise FitError(f"expected at least {components} channels, one for each component, got {raw.shape[1]}")
     if prior is None:
-        require_rank(wrench, [len(stretch) for stretch in ordered])
-    matrix = _rough(raw, wrench) if prior is None else read_only(prior, name="prior", shape=(6, raw.shape[1]))
+        require_rank(wrench, [len(stretch) for stretch in ordered], measured)
+    matrix = _rough(raw, wrench, measured) if prior is None else read_only(prior, name="prior", shape=(6, raw.shape[1]))
     rows = rows_of(matrix, assumptions, in_wrench=prior is not None or assumptions.states_accuracy)
     centre = np.array(
         [values[0, k] if v.reference_value is None else v.reference_value for k, v in enumerate(variables)]
@@ -463,13 +473,13 @@ def fit_generative(
         reading: FloatArray, shapes: Sequence[SlowNoise], start: Sequence[Unknowns] = ()
     ) -> tuple[SolvedRows, float]:
         """Solve the rows, which read errors of the loads by `reading`; shape (rows, 6)."""
-        design = design_of(ordered, response, shares, _in_rows(derivatives, reading), drift=drift, centre=centre)
+        design = design_of(ordered, response, shares, derivatives, reading, drift=drift, centre=centre)
         _require_means(design, drift=drift)
         data = [
             RowData(
                 data=whitened,
                 basis=own,
-                terms=design.model_places,
+                terms=derivatives.shared,
                 accuracy=float(accuracy) if noise_floor else 0.0,
                 freedom=max(len(raw) - design.free.shape[1], 1),
             )
@@ -544,18 +554,19 @@ def _fit(
 def _residual(design: Design, error: FloatArray, offsets: FloatArray, drifts: FloatArray | None) -> FloatArray:
     """Root mean square of errors without an offset, less offset and drift of each session; shape (6,); N, N m."""
     sessions = len(design.sessions)
-    member = design.free[:, :sessions].argmax(axis=1)
-    left = error + offsets[member]
+    left = error + offsets[design.member]
     if drifts is not None:
-        left = left + drifts[member] * design.free[:, sessions:].sum(axis=1)[:, None]
+        left = left + drifts[design.member] * design.free[:, sessions:].sum(axis=1)[:, None]
     return np.sqrt(np.average(left**2, axis=0, weights=design.timeline.share))
 
 
-def _rough(raw: FloatArray, wrench: FloatArray) -> FloatArray:
+def _rough(raw: FloatArray, wrench: FloatArray, measured: BoolArray) -> FloatArray:
     """A matrix that reads the data roughly, for a sensor that has none."""
     design = np.c_[wrench, np.ones(len(wrench))]
     response = np.linalg.lstsq(design, raw, rcond=None)[0][:LOADS].T
-    return np.linalg.pinv(response)
+    matrix = np.zeros((LOADS, raw.shape[1]))
+    matrix[measured] = np.linalg.pinv(response[:, measured])
+    return matrix
 
 
 def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, rows: Rows, row: int) -> FloatArray:
@@ -572,19 +583,6 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
             )
         sizes[k] = expected.VARIABLE_SHARE / extent if known is None else known
     return sizes
-
-
-def _in_rows(model: TermColumns, reading: FloatArray) -> TermColumns:
-    """What terms add to rows that read loads by `reading`, shape (rows, 6), per deviation of each term."""
-    deviations = np.array([term.deviation for term in model.terms])
-    columns = model.columns * deviations[model.shared]
-    # where a group has fewer terms the column is 0
-    size = np.where(model.local >= 0, deviations[model.local], 0.0) if len(deviations) else np.zeros(model.local.shape)
-    return replace(
-        model,
-        columns=np.einsum("kc,nct->nkt", reading, columns),
-        local_columns=np.einsum("kc,nct->nkt", reading, model.local_columns * size[model.group][:, None, :]),
-    )
 
 
 def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variables: FloatArray) -> FloatArray:

@@ -7,13 +7,14 @@ means only.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
+from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk, forget_pages
 from forcetorque.calibration.generative.design import Design
 from forcetorque.experiment.calibration.moments import symmetric_pseudo_inverse
 
@@ -85,56 +86,80 @@ class _Products:
 
 
 class _Stacked:
-    """All columns of a design side by side, each divided by its largest value."""
+    """All columns of a design side by side, each divided by its largest value, in blocks of means."""
 
     def __init__(self, design: Design) -> None:
-        n, rows, shared = design.model.shape
-        width, own_free = design.local_places.shape[1], design.free_places.shape[1]
-        self.rows, self.cells = rows, len(design.free_places)
-        self._ends, self._line = design.cell_ends.tolist(), design.timeline
-        of_cells = np.zeros((n, own_free))
-        for start, end, places in zip(self._ends, self._ends[1:], design.free_places, strict=False):
-            used = places >= 0
-            of_cells[start:end][:, used] = design.free[start:end, places[used]]
-        several = design.shared_free
-        parts = (
-            design.columns,
-            design.model.reshape(n, rows * shared),
-            design.response,
-            design.free[:, several],
-            design.local.reshape(n, rows * width),
-            of_cells,
-        )
-        stacked = np.asfortranarray(np.hstack(parts))
-        self._size = np.abs(stacked).max(axis=0, initial=0.0)
-        self._size[self._size == 0.0] = 1.0
-        self._values = stacked / self._size
-        ends = np.cumsum([part.shape[1] for part in parts]).tolist()
+        rows, shared = len(design.reading), len(design.derivatives.shared)
+        width, self._width_free = design.local_places.shape[1], design.free_places.shape[1]
+        self.rows, self.cells, self._design = rows, len(design.free_places), design
+        widths = (design.columns.shape[1], rows * shared, rows, len(design.shared_free), rows * width, self._width_free)
+        ends = np.cumsum(widths).tolist()
+        self._total, self._everywhere = ends[-1], ends[3]
         self.response, self.free = np.arange(ends[1], ends[2]), np.arange(ends[2], ends[3])
         of_model = ends[0] + np.arange(rows * shared).reshape(rows, shared)
         self.columns = [np.r_[: ends[0], of_model[row]] for row in range(rows)]
-        self._everywhere = ends[3]
         self.local = np.arange(rows * width).reshape(rows, width)
-        self.own_free = rows * width + np.arange(own_free)
+        self.own_free = rows * width + np.arange(self._width_free)
+        self._size = np.zeros(self._total)
+        for means in design.blocks:
+            block = self._block(means)
+            np.maximum(self._size, np.abs(block).max(axis=0, initial=0.0), out=self._size)
+        self._size[self._size == 0.0] = 1.0
+        count = len(design.member) * self._total
+        scaled = RowsInMemory(count) if 8 * count <= IN_MEMORY else RowsOnDisk()
+        for means in design.blocks:
+            scaled.append((self._block(means) / self._size).ravel(order="F"))
+        self._scaled = scaled.mapped()
+
+    def _block(self, means: slice) -> FloatArray:
+        """The columns of some means; shape (k, total)."""
+        design, count = self._design, means.stop - means.start
+        own = np.zeros((count, self._width_free))
+        for cell, start, end in self._cells(means):
+            used = design.free_places[cell] >= 0
+            own[start:end, used] = design.free[means][start:end, design.free_places[cell][used]]
+        parts = (
+            design.columns[means],
+            design.model(means).reshape(count, -1),
+            design.response[means],
+            design.free[means][:, design.shared_free],
+            design.local[means].reshape(count, -1),
+            own,
+        )
+        return np.asfortranarray(np.hstack(parts))
+
+    def _cells(self, means: slice) -> Iterator[tuple[int, int, int]]:
+        """Cells that have some of a block of means: number, first mean and end within the block."""
+        ends = np.clip(self._design.cell_ends - means.start, 0, means.stop - means.start)
+        for cell in np.flatnonzero(np.diff(ends)).tolist():
+            yield cell, int(ends[cell]), int(ends[cell + 1])
 
     def products(self, noise: SlowNoise) -> _Products:
         """Multiply columns, each mean counted by what it is worth."""
-        solved, log_determinant = self._line.solve(self._values, noise)
-        m, total = self._everywhere, self._values.shape[1]
-        product = self._values[:, :m].T @ solved[:, :m] * np.outer(self._size[:m], self._size[:m])
-        of_cells = np.stack(
-            [
-                self._values[start:end, m:].T @ solved[start:end]
-                for start, end in zip(self._ends, self._ends[1:], strict=False)
-            ]
-        ).reshape(self.cells, total - m, total)
+        m, total = self._everywhere, self._total
+        product, of_cells = np.zeros((m, m)), np.zeros((self.cells, total - m, total))
+        factors, before = self._design.timeline.factors(noise), None
+        for means in self._design.blocks:
+            own = self._scaled[means.start * total : means.stop * total]
+            values = own.reshape((means.stop - means.start, total), order="F")
+            solved = factors.solve(values, means, before)
+            product += values[:, :m].T @ solved.columns[:, :m]
+            cells = list(self._cells(means))
+            for cell, start, end in cells:
+                of_cells[cell] += values[start:end, m:].T @ solved.columns[start:end]
+            if before is not None:
+                product += np.outer(before[:m], solved.across[:m])
+                of_cells[cells[0][0]] += np.outer(before[m:], solved.across)
+            before = solved.after
+            forget_pages([self._scaled])
+        product *= np.outer(self._size[:m], self._size[:m])
         of_cells *= np.outer(self._size[m:], self._size)
         own = of_cells[:, :, m:]
         return _Products(
             everywhere=0.5 * (product + product.T),
             border=of_cells[:, :, :m],
             own=0.5 * (own + own.transpose(0, 2, 1)),
-            log_determinant=log_determinant,
+            log_determinant=factors.log_determinant,
         )
 
 
@@ -222,7 +247,7 @@ def _free_of_row(design: Design, stacked: _Stacked, products: _Products, row: in
     several, own, local = design.shared_free, stacked.own_free, stacked.local[row]
     # a row and a column beside the others take what cells have fewer of
     product, shared = np.zeros((f + 1, f + 1)), np.zeros((f + 1, a + 1 + terms + 1))
-    everywhere = np.r_[:a, a + 1 + terms, a + design.model_places]
+    everywhere = np.r_[:a, a + 1 + terms, a + design.derivatives.shared]
     of_all = np.r_[columns[:a], response, columns[a:]]
     product[np.ix_(several, several)] = products.everywhere[np.ix_(stacked.free, stacked.free)]
     shared[np.ix_(several, everywhere)] = products.everywhere[np.ix_(stacked.free, of_all)]

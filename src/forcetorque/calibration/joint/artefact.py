@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.joint.interval import JointInterval, required_prior
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
+from forcetorque.calibration.joint.untouched_interval import JointInterval, required_prior
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.assumptions import LOADS

@@ -12,10 +12,10 @@ from urllib.parse import quote
 from forcetorque.base.errors import EstimationError, FitError
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.joint.artefact import sensor_artefact
-from forcetorque.calibration.joint.interval import JointInterval, joint_interval, required_prior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.joint.sensor_prior import SensorPrior
+from forcetorque.calibration.joint.untouched_interval import JointInterval, joint_interval, required_prior
 from forcetorque.calibration.moments import assumptions_of
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes

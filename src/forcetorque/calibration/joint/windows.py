@@ -73,16 +73,9 @@ class PartWindows:
     """Mass of the bodies of the part."""
     mass_shares: FloatArray
     """Of every error of the model the share of the mass of the part that it scales; shape (terms,)."""
-    load_squares: FloatArray
-    """Sums over samples of squares of what every sensor transmits and, last, of what the bodies demand; (k + 1,)."""
 
     def __len__(self) -> int:
         return len(self.time_s)
-
-    @property
-    def load_shares(self) -> FloatArray:
-        """Shares of what every sensor transmits and, last, of what the bodies demand; shape (k + 1,)."""
-        return self.load_squares / max(self.load_squares.sum(), np.finfo(float).tiny)
 
     @property
     def changes(self) -> FloatArray:
@@ -193,7 +186,6 @@ def window_means(stretch: Stretch, values: FloatArray) -> tuple[FloatArray, Floa
 def _joined(pieces: Sequence[PartWindows], stretch: Stretch) -> PartWindows:
     """Put the windows of one part that follow each other together."""
     values: dict[str, Any] = {name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in _BY_WINDOW}
-    values["load_squares"] = np.sum([piece.load_squares for piece in pieces], axis=0)
     return replace(pieces[0], stretch=stretch, **values)
 
 
@@ -274,8 +266,7 @@ def _averaged(
     zeros = {} if about is None else about.joint_zeros()
     known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms])
     transmission, readings = equation.transmission * (UNITS / UNITS[:, None]), logged / UNITS
-    transmitted = np.einsum("nkij,nkj->nki", transmission, readings)
-    right = equation.demand / UNITS - transmitted.sum(axis=1)
+    right = equation.demand / UNITS - np.einsum("nkij,nkj->ni", transmission, readings)
     result = PartWindows(
         part=equation.part.name,
         stretch=stretch,
@@ -292,7 +283,6 @@ def _averaged(
         rows=equation.rows,
         mass_kg=sum(stretch.tree.bodies[k].inertia.mass for k in equation.part.bodies),
         mass_shares=mass_shares(stretch.tree, equation.part, terms),
-        load_squares=_squares([*np.moveaxis(transmitted, 1, 0), equation.demand / UNITS]),
     )
     whole = [
         np.isfinite(values).reshape(w, -1).all(axis=1) for values in (result.right, transmission, readings, errors)
@@ -326,9 +316,3 @@ def _expected(
         readings = [about.reading(name, stretch.session, wrenches[:, k]) for k, name in enumerate(equation.sensors)]
         wrenches = np.stack(readings, axis=1)
     return wrenches / UNITS
-
-
-def _squares(loads: Sequence[FloatArray]) -> FloatArray:
-    """Sums of squares of loads, over samples that have all of them."""
-    whole = np.isfinite(np.hstack(loads)).all(axis=1)
-    return np.array([(load[whole] ** 2).sum() for load in loads])

@@ -562,7 +562,7 @@ def _recorded(measured: Evidence | None) -> LoadCase | None:
 
 def _without(verdict: LoadCaseVerdict, usual: LoadCase, beyond: str) -> LoadCaseVerdict:
     """The verdict with the reason that it is not about the default load case."""
-    text = f"{usual.words}, {beyond}: not used for the verdict; state your loads as [[load_case]]"
+    text = f"no verdict on {usual.words}, which {beyond}: state your loads as [[load_case]]"
     reasons = (*verdict.reasons, Reason(against=None, text=text))
     return verdict.model_copy(update={"reasons": reasons, "beyond_range": text})
 

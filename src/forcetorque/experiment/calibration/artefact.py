@@ -314,7 +314,7 @@ class Calibration(StoredTable):
 
 def _learnt(shares: FloatArray, measured: BoolArray) -> str:
     each = ", ".join(f"{WRENCH_COMPONENTS[k]} {100.0 * shares[k]:.0f} %" for k in np.flatnonzero(measured))
-    return f"learnt of each load: {each}; the rest the prior decides"
+    return f"information gained of each load: {each}; the rest the prior decides"
 
 
 def write_calibration(path: Path | str, calibration: Calibration) -> None:

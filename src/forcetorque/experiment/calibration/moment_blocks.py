@@ -9,6 +9,7 @@ from itertools import groupby
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, end_samples
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
@@ -106,7 +107,7 @@ def _joined(blocks: Sequence[IntervalMoments]) -> IntervalMoments:
 def _stacked(arrays: Sequence[FloatArray | None]) -> FloatArray | None:
     # a file does not keep how wide an array without rows is
     present = [array for array in arrays if array is not None]
-    return np.concatenate([array for array in present if array.size] or present[:1]) if present else None
+    return concatenated([array for array in present if array.size] or present[:1]) if present else None
 
 
 def pairwise_sum(parts: Sequence[Moments]) -> Moments:

@@ -22,6 +22,7 @@ from forcetorque.base.arrays import (
 )
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.means import means_over
+from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 
@@ -409,6 +410,11 @@ class TermColumns:
     local_columns: FloatArray
     """Derivatives of every mean by those of its group, 0 after the last; shape (n, 6, w); N, N m per unit of each."""
 
+    @property
+    def deviations(self) -> FloatArray:
+        """Standard deviations of the terms; shape (t,)."""
+        return np.array([term.deviation for term in self.terms])
+
 
 def model_terms(stretches: Sequence[WindowMeans], groups: Sequence[int]) -> TermColumns:
     """Put the terms of the robot model of several intervals together.
@@ -436,19 +442,26 @@ def model_terms(stretches: Sequence[WindowMeans], groups: Sequence[int]) -> Term
     width = max(map(len, own))
     columns, local_columns = [], []
     for stretch in stretches:
-        part, local = np.zeros((len(stretch), 6, len(shared))), np.zeros((len(stretch), 6, width))
-        for k, term in enumerate(stretch.terms):
-            key = term.name, term.nominal
-            target = local if several and len(owners[key]) == 1 else part
-            if stretch.model is not None:
-                target[:, :, column[key]] = stretch.model[:, :, k]
-        columns.append(part)
-        local_columns.append(local)
+        keys = [(term.name, term.nominal) for term in stretch.terms]
+        alone = np.array([several and len(owners[key]) == 1 for key in keys], dtype=bool)
+        targets = np.array([column[key] for key in keys], dtype=np.int64)
+        columns.append(_at_places(stretch, ~alone, targets, len(shared)))
+        local_columns.append(_at_places(stretch, alone, targets, width))
     return TermColumns(
         terms=tuple(known.values()),
         shared=np.array(shared, dtype=np.int64),
-        columns=np.concatenate(columns),
+        columns=columns[0] if len(columns) == 1 else concatenated(columns),
         group=np.repeat(groups, [len(stretch) for stretch in stretches]),
         local=np.array([places + [-1] * (width - len(places)) for places in own], dtype=np.int64),
         local_columns=np.concatenate(local_columns),
     )
+
+
+def _at_places(stretch: WindowMeans, chosen: BoolArray, places: IntArray, width: int) -> FloatArray:
+    """Derivatives by chosen terms in their columns; shape (n, 6, width)."""
+    if stretch.model is not None and chosen.all() and np.array_equal(places, np.arange(width)):
+        return stretch.model
+    part = np.zeros((len(stretch), 6, width))
+    if stretch.model is not None:
+        part[:, :, places[chosen]] = stretch.model[:, :, chosen]
+    return part

@@ -87,7 +87,7 @@ class WrenchModel(ArrayRecord):
         Returns:
             The same, with zeros for components that the sensor does not measure.
         """
-        return np.where(measured_components(self.matrix), load, 0.0)
+        return measured_part(load, measured_components(self.matrix))
 
     def wrench(self, raw: Any, variables: Any = None) -> FloatArray:
         """Turn readings into wrenches.
@@ -167,6 +167,19 @@ def measured_components(matrix: FloatArray) -> BoolArray:
         Whether it measures each; shape (6,).
     """
     return (matrix != 0.0).any(axis=1)
+
+
+def measured_part(load: FloatArray, measured: BoolArray) -> FloatArray:
+    """Give what a sensor without error reads of a load.
+
+    Args:
+        load: Wrenches; shape (..., 6); N, N m.
+        measured: Components that it measures; shape (6,).
+
+    Returns:
+        The same, with zeros for the others.
+    """
+    return np.where(measured, load, 0.0)
 
 
 def component_names(measured: BoolArray) -> str:

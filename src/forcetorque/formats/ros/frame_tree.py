@@ -12,8 +12,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RobotError, known_names
 from forcetorque.formats.namespaces import namespace_depth
 from forcetorque.formats.ros.bag import Bag
-from forcetorque.formats.ros.decoded_topic import topic_batches
-from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES
+from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, topic_batches
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
 from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
 from forcetorque.recording.alignment import Interpolation

@@ -9,7 +9,7 @@ end with a zero that counts.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +18,8 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
+from forcetorque.formats.kept_parts import are_kept, kept
+from forcetorque.formats.ros.bag import Bag
 
 _LITTLE_ENDIAN_CDR = b"\x00\x01"
 _MOST_ELEMENTS = 10_000
@@ -338,3 +340,38 @@ def decode(
                 alike &= (data[:, start:end] == data[0, start:end]).all(axis=1)
             yield Batch(rows=rows[alike], fields=fields, data=data[alike] if not alike.all() else data)
             rows, data = rows[~alike], data[~alike]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TopicBatch:
+    """Messages of a topic that are alike; n of them."""
+
+    batch: Batch
+    """Where their fields lie."""
+    numbers: IntArray
+    """Their places among all messages of the topic; shape (n,)."""
+    received: IntArray
+    """When the recorder had them; shape (n,); ns."""
+
+
+def topic_batches(bag: Bag, topic: str) -> Iterable[TopicBatch]:
+    """Decode the messages of a topic, of a type in `MESSAGES`.
+
+    Args:
+        bag: The bag.
+        topic: The topic.
+
+    Returns:
+        Its batches: all of them where parts are kept, else one after the other.
+    """
+    if not are_kept():
+        return _decoded(bag, topic)
+    return kept(bag.path, f"topic {topic}", lambda: tuple(_decoded(bag, topic)))
+
+
+def _decoded(bag: Bag, topic: str) -> Iterator[TopicBatch]:
+    find, first = MESSAGES[bag.types[topic]], 0
+    for received, messages in bag.messages(topic):
+        for batch in decode(messages, find, cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
+            yield TopicBatch(batch=batch, numbers=first + batch.rows, received=received[batch.rows])
+        first += len(messages)

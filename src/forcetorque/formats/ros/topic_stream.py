@@ -12,8 +12,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.ros.bag import Bag
-from forcetorque.formats.ros.decoded_topic import TopicBatch, topic_batches
-from forcetorque.formats.ros.messages import POSE_TYPES, Fields, not_measured
+from forcetorque.formats.ros.messages import POSE_TYPES, Fields, TopicBatch, not_measured, topic_batches
 from forcetorque.recording.frames import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream

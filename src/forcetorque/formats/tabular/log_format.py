@@ -297,7 +297,8 @@ class TabularStream(SpecifiedRate):
     name: Text
     """Name of the stream in the recording."""
     file: Text | Annotated[tuple[Text, ...], Field(min_length=1)]
-    """File below the log's folder, or several in the order of time."""
+    """File below the log's folder, or several in the order of time; a pattern such as `raw/*.csv` stands for files in
+    the order of their names."""
     stamp: StampTable | Literal["row"] | None = None
     """Column of the time; `row` for static poses without one, whose rows are then a second apart. Rows with neither
     have `rate_hz` and `start_s`."""
@@ -390,7 +391,8 @@ class TabularFormat:
 
 def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamReading:
     entry = specified.stream[k]
-    paths = [context.file(specified.path / file) for file in entry.files]
+    names = [name for file in entry.files for name in _matching(file, entry, specified, context)]
+    paths = [context.file(specified.path / name) for name in names]
     with context.stated_in(f"stream[{k}]"):
         readings = [
             read_table(path, _layout(entry, number), stream=entry.name, clock=entry.clock)
@@ -405,6 +407,22 @@ def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamRe
         findings.insert(0, skipped)
     findings += [finding for reading in readings for finding in reading.findings]
     return StreamReading(joined, tuple(findings))
+
+
+def _matching(file: str, entry: TabularStream, specified: TabularLog, context: LogContext) -> list[str]:
+    """The file, or those of its pattern in the order of their names."""
+    if not set(file) & set("*?["):
+        return [file]
+    folder = context.folder(specified.path)
+    if entry.rate_hz is not None or Path(file).is_absolute():
+        raise FormatError(
+            f"{folder}: stream {entry.name!r}: expected a pattern below the folder of the log, of files with a column "
+            f'of times or stamp = "row", got {file!r}; list the files of a rate, each with its start_s'
+        )
+    found = sorted(path.relative_to(folder).as_posix() for path in folder.glob(file) if path.is_file())
+    if not found:
+        raise FormatError(f"{folder}: stream {entry.name!r}: expected files of the pattern {file!r}, got none")
+    return found
 
 
 def _layout(entry: TabularStream, number: int) -> TableLayout:

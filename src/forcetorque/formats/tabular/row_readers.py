@@ -439,8 +439,9 @@ def _columnar_batches(
 ) -> Iterator[Any]:
     sources, start = flat.sources(columns), 0
     try:
+        by_group = [] if holding is None or isinstance(table, ArrowFile) else _groups_holding(table, *holding)
         for group in range(table.metadata.num_row_groups):  # one at a time: a request for all makes Arrow hold them all
-            if holding is not None and not isinstance(table, ArrowFile) and _excludes(table, group, *holding):
+            if by_group and not by_group[group]:
                 start += table.metadata.row_group(group).num_rows
                 continue
             for batch in table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=sources):
@@ -452,14 +453,12 @@ def _columnar_batches(
         raise FormatError(_damaged(file, error)) from error
 
 
-def _excludes(table: Any, group: int, column: str, number: int) -> bool:
-    """Whether no row of a group of a Parquet file has a number in a column, by the statistics of the group."""
-    chunk = table.metadata.row_group(group).column(table.schema_arrow.names.index(column))
-    # columns of structures in front of it move the place; then nothing is left out
-    statistics = chunk.statistics if chunk.path_in_schema == column else None
-    if statistics is None or not statistics.has_min_max:
-        return False
-    return bool(number < statistics.min or number > statistics.max)
+def _groups_holding(table: Any, column: str, number: int) -> list[bool]:
+    """Which row groups of a Parquet file have a number in a column."""
+    # by the column and not by statistics: pyarrow ends the process over damaged ones that it is asked for
+    held = np.asarray(table.read(columns=[column]).column(column).to_numpy() == number)
+    sizes = [table.metadata.row_group(group).num_rows for group in range(table.metadata.num_row_groups)]
+    return [bool(part.any()) for part in np.split(held, np.cumsum(sizes)[:-1])]
 
 
 def _damaged(name: Path | str, error: BaseException) -> FormatError:

@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.base.wrench import FORCE
 
 _WITHOUT_SENSOR = 5e3
 """`ft_raw_wrench` of an arm without a sensor is a constant near 1e4; N."""
@@ -45,7 +45,7 @@ def agreeing_point(raw: FloatArray | None, by_point: Mapping[str, FloatArray]) -
         return None
     shares = {}
     for point, wrench in by_point.items():
-        force, moment = (_share_left(wrench[:, part], raw[:, part]) for part in (FORCE, MOMENT))
+        force, moment = _shares_left(wrench, raw)
         if not force < _AGREES:
             return None
         shares[point] = moment
@@ -79,7 +79,8 @@ def turned_by(raw: FloatArray | None, wrench: FloatArray) -> FloatArray | None:
         return None
     turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
     vector: FloatArray = np.rad2deg(Rotation.from_matrix(turn).as_rotvec())
-    explained = _share_left(own, other @ turn.T) < _AGREES
+    (left_over,) = _shares_left(own, other @ turn.T)
+    explained = left_over < _AGREES
     return vector if explained and float(np.linalg.norm(vector)) > _TURNED_DEG else None
 
 
@@ -113,11 +114,18 @@ def _is_of_sensor(raw: FloatArray) -> bool:
     return bool(np.abs(raw[:, FORCE]).max(initial=0.0) < _WITHOUT_SENSOR)
 
 
-def _share_left(values: FloatArray, other: FloatArray) -> float:
-    """What the difference changes by, over what the other changes by."""
-    finite = np.isfinite(values).all(axis=1) & np.isfinite(other).all(axis=1)
-    left, change = (float((_about_mean(part[finite]) ** 2).sum()) for part in (values - other, other))
-    return float(np.sqrt(left / change)) if change > 0.0 else np.inf
+def _shares_left(values: FloatArray, other: FloatArray) -> list[float]:
+    """What the difference changes by, over what the other changes by, of each three columns."""
+    with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
+        left = values - other
+        finite = np.isfinite(left).all(axis=1)
+        if not finite.all():
+            left, other = left[finite], other[finite]
+        squares = (np.einsum("nk,nk->k", part, part).reshape(-1, 3) for part in map(_about_mean, (left, other)))
+        changes, of_other = (part.sum(axis=1) for part in squares)
+        return [
+            float(np.sqrt(k / change)) if change > 0.0 else np.inf for k, change in zip(changes, of_other, strict=True)
+        ]
 
 
 def _about_mean(values: FloatArray) -> FloatArray:

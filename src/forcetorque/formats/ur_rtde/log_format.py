@@ -35,6 +35,7 @@ from forcetorque.formats.logged_wrist import (
     weight_of,
 )
 from forcetorque.formats.ur_rtde.consistency import agreeing_point, require_gravity_as_felt, turned_by
+from forcetorque.formats.ur_rtde.point_by_motion import is_about_other_point
 from forcetorque.formats.ur_rtde.recorded_fields import RecordedFields, heading_of, read_fields
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
@@ -144,7 +145,8 @@ def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str,
         _undetermined(table, fields)
     ):
         return table
-    return table.model_copy(update={"moment_about": _agreeing_point(table, fields, _flange_pose(table, fields))})
+    points = _points(table, fields, _flange_pose(table, fields))
+    return table.model_copy(update={"moment_about": _agreeing_point(fields, points)})
 
 
 def _undetermined(table: UrRtdeLog, fields: RecordedFields) -> list[str]:
@@ -239,42 +241,31 @@ def _rotations(vectors: FloatArray) -> FloatArray:
     return matrices
 
 
-def _flange_wrench(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> FloatArray:
-    """Wrench of the tool on the flange, with the declared payload; shape (n, 6); N, N m."""
-    logged = fields.values[table.reading]
+def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> Mapping[str, FloatArray]:
+    """Wrench at the flange, (n, 6), N, N m, with the declared payload, for either point; none of `ft_raw_wrench`."""
     if table.reading == "ft_raw_wrench":
-        return logged
-    wrench = _along_flange(logged, pose, table.moment_about)
+        return {}
     mass, centre = _payload(table, fields)
-    gravity = np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity)
-    return wrench + weight_of(mass, centre, gravity)
-
-
-def _along_flange(logged: FloatArray, pose: _FlangePose, point: MomentPoint | None) -> FloatArray:
-    wrench = np.hstack([np.einsum("nji,nj->ni", pose.base_R_flange, part) for part in (logged[:, :3], logged[:, 3:])])
-    if point is MomentPoint.TCP:
-        wrench[:, 3:] += cross(pose.flange_p_tcp, wrench[:, :3])
-    return wrench
-
-
-def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> dict[str, FloatArray]:
-    """Wrench at the flange, declared payload included, if the logged moment is about each point."""
-    mass, centre = _payload(table, fields)
-    weight = weight_of(mass, centre, np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity))
+    flange = weight_of(mass, centre, np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity))
     logged = fields.values["actual_TCP_force"]
-    return {point: _along_flange(logged, pose, point) + weight for point in MomentPoint}
+    force, moment = (np.einsum("nji,nj->ni", pose.base_R_flange, part) for part in (logged[:, :3], logged[:, 3:]))
+    flange[:, :3] += force
+    flange[:, 3:] += moment
+    tcp = flange.copy()
+    tcp[:, 3:] += cross(pose.flange_p_tcp, force)
+    return {MomentPoint.FLANGE: flange, MomentPoint.TCP: tcp}
 
 
-def _agreeing_point(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> MomentPoint | None:
+def _agreeing_point(fields: RecordedFields, points: Mapping[str, FloatArray]) -> MomentPoint | None:
     raw = fields.values.get("ft_raw_wrench")
-    if table.reading == "ft_raw_wrench" or raw is None:
-        return None
-    point = agreeing_point(raw, _points(table, fields, pose))
+    point = agreeing_point(raw, points) if points else None
     return None if point is None else MomentPoint(point)
 
 
-def _require_no_contradiction(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> None:
-    agreeing = None if table.moment_about is None else _agreeing_point(table, fields, pose)
+def _require_no_contradiction(
+    table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[str, FloatArray]
+) -> None:
+    agreeing = None if table.moment_about is None else _agreeing_point(fields, points)
     if agreeing not in (None, table.moment_about):
         raise FormatError(
             f"{table.path}: moment_about: expected {agreeing}, about which the moment of actual_TCP_force changes as "
@@ -284,11 +275,9 @@ def _require_no_contradiction(table: UrRtdeLog, fields: RecordedFields, pose: _F
     require_gravity_as_felt(table.path, felt, pose.base_R_flange, table.world_gravity / table.gravity)
 
 
-def _other_axes(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> str:
+def _other_axes(fields: RecordedFields, points: Mapping[str, FloatArray]) -> str:
     """Text about a flange that is turned against `ft_raw_wrench`; empty for none."""
-    if table.reading == "ft_raw_wrench":
-        return ""
-    turn = turned_by(fields.values.get("ft_raw_wrench"), _points(table, fields, pose)[MomentPoint.FLANGE])
+    turn = turned_by(fields.values.get("ft_raw_wrench"), points[MomentPoint.FLANGE]) if points else None
     if turn is None:
         return ""
     return (
@@ -297,14 +286,37 @@ def _other_axes(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> 
     )
 
 
+def _other_point(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[str, FloatArray]) -> str:
+    """Text about a moment that is about the other point by the force in motion; empty for none."""
+    taken, offset = table.moment_about, pose.flange_p_tcp
+    # whether a controller subtracts forces of acceleration of a declared payload is not known
+    if taken is None or not points or _payload(table, fields)[0].any() or (offset != offset[:1]).any():
+        return ""
+    other, sign = (MomentPoint.FLANGE, -1.0) if taken is MomentPoint.TCP else (MomentPoint.TCP, 1.0)
+    if not is_about_other_point(
+        fields.stamp_ns,
+        pose.base_R_flange,
+        pose.base_p_flange,
+        table.world_gravity,
+        points[taken],
+        sign * offset[0],
+    ):
+        return ""
+    return (
+        f"moment about another point: expected moment_about = {other}, by the centre of mass that the force in motion "
+        f"shows, got {taken}"
+    )
+
+
 def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
     pose = _flange_pose(table, fields)  # without a tcp_offset that of the TCP, which moves when the flange does
+    points = _points(table, fields, pose)
     mass, centre = _payload(table, fields)
     assumed = [f"{table.reading} is the force of the tool on the arm"]
     if table.reading == "ft_raw_wrench":
         assumed.append("along the axes of the flange")
     elif table.moment_about is not None:
-        is_agreeing = _agreeing_point(table, fields, pose) is table.moment_about
+        is_agreeing = _agreeing_point(fields, points) is table.moment_about
         agrees = ", as ft_raw_wrench in the log" if is_agreeing else ""
         assumed.append(f"moment about the {table.moment_about}{agrees}")
     return LoggedWrist(
@@ -315,7 +327,7 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
         declared=declared_loads(fields.stamp_ns, mass, centre),
         moving=motions(fields.stamp_ns, pose.base_R_flange, pose.base_p_flange),
         assumed=tuple(assumed),
-        contradictions=tuple(words for words in (_other_axes(table, fields, pose),) if words),
+        contradictions=tuple(filter(None, (_other_axes(fields, points), _other_point(table, fields, pose, points)))),
     )
 
 
@@ -326,14 +338,16 @@ def _reading(table: UrRtdeLog, fields: RecordedFields, undetermined: Mapping[str
         signals["wrench"] = Signal.of_fixed("wrench", fields.values[table.reading], frame=frame)
     else:
         pose = _flange_pose(table, fields)
-        _require_no_contradiction(table, fields, pose)
+        points = _points(table, fields, pose)
+        _require_no_contradiction(table, fields, pose, points)
         orientation, gravity = pose.base_R_flange, table.world_gravity
-        signals["wrench"] = Signal.of_fixed("wrench", _flange_wrench(table, fields, pose), frame=FLANGE)
+        wrench = points[table.moment_about or MomentPoint.FLANGE] if points else fields.values[table.reading]
+        signals["wrench"] = Signal.of_fixed("wrench", wrench, frame=FLANGE)
         signals["orientation"] = Signal.of_fixed("orientation", orientation.reshape(-1, 9), frame=FLANGE)
         signals["gravity"] = Signal.of_fixed("gravity", np.einsum("nji,j->ni", orientation, gravity), frame=FLANGE)
         signals["translation"] = Signal.of_fixed("translation", pose.base_p_flange, frame=FLANGE)
     findings = _findings(fields, undetermined)
-    if not undetermined and (words := _other_axes(table, fields, pose)):
+    if not undetermined and (words := _other_axes(fields, points)):
         findings = (*findings, Finding(stream=WRIST, kind="other_axes", message=words, count=len(fields.stamp_ns)))
     streams = {WRIST: signals}
     motion = {"actual_q": ("position", "rad"), "actual_qd": ("velocity", "rad/s")}

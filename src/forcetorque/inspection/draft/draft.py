@@ -119,6 +119,11 @@ class Draft(Result):
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
 
+    @property
+    def lacks_sensor(self) -> bool:
+        """Whether the log has nothing like a force-torque sensor, and no answer to a question would give one."""
+        return _NO_SENSOR in self.notes and not self.questions
+
     def answers(self) -> Iterator[Answer]:
         """Say what is left to fill in.
 
@@ -129,7 +134,7 @@ class Draft(Result):
             yield self._proposed
             return
         count, first = len(self.questions), next(iter(self.questions), None)
-        if _NO_SENSOR in self.notes and not count and "[robot]" not in self.content:
+        if self.lacks_sensor and "[robot]" not in self.content:
             yield Answer(
                 subject=self.file,
                 verdict="NO SENSOR AND NO ROBOT",

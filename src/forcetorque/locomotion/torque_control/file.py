@@ -13,6 +13,7 @@ from forcetorque.base.toml_file import NotNegative, Positive, Table, Text, read_
 from forcetorque.locomotion.torque_control.balancing import Balance, Timing
 from forcetorque.locomotion.torque_control.closed_loop import PRINTED, LoopSetting
 from forcetorque.locomotion.torque_control.controller import JointDrive, TorqueGains
+from forcetorque.locomotion.torque_control.walking_loop import WalkingController
 from forcetorque.locomotion.torque_control.world import JOINTS, MOST_TILT_DEG, Biped
 
 PERIOD_S: Final = 0.001
@@ -105,6 +106,32 @@ class BalanceTable(Table):
     """Its damping; N m s/rad."""
 
 
+class WalkingTable(Table):
+    """A walking controller that feeds the measured zero moment point back.
+
+    Gains, period and height are those that its authors publish for iCubGenova04 (robotology/walking-controllers).
+    """
+
+    zmp_gain: NotNegative = 3.5
+    """K_zmp, while walking; 1/s."""
+    centre_gain: NotNegative = 10.0
+    """K_com, while walking; 1/s."""
+    dcm_gain: NotNegative = 1.1
+    """K_dcm."""
+    period_s: Annotated[float, Field(ge=PERIOD_S, le=0.1)] = 0.01
+    """Period; whole milliseconds; s."""
+    delay_s: Annotated[float, Field(ge=0.0, le=0.5)] = 0.01
+    """How late the measured point is; whole milliseconds; s. Assumed."""
+    height_m: Positive = 0.53
+    """Height of the centre of mass; m."""
+    lag_s: Positive = 0.02
+    """Time constant of the position control of the joints; s. Assumed."""
+    sway_hz: Positive = 3.0
+    """Natural frequency of the body on the compliance of ankles, gears and soles; Hz. Assumed."""
+    damping: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.05
+    """Its damping ratio. Assumed."""
+
+
 class TorqueLoopFile(Table):
     """Everything that is settled before errors of sensors are drawn."""
 
@@ -139,14 +166,22 @@ class TorqueLoopFile(Table):
     """What the robot does."""
     balance: BalanceTable = BalanceTable()
     """What torques are wanted."""
+    walking: WalkingTable = WalkingTable()
+    """The walking controller of `oscillation-causes`."""
 
     @model_validator(mode="after")
     def _steps_are_whole(self) -> TorqueLoopFile:
-        for what, steps in (("delay_s", self.estimator.delay_s / PERIOD_S), ("rate_hz", self._hold())):
+        steps_of = {
+            "[estimator] delay_s": self.estimator.delay_s / PERIOD_S,
+            "[estimator] rate_hz": self._hold(),
+            "[walking] delay_s": self.walking.delay_s / PERIOD_S,
+            "[walking] period_s": self.walking.period_s / PERIOD_S,
+        }
+        for what, steps in steps_of.items():
             if abs(steps - round(steps)) > 1e-6:
                 raise PydanticCustomError(
                     "whole_steps",
-                    "[estimator] {what}: expected a whole number of periods of the controller, 1 ms, got {steps}",
+                    "{what}: expected a whole number of periods of the controller, 1 ms, got {steps}",
                     {"what": what, "steps": f"{steps:g}"},
                 )
         return self
@@ -195,6 +230,11 @@ class TorqueLoopFile(Table):
             hold_steps=round(self._hold()),
             delay_steps=round(self.estimator.delay_s / PERIOD_S),
         )
+
+    @property
+    def walking_controller(self) -> WalkingController:
+        """The walking controller."""
+        return WalkingController(**self.walking.model_dump())
 
     @property
     def timing(self) -> Timing:

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Final, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.progress import TimeLeft
 from forcetorque.base.units import STANDARD_GRAVITY
@@ -265,7 +265,7 @@ class _Case:
         fell = run.fallen < len(run.reference)
         amplitudes = _amplitudes(pushed)
         swinging = np.isfinite(amplitudes) | (pushed.fallen < len(pushed.reference))
-        falls, swings = _share_interval(fell), _share_interval(swinging)
+        falls, swings = (share_interval(int(happened.sum()), len(rms)) for happened in (fell, swinging))
         lasting = amplitudes[np.isfinite(amplitudes)]
         return TorqueLoopRow(
             tilt_deg=self.biped.tilt_deg,
@@ -307,11 +307,18 @@ def _amplitudes(pushed: LoopRun) -> FloatArray:
     return amplitudes
 
 
-def _share_interval(happened: BoolArray) -> tuple[float, float]:
-    """95 % interval of a share by Clopper and Pearson; percent."""
+def share_interval(count: int, runs: int) -> tuple[float, float]:
+    """Give the 95 % interval of a share (Clopper and Pearson).
+
+    Args:
+        count: Runs in which it happened.
+        runs: All runs.
+
+    Returns:
+        Both ends; percent.
+    """
     from scipy.special import betaincinv  # here because importing it takes longer than most commands
 
-    k, n = int(happened.sum()), len(happened)
-    low = float(betaincinv(k, n - k + 1, 0.025)) if k else 0.0
-    high = float(betaincinv(k + 1, n - k, 0.975)) if k < n else 1.0
+    low = float(betaincinv(count, runs - count + 1, 0.025)) if count else 0.0
+    high = float(betaincinv(count + 1, runs - count, 0.975)) if count < runs else 1.0
     return 100.0 * low, 100.0 * high

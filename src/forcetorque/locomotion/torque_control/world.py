@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import MissingExtraError, RobotError, install_line
-from forcetorque.base.pose import make_pose
+from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import reading_sign
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import mass_of
@@ -223,7 +223,11 @@ class World:
             copies[k].ctrl[:] = torque[k]
             copies[k].xfrc_applied[self._root, 1] = pelvis_N
             if soles is not None:
-                copies[k].xfrc_applied[self._soles] = soles[k]
+                # MuJoCo applies them at the centres of mass of bodies
+                lever = copies[k].xpos[self._soles] - copies[k].xipos[self._soles]
+                about_centre = soles[k].copy()
+                about_centre[:, 3:] += cross(lever, soles[k, :, :3])
+                copies[k].xfrc_applied[self._soles] = about_centre
             self._mujoco.mj_step2(self.model, copies[k])
         wrenches = np.stack([data.sensordata for data in copies]).reshape(len(copies), -1, 6)
         return np.stack([data.qacc for data in copies])[:, self._order], wrenches * self._signs

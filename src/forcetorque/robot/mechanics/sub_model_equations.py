@@ -130,7 +130,7 @@ def joints_of_part(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
     Returns:
         Joints from the root outwards, each once; leaders instead of joints that mimic.
     """
-    return _joints(tree, _bodies(tree, part))
+    return joints_of_bodies(tree, _bodies(tree, part))
 
 
 def joints_of_cuts(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
@@ -143,7 +143,7 @@ def joints_of_cuts(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
     Returns:
         Joints from the root outwards, each once; leaders instead of joints that mimic.
     """
-    return _joints(tree, _paths(tree, _cuts(tree, part)))
+    return joints_of_bodies(tree, _paths(tree, _cuts(tree, part)))
 
 
 def weight_equations(
@@ -241,7 +241,16 @@ def _bodies(tree: BodyTree, part: SubModel) -> list[int]:
     return _paths(tree, [*heavy_bodies(tree, part), *_cuts(tree, part)])
 
 
-def _joints(tree: BodyTree, bodies: Iterable[int]) -> tuple[str, ...]:
+def joints_of_bodies(tree: BodyTree, bodies: Iterable[int]) -> tuple[str, ...]:
+    """Name the joints that move some bodies, in their order.
+
+    Args:
+        tree: The robot.
+        bodies: Indices of bodies.
+
+    Returns:
+        Each joint once.
+    """
     coordinates = (tree.bodies[k].coordinate for k in bodies)
     return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
 

@@ -25,7 +25,7 @@ from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.robot.mechanics.samples import padded_samples
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
-from forcetorque.sensor.temperature.drift import (
+from forcetorque.sensor.temperature.drift_regression import (
     LAG_UNTOLD_S,
     LEAST_RANGE_DEGC,
     MIXED_WITH_TIME,

@@ -13,6 +13,7 @@ from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.pose import make_pose, skew
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.dynamics import joints_between
+from forcetorque.robot.mechanics.sub_model_equations import joints_of_bodies
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import BodyTree, build_tree, cut_of, joint_range, outboard_bodies, path_to_root
@@ -254,11 +255,13 @@ def limb_of(stand: Stand, sensor: str) -> Limb:
     name = stand.model.sensor(sensor).name
     cut = cut_of(tree, name)
     path = tuple(reversed(path_to_root(tree, cut)))
-    between = _joints(tree, path)
+    between = joints_of_bodies(tree, path)
     branching = [k for k, body in enumerate(path[:-1]) if _branches_off(tree, body, path[k + 1], between)]
-    own = _joints(tree, path[branching[-1] + 1 :]) if branching else between
+    own = joints_of_bodies(tree, path[branching[-1] + 1 :]) if branching else between
     beyond = outboard_bodies(tree, cut)
-    outboard = _joints(tree, tuple(index for index in range(len(tree.bodies)) if beyond[index] and index != cut))
+    outboard = joints_of_bodies(
+        tree, tuple(index for index in range(len(tree.bodies)) if beyond[index] and index != cut)
+    )
     return Limb(
         sensor=name,
         between=between,
@@ -267,16 +270,11 @@ def limb_of(stand: Stand, sensor: str) -> Limb:
     )
 
 
-def _joints(tree: BodyTree, bodies: tuple[int, ...]) -> tuple[str, ...]:
-    coordinates = (tree.bodies[index].coordinate for index in bodies)
-    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
-
-
 def _branches_off(tree: BodyTree, body: int, onwards: int, path_joints: tuple[str, ...]) -> bool:
     """Whether joints hang on a body beside the path; those that follow joints of the path do not count."""
     away = outboard_bodies(tree, body) & ~outboard_bodies(tree, onwards)
     away[body] = False
-    beside = _joints(tree, tuple(index for index in range(len(tree.bodies)) if away[index]))
+    beside = joints_of_bodies(tree, (index for index in range(len(tree.bodies)) if away[index]))
     return any(joint not in path_joints for joint in beside)
 
 

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.experiment.input_files import stated_in
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table
@@ -22,7 +24,9 @@ from forcetorque.skin.layout.defects import (
     representatives,
 )
 from forcetorque.skin.layout.finding import LayoutFindingRow, PatchShape, shape_of
+from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import PatchDescription
+from forcetorque.skin.layout.normals import patch_normals
 
 _CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
     representatives,
@@ -90,6 +94,8 @@ class SkinCheck(DrawnResult):
     """What is wrong."""
     positions: Annotated[FloatArray, ArrayField((None, 3))] = Field(exclude=True)
     """Taxels; shape (n, 3); m. For the figure."""
+    description: PatchDescription = Field(exclude=True, repr=False)
+    """What the file says, for `--repaired`."""
     normals: dict[str, Annotated[FloatArray, ArrayField((None, 3))]] = Field(exclude=True)
     """Normals `as written` and `rebuilt`, as far as there are any; shape (n, 3) each. For the figure."""
 
@@ -150,8 +156,20 @@ def check_patch(patch: PatchDescription) -> SkinCheck:
         thermal_pads=len(patch.thermal_pads),
         findings=shape_findings(shape),
         positions=patch.positions,
+        description=patch,
         normals={name: values for name, values in normals.items() if values is not None},
     )
+
+
+def save_repaired_layout(result: SkinCheck, path: Path) -> None:
+    """Write a layout with normals that are rebuilt from its positions, as a table.
+
+    Args:
+        result: The layout, checked.
+        path: File to write or to replace.
+    """
+    with stated_in(result.source):
+        write_layout_table(path, result.description.layout(patch_normals(result.description)))
 
 
 def _ranges(numbers: tuple[int, ...]) -> str:

@@ -212,6 +212,8 @@ def outward_of_boards(positions: FloatArray, taxels: IntArray, modules: IntArray
 
 _FARTHEST_M: Final = 0.05
 """Distance of centres that are neighbours, on paper and on the link; m: three modules."""
+_BESIDE: Final = 1.3
+"""Modules are drawn beside one if they are at most so much farther than the nearest."""
 _REACH_M: Final = 0.02
 """Standard deviation of their weights; m."""
 _STRETCH: Final = 1.3
@@ -251,16 +253,37 @@ def module_poses(plan: Sequence[PlannedModule], centres: FloatArray) -> FloatArr
         Pose of each module in the link, z outwards; shape (k, 4, 4); m.
 
     Raises:
-        SkinError: If a module has no two neighbours that show how it lies.
+        SkinError: If a module has no two neighbours that show how it lies, or none of those that are drawn next to it
+            is near it on the link.
     """
     paper = np.array([(module.u_m, module.v_m) for module in plan])
     mirrored = np.array([module.mirrored for module in plan])
+    for k, module in enumerate(plan):
+        _require_place(module, plan, paper - paper[k], centres - centres[k])
     return np.array(
         [
             _pose(module, centres[k], _axes(module, paper - paper[k], centres - centres[k], mirrored))
             for k, module in enumerate(plan)
         ]
     )
+
+
+def _require_place(module: PlannedModule, plan: Sequence[PlannedModule], paper: FloatArray, link: FloatArray) -> None:
+    """Refuse a module whose neighbours on the plan are all elsewhere on the link."""
+    drawn = np.linalg.norm(paper, axis=1)
+    others = drawn > 0.0
+    if not others.any():
+        return
+    beside = others & (drawn < _BESIDE * drawn[others].min()) & (drawn < _FARTHEST_M)
+    joined = _neighbours(paper, link)
+    if beside.sum() > 1 and joined.any() and not joined[beside].any():
+        names = ", ".join(str(other.number) for other, drawn_beside in zip(plan, beside, strict=True) if drawn_beside)
+        nearest_mm = 1e3 * np.linalg.norm(link[beside], axis=1).min()
+        raise SkinError(
+            f"module {module.number}: expected the modules that the plan draws {1e3 * drawn[beside].min():.1f} mm from "
+            f"it, {names}, to be near it on the link, got {nearest_mm:.1f} mm or more; does a frame have the number of "
+            "another module?"
+        )
 
 
 def _axes(module: PlannedModule, paper: FloatArray, link: FloatArray, mirrored: BoolArray) -> FloatArray:

@@ -136,7 +136,7 @@ def patch_normals(patch: PatchDescription, outward: FloatArray | None = None) ->
     Args:
         patch: Patch with no two taxels at one place.
         outward: Rough outward direction; shape (3,). By default the shape of the patch determines which side is out,
-            and where it is flat its boards do.
+            where it is flat its boards do, and without boards its written normals.
 
     Returns:
         Outward unit normals; shape (n, 3).
@@ -149,10 +149,11 @@ def patch_normals(patch: PatchDescription, outward: FloatArray | None = None) ->
     try:
         return rebuilt_normals(patch.positions, patch.modules)
     except SkinError:
-        boards = outward_of_boards(patch.positions, patch.taxels, patch.modules)
-        if boards is None:
+        sides = outward_of_boards(patch.positions, patch.taxels, patch.modules)
+        sides = patch.normals if sides is None else sides
+        if sides is None:
             raise
-        return rebuilt_normals(patch.positions, patch.modules, outward=boards)
+        return rebuilt_normals(patch.positions, patch.modules, outward=sides)
 
 
 def surface_normals(surface: SkinSurface, modules: IntArray) -> FloatArray:

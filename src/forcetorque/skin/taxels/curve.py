@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import partial
 from math import comb
 
 import numpy as np
@@ -24,6 +26,8 @@ class CurveKind(StrEnum):
     """Fifth order, thesis (7.1), as printed: it may fall, and beyond the range it says nothing."""
     CAPACITOR = "capacitor"
     """Inverse of a flat capacitor on a spring, thesis (3.26)."""
+    LOGARITHMIC = "logarithmic"
+    """Counts fall with the logarithm of the pressure, thesis Table 3.1, through rest: `fall = C ln(1 + p / p0)`."""
 
 
 DEGREE = 5
@@ -141,21 +145,22 @@ def _fit_powers(share: FloatArray, pressure: FloatArray, weight: FloatArray, ord
     return np.asarray(coefficients, dtype=np.float64)
 
 
+_Form = Callable[[FloatArray, float], tuple[FloatArray, FloatArray]]
 _ITERATIONS = 30
 """Steps of the fit; it settles in less than ten."""
 _CONVERGED = 1e-10
 """Change of the curvature at which it has."""
 
 
-def _fit_capacitor(share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
-    """Fit the curve of a flat capacitor on a spring, thesis (3.26) with the sign of its derivation.
+_MOST_BENT = 20.0
+"""Largest second number of a form."""
 
-    Thesis (3.26) is printed with the sign reversed: with `d = d0 - f / k` and `Ca = kappa eps0 A / d` the pressure is
-    `p = k (d0 - kappa eps0 A / Ca) / A`. Counts fall as the capacitance grows, so with `Ca` proportional to `1 + q u`,
-    `u` the fall below rest as a share of the range, it becomes `p = s u / (1 + q u)`: two numbers, and none at rest.
-    `q` is not below 0, as a capacitor cannot lose capacitance under pressure; at 0 the curve is a line.
+
+def _fit_bent(form: _Form, share: FloatArray, pressure: FloatArray, weight: FloatArray) -> FloatArray:
+    """Fit `p = s g(u, q)` with q from 0, a line, to the largest one by Gauss and Newton.
 
     Args:
+        form: g and its slope by q.
         share: Fall below rest as a share of the range; shape (n,).
         pressure: Pressure; shape (n,); Pa.
         weight: Root of the weight of every sample; shape (n,).
@@ -165,46 +170,91 @@ def _fit_capacitor(share: FloatArray, pressure: FloatArray, weight: FloatArray) 
     """
     u = np.maximum(share, 0.0)
     q = 0.0
+
+    def best_scale(g: FloatArray) -> float:
+        """The best s of a given q is a ratio."""
+        return float((weight * g) @ (weight * pressure) / ((weight * g) @ (weight * g)))
+
     for _ in range(_ITERATIONS):
-        # Gauss and Newton on p = s g(u, q); for a given q the best s is a ratio
-        g = u / (1.0 + q * u)
-        s = float((weight * g) @ (weight * pressure) / ((weight * g) @ (weight * g)))
-        slopes = np.column_stack([g, -s * g**2])
+        g, by_q = form(u, q)
+        s = best_scale(g)
+        slopes = np.column_stack([g, s * by_q])
         step = np.linalg.lstsq(slopes * weight[:, None], (pressure - s * g) * weight, rcond=None)[0]
-        before, q = q, max(0.0, q + float(step[1]))
+        before, q = q, min(max(0.0, q + float(step[1])), _MOST_BENT)
         if abs(q - before) < _CONVERGED:
             break
-    g = u / (1.0 + q * u)
-    s = float((weight * g) @ (weight * pressure) / ((weight * g) @ (weight * g)))
-    return np.array([s, q])
+    return np.array([best_scale(form(u, q)[0]), q])
 
 
-def _capacitor_pressure(share: FloatArray, coefficients: FloatArray) -> FloatArray:
-    """Evaluate the curve; it is 0 above rest.
+def _capacitor(u: FloatArray, q: float) -> tuple[FloatArray, FloatArray]:
+    """Flat capacitor on a spring, thesis (3.26) with the sign of its derivation, and its slope by q.
+
+    Thesis (3.26) is printed with the sign reversed: with `d = d0 - f / k` and `Ca = kappa eps0 A / d` the pressure is
+    `p = k (d0 - kappa eps0 A / Ca) / A`. Counts fall as the capacitance grows, so with `Ca` proportional to `1 + q u`,
+    `u` the fall below rest as a share of the range, it becomes `p = s u / (1 + q u)`: two numbers, and none at rest.
+    `q` is not below 0, as a capacitor cannot lose capacitance under pressure; at 0 the curve is a line.
 
     Args:
+        u: Fall below rest as a share of the range; shape (n,).
+        q: Second number of the curve.
+
+    Returns:
+        g and its slope by q; shape (n,) each.
+    """
+    g = u / (1.0 + q * u)
+    return g, -(g**2)
+
+
+_LEAST_BENT = 1e-4
+"""Second number below which the exponential is written by its first terms; they leave out a part in 1e9."""
+
+
+def _logarithmic(u: FloatArray, q: float) -> tuple[FloatArray, FloatArray]:
+    """Inverse of thesis Table 3.1, `E = C ln s + O`, moved so that rest is no pressure, and its slope by q.
+
+    `u = ln(1 + p / p0) / q` gives `p = s (exp(q u) - 1) / q` with `s = q p0`, the slope at rest.
+
+    Args:
+        u: As of `_capacitor`.
+        q: As of `_capacitor`.
+
+    Returns:
+        As of `_capacitor`.
+    """
+    if q < _LEAST_BENT:
+        return u + 0.5 * q * u**2 + q**2 * u**3 / 6.0, 0.5 * u**2 + q * u**3 / 3.0
+    rise = np.expm1(q * u)
+    return rise / q, (q * u * (rise + 1.0) - rise) / q**2
+
+
+def _bent_pressure(form: _Form, share: FloatArray, coefficients: FloatArray) -> FloatArray:
+    """Evaluate a curve of two numbers; it is 0 above rest.
+
+    Args:
+        form: g and its slope by q.
         share: Fall below rest as a share of the range; shape (...).
-        coefficients: Of `_fit_capacitor`; shape (2,).
+        coefficients: `s` and `q`; shape (2,).
 
     Returns:
         Pressure; shape (...); Pa.
     """
     s, q = coefficients
-    u = np.maximum(share, 0.0)
-    return s * u / (1.0 + q * u)
+    return np.asarray(s * form(np.maximum(share, 0.0), float(q))[0], dtype=np.float64)
 
 
-_FITS = {
+_FITS: Mapping[CurveKind, Callable[[FloatArray, FloatArray, FloatArray], FloatArray]] = {
     CurveKind.MONOTONE: _fit_monotone,
     CurveKind.LINE: _fit_line,
     CurveKind.POLYNOMIAL: _fit_fifth_order,
-    CurveKind.CAPACITOR: _fit_capacitor,
+    CurveKind.CAPACITOR: partial(_fit_bent, _capacitor),
+    CurveKind.LOGARITHMIC: partial(_fit_bent, _logarithmic),
 }
-_PRESSURES = {
+_PRESSURES: Mapping[CurveKind, Callable[[FloatArray, FloatArray], FloatArray]] = {
     CurveKind.MONOTONE: _monotone_pressure,
     CurveKind.LINE: _polynomial_pressure,
     CurveKind.POLYNOMIAL: _polynomial_pressure,
-    CurveKind.CAPACITOR: _capacitor_pressure,
+    CurveKind.CAPACITOR: partial(_bent_pressure, _capacitor),
+    CurveKind.LOGARITHMIC: partial(_bent_pressure, _logarithmic),
 }
 
 
@@ -216,7 +266,7 @@ class TaxelCurve(ArrayRecord):
     """Form."""
     coefficients: FloatArray = field(metadata=array(None))
     """Numbers of the form; shape (k,), as many as it has; Pa for each of them, but the second of
-    `capacitor`, which has no unit."""
+    `capacitor` and `logarithmic`, which has no unit."""
     range_counts: float
     """Fall at the highest pressure that was fitted: beyond, the curve is extrapolated; counts."""
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -31,6 +31,8 @@ ONSET_SHARE = 0.001
 ONSET_SD = 5.0
 """The same over the standard deviation of the smoothed pressure at rest, where noise is larger."""
 
+MOST_IN_BAG_PA = 110e3
+"""A vacuum bag presses at most with the pressure of the air around it; Pa."""
 _REST_ROWS = 20
 """Messages at rest that a rest level needs: their mean then is good to 0.15 counts."""
 _SMOOTH_ROWS = 25
@@ -97,6 +99,11 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
             "it never rises; is the unit right?"
         )
     swing = highest - lowest
+    if float(np.median(smooth[:_REST_ROWS])) > highest - REST_SHARE * swing:
+        raise SkinError(
+            f"expected a pressure that rises from rest, got one that falls from {highest:.0f} to {lowest:.0f} Pa; is "
+            'the gauge inside a vacuum bag? Then state pressure_of = "bag" in [[patch]]'
+        )
     start = _onset(pressure, smooth, swing, int(np.argmax(smooth > lowest + REST_SHARE * swing)))
     if start < _REST_ROWS:
         raise SkinError(
@@ -221,7 +228,14 @@ def _recording(
     message = whole[rows]
     require_counts(message, where=repr(patch.counts), rows=rows)
     counts = message[:, patch.taxels]
-    cycle = pressure_cycle(counts, at)
+    cycle = pressure_cycle(counts, -at) if patch.in_bag else pressure_cycle(counts, at)
+    if patch.in_bag:
+        cycle = replace(cycle, rest_pressure=-cycle.rest_pressure)
+    if patch.in_bag and cycle.highest > MOST_IN_BAG_PA:
+        raise SkinError(
+            f"pressure_of: expected a bag that is at most emptied, {MOST_IN_BAG_PA:g} Pa below rest, got "
+            f"{cycle.highest:.0f} Pa; is the unit right?"
+        )
     return PatchRecording(
         experiment=experiment.name,
         label=interval.label,

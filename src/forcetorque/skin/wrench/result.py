@@ -116,7 +116,7 @@ def contact_rows(
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SkinWrenchPicture:
-    """A recording of a patch, and its pressures when the force was largest."""
+    """A recording of a patch: its forces and pressures over time."""
 
     patch: str
     """Name of the patch."""
@@ -129,14 +129,9 @@ class SkinWrenchPicture:
     triangles: IntArray
     """Facets between them; shape (m, 3)."""
     pressures: FloatArray
-    """Pressure on each taxel; shape (n,); Pa."""
-    pressed_s: float
-    """When."""
-
-    @property
-    def pressed_kPa(self) -> FloatArray:
-        """Pressure on each taxel; shape (n,)."""
-        return 1e-3 * np.asarray(self.pressures)
+    """Pressure on each taxel that belongs to a contact, else 0; shape (k, n); Pa."""
+    strongest: int
+    """Index of the time at which the force was largest."""
 
 
 class ContactLifeRow(Row):

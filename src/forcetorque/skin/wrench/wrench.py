@@ -23,7 +23,7 @@ from forcetorque.skin.contact.tracking import OFFERED, ReleaseRow
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.layout.normals import rebuilt_normals
+from forcetorque.skin.layout.normals import patch_normals
 from forcetorque.skin.surface import unrolled
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.wrench.frames import FrameChoice, SkinFrames, patch_messages, skin_frames
@@ -64,7 +64,7 @@ def chosen_layout(file: Path, choice: WrenchChoice) -> SkinLayout:
         The layout.
     """
     described = describe_patch(file)
-    normals = None if choice.written_normals else rebuilt_normals(described.positions, described.modules)
+    normals = None if choice.written_normals else patch_normals(described)
     return described.layout(normals)
 
 
@@ -288,7 +288,6 @@ def _picture(
     read: Sequence[tuple[float, PressureFrame, SkinContacts]],
     chosen: WrenchChoice,
 ) -> SkinWrenchPicture:
-    strongest = int(force.argmax())
     normal_force = np.array([contacts.normal_force_N.sum() for _, _, contacts in read])
     forces = {f"{skin.method}: norm of the force": force, f"{skin.method}: integral of the pressure": normal_force}
     if chosen.taxel_area_mm2 is not None and skin.method is not WrenchMethod.SIMPLE:
@@ -301,8 +300,8 @@ def _picture(
         forces=forces,
         places=unrolled(skin.surface),
         triangles=skin.surface.triangles,
-        pressures=np.where(read[strongest][2].contact >= 0, read[strongest][1].pressures, 0.0),
-        pressed_s=float(seconds[strongest]),
+        pressures=np.stack([np.where(contacts.contact >= 0, frame.pressures, 0.0) for _, frame, contacts in read]),
+        strongest=int(force.argmax()),
     )
 
 

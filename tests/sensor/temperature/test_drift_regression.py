@@ -11,7 +11,13 @@ import pytest
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import SHAPES, regress
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of, find_branches
-from forcetorque.sensor.temperature.drift import LAG_UNTOLD_S, MIXED_WITH_TIME, DriftFit, find_load_step, fit_drift
+from forcetorque.sensor.temperature.drift_regression import (
+    LAG_UNTOLD_S,
+    MIXED_WITH_TIME,
+    DriftFit,
+    find_load_step,
+    fit_drift,
+)
 from forcetorque.simulation.effects import ThermalDrift
 from tests.scenes.thermal_cycles import HYSTERESIS, PER_DEGREE, PER_HOUR, UNIT, record
 

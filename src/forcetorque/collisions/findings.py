@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Collisions as findings, which viewer, recordings for other viewers and report show as events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.residual import WINDOW_S
+from forcetorque.collisions.result import CollisionRow
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.recording.recording import Finding, Use
+from forcetorque.results.number_text import plus_minus
+
+ALARMS_PER_HOUR = 1.0
+"""Rate of false alarms that they are for, that of `robot collisions`."""
+LONGEST_S = 1800.0
+"""Time beyond which the search, which holds a few kilobytes for every 50 ms, is left to the command."""
+
+
+def with_collisions(
+    findings: Sequence[Finding], experiment: Experiment, calibrations: Mapping[str, Calibration]
+) -> tuple[Finding, ...]:
+    """Add the collisions of every sensor that `robot collisions` can look at.
+
+    Args:
+        findings: Other findings.
+        experiment: The experiment.
+        calibrations: By what sensors are read, by their names; by prior or as logged without.
+
+    Returns:
+        All in the order of time, those without a time first.
+    """
+    found = [*findings, *_collisions(experiment, calibrations)]
+    return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
+
+
+def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> Iterator[Finding]:
+    recording = experiment.recording
+    start_ns = recording.start_ns
+    watched_s = 1e-9 * sum(one.end_ns - one.start_ns for one in recording.intervals if one.use is not Use.IGNORE)
+    if watched_s > LONGEST_S:
+        text = (
+            f"no look for collisions in {watched_s:.0f} s, more than {LONGEST_S:g} s; see `robot collisions --interval`"
+        )
+        for stream in dict.fromkeys(sensor.stream for sensor in experiment.sensors):
+            yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+        return
+    for sensor in experiment.sensors:
+        run = SensorRun(experiment, sensor)
+        try:
+            correction = run.read_by(None, calibrations.get(sensor.name)).bare
+            rows = find_collisions(run, correction, (), (), ALARMS_PER_HOUR).collisions
+        except ForceTorqueError:  # the command says what it needs
+            continue
+        for row in rows:
+            yield Finding(
+                stream=sensor.stream,
+                kind=row.kind,
+                message=_message(row),
+                count=round((row.end_s - row.start_s) / WINDOW_S),
+                start_ns=start_ns + round(row.start_s * 1e9),
+                end_ns=start_ns + round(row.end_s * 1e9),
+                size=row.force_N,
+                unit="N",
+            )
+
+
+def _message(row: CollisionRow) -> str:
+    force = plus_minus(row.force_N, row.force_half_width_95_N, "N")
+    new = "a new level: a contact, its end, or a step"
+    what = new if row.kind == "new_level" else "which the file does not state"
+    return f"{row.sensor}: {force} on {' or '.join((row.link, *row.other_links))}, {what}; see `robot collisions`"

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Load cells on a bench: sensors of fewer than six components, without a prior matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, UnitError
+from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.workbench.calibrate import workbench
+from forcetorque.workbench.recording import read_bench
+from forcetorque.workbench.result import Workbench
+
+CELL = """schema = "forcetorque/bench/1"
+
+[sensor]
+name = "cell"
+serial = "C1"
+measure_direction = "child_to_parent"
+full_scale = 1e6
+components = {components}
+load_full_scale = [20.0, 20.0, 20.0, 1.0, 1.0, 1.0]
+
+[measurements]
+format = "rows"
+file = "{table}"
+channels = {channels}
+known = {known}
+known_units = {units}
+"""
+_GRAM_FORCE_N = 9.80665e-3
+_NOISE_COUNTS = 20.0
+_RESPONSE = np.array([[5e4, 2e3, -1e3], [1e3, 6e4, 500.0], [-800.0, 3e3, 4e4]])
+"""Counts per N of three channels."""
+_FACTORS = {"N": 1.0, "N m": 1.0, "gf": 1.0 / _GRAM_FORCE_N}
+
+
+def _cell(
+    folder: Path,
+    components: Sequence[str],
+    loads: dict[str, FloatArray],
+    response: FloatArray,
+    *,
+    unit: str = "N",
+    stated: Sequence[str] | None = None,
+) -> Path:
+    """A bench whose cell answers to loads by name, N or N m, by a response; shape (channels, loads)."""
+    rng = np.random.default_rng(7)
+    known = list(loads if stated is None else stated)
+    values = np.column_stack(list(loads.values()))
+    raw = values @ response.T + 3e3 + _NOISE_COUNTS * rng.normal(size=(len(values), len(response)))
+    channels = [f"raw{k}" for k in range(len(response))]
+    units = [unit if name.startswith("f") else "N m" for name in known]
+    columns = [loads[name] * _FACTORS[own] for name, own in zip(known, units, strict=True)]
+    np.savetxt(
+        folder / "cell.csv",
+        np.column_stack([raw, *columns]),
+        delimiter=",",
+        header=",".join([*channels, *known]),
+        comments="",
+    )
+    text = CELL.format(
+        components=list(components), table="cell.csv", channels=channels, known=known, units=units
+    ).replace("'", '"')
+    path = folder / "cell.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def _fitted(path: Path) -> tuple[Workbench, Calibration]:
+    result = workbench([read_bench(path)], code_version="0", created="2026-01-01")
+    (calibration,) = result.calibrations
+    return result, calibration
+
+
+def _axis_by_axis(count: int = 3) -> dict[str, FloatArray]:
+    """One force after the other, up to 10 N."""
+    steps = np.linspace(0.0, 10.0, 6)
+    return {f"f{'xyz'[k]}": np.concatenate([steps * (j == k) for j in range(count)]) for k in range(count)}
+
+
+def test_a_cell_of_three_axes_without_a_prior(tmp_path: Path) -> None:
+    """Its matrix is that of the cell, in grams of force as in newtons; its moments are rows of zeros."""
+    matrices = []
+    for unit in ("N", "gf"):
+        result, calibration = _fitted(_cell(tmp_path, ["fx", "fy", "fz"], _axis_by_axis(), _RESPONSE, unit=unit))
+        matrices.append(calibration.matrix)
+    np.testing.assert_allclose(matrices[0], matrices[1], rtol=1e-9)
+    # by noise: 20 counts over loads of 10 N leave some 2 counts/N of 5e4
+    np.testing.assert_allclose(calibration.matrix[:3] @ _RESPONSE, np.eye(3), atol=5e-4)
+    assert not calibration.matrix[3:].any()
+    (row,) = result.sensors
+    assert (row.rank, row.components, row.unmoved) == (3, ("fx", "fy", "fz"), ())
+    assert row.held_out is not None
+    expected = _NOISE_COUNTS * np.linalg.norm(np.linalg.inv(_RESPONSE), axis=1)
+    np.testing.assert_allclose(row.held_out[:3], expected, rtol=0.6)
+    (answer,) = result.answers()
+    assert answer.verdict == "FITTED, fx, fy, fz"
+    assert "N m" not in answer.why[0]
+    assert any("no position loads tx, ty, tz" in warning for warning in calibration.warnings)
+    assert any("faults of the bench are not searched" in warning for warning in result.warnings)
+    assert "no fault of the bench" not in result.details(100)
+
+
+def test_a_load_that_is_not_measured_disturbs_and_is_fitted_where_it_is_stated(tmp_path: Path) -> None:
+    """A force off the axis adds a moment; without its column the force is wrong by what it adds."""
+    rng = np.random.default_rng(3)
+    force = rng.uniform(0.0, 10.0, 20)
+    loads = {name: np.zeros(20) for name in ("fx", "fy", "fz", "tx", "ty", "tz")}
+    loads |= {"fz": force, "ty": -force * rng.uniform(0.02, 0.06, 20)}
+    response = np.zeros((1, 6))
+    response[0, 2], response[0, 4] = 5e4, 2e5
+    _, stated = _fitted(_cell(tmp_path, ["fz"], loads, response))
+    assert stated.matrix[2, 0] == pytest.approx(1.0 / 5e4, rel=2e-3)
+    assert stated.posterior is not None
+    assert stated.posterior.mean[0, 4] == pytest.approx(2e5, rel=2e-2)
+    _, alone = _fitted(_cell(tmp_path, ["fz"], loads, response, stated=["fz"]))
+    assert alone.matrix[2, 0] * 5e4 > 1.1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "kind", "message"),
+    [
+        ("load_full_scale", "# load_full_scale", ForceTorqueError, "fewer than six components need load_full_scale"),
+        ('components = ["fx", "fy", "fz"]', "", ExperimentError, "expected at least 6, one for each component, got 3"),
+        ('["fx", "fy", "fz"]\nload', '["fy", "fx", "fz"]\nload', ForceTorqueError, "in the order fx to tz"),
+        ('["N", "N", "N"]', '["N", "N", "N m"]', UnitError, "'fz': expected a unit that converts to N, got 'N m'"),
+        ('["N", "N", "N"]', '["N", "N"]', ForceTorqueError, "known_units: expected one for each column of known"),
+        ('["fx", "fy", "fz"]\nload', '["fx", "fy"]\nload', ExperimentError, r"that are measured \(fx, fy\), got 3"),
+        ("full_scale = 1e6", 'full_scale = 1e6\nprior = "p.txt"', ExperimentError, "expected rows that are zero just"),
+    ],
+)
+def test_what_does_not_fit_is_refused(
+    tmp_path: Path, old: str, new: str, kind: type[ForceTorqueError], message: str
+) -> None:
+    """By name, with what was expected."""
+    path = _cell(tmp_path, ["fx", "fy", "fz"], _axis_by_axis(), _RESPONSE)
+    _, calibration = _fitted(path)
+    matrix = calibration.model_copy(update={"matrix": np.ones((6, 3))})
+    matrix.save(tmp_path / "p.json")
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1).replace("p.txt", "p.json"), encoding="utf-8")
+    with pytest.raises(kind, match=message):
+        read_bench(path)
+
+
+def test_an_axis_that_no_position_loads_is_named(tmp_path: Path) -> None:
+    """Without a prior matrix there is no matrix then."""
+    loads = {**_axis_by_axis(2), "fz": np.zeros(12)}
+    result = workbench(
+        [read_bench(_cell(tmp_path, ["fx", "fy", "fz"], loads, _RESPONSE))], code_version="0", created="2026-01-01"
+    )
+    (row,) = result.sensors
+    assert row.unmoved == ("fz",)
+    assert "the loads move 2 of 3 directions, not fz" in row.reason
+    with pytest.raises(FitError, match="all 3 directions, got 2, not fz"):
+        workbench([read_bench(tmp_path / "cell.toml")], code_version="0", created="2026-01-01", full_matrix=True)
+
+
+@pytest.mark.real_data
+@pytest.mark.parametrize(("cell", "error_N"), [(1, 0.017), (2, 0.017), (3, 0.083), (4, 0.013)])
+def test_measured_cells(data_dir: Path, tmp_path: Path, cell: int, error_N: float) -> None:
+    """Positions left out one by one, as a plain regression predicts them; one row of cell 3 is 0.3 N off."""
+    table = data_dir / "fareke_6axis" / f"3axisCell{cell}CalibrationData.csv"
+    if not table.is_file():
+        pytest.skip(f"no {table}")
+    text = CELL.format(
+        components=["fx", "fy", "fz"],
+        table=table.as_posix(),
+        channels=[f"corrected_{axis}" for axis in "xyz"],
+        known=[f"force_{axis}" for axis in "xyz"],
+        units=["gf"] * 3,
+    ).replace("'", '"')
+    (tmp_path / "cell.toml").write_text(text.replace("1e6", "8388608.0"), encoding="utf-8")
+    result, _ = _fitted(tmp_path / "cell.toml")
+    held_out = result.sensors[0].held_out
+    assert held_out is not None
+    rows = np.genfromtxt(table, delimiter=",", skip_header=1, usecols=range(9))
+    force, raw = rows[:, :3] * _GRAM_FORCE_N, rows[:, 6:9]
+    design = np.column_stack([force, np.ones(len(force))])
+    hat = design @ np.linalg.pinv(design)
+    left = (raw - hat @ raw) / (1.0 - np.diag(hat))[:, None]
+    response = np.linalg.lstsq(design, raw, rcond=None)[0][:3].T
+    plain = np.sqrt(((left @ np.linalg.inv(response).T) ** 2).mean(axis=0))
+    np.testing.assert_allclose(held_out[:3], plain, rtol=1e-2)
+    assert np.linalg.norm(held_out) < error_N
