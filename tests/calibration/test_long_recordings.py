@@ -20,8 +20,8 @@ from tests.scenes.experiments import edit
 from tests.scenes.segments import SEGMENT_S, short_segments
 from tests.scenes.studies import CALIBRATION, SENSOR, VALIDATION
 
-_OF_ERROR = 0.05
-"""Stamps jitter, and the grid on which joints are differentiated begins elsewhere in a segment: part of an error."""
+_OF_ERROR = 1e-3
+"""The grid on which joints are differentiated begins elsewhere in a segment: part of a standard error."""
 
 
 def _runs(folder: Path, *files: str) -> list[SensorRun]:

@@ -12,19 +12,23 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.errors import RecordingError
+from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
 from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sample_quality import dropped_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts
-from forcetorque.recording.recording import Finding, Use
+from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment, segments_of
 
 SEGMENT_S: Final = 1800.0
 """Length of a segment: long against what is done once in each, and small in memory; s."""
 _LEAST_MARGIN_S, _WINDOWS = 10.0, 4.0
 """Samples around a segment: at least these seconds, and so many of the longest windows of filters."""
+_WINDOW_NS, _ROUNDING_NS = round(WINDOW_S * 1e9), round(WINDOW_S * WINDOW_ROUNDING * 1e9)
+"""Length of a window of means, and how far before its start a sample may be; ns."""
+
 _GOES_ON: Final = " (in one segment; it goes on in the next)"
 
 
@@ -178,6 +182,7 @@ class IntervalParts:
         self._run, self._use = run, use
         self._errors: dict[str, RecordingError] = {}  # the first of every interval
         self._seen: set[str] = set()
+        self._whole: dict[str, tuple[Interval, int]] = {}  # with the stamp of its first sample
         self.lost: dict[str, list[tuple[int, UnusableCounts]]] = {}
         """Samples of parts without one that can be used, by the label of the interval."""
 
@@ -192,6 +197,7 @@ class IntervalParts:
             The samples of each.
         """
         for interval in run.intervals(self._use) if run.has(self._use) else ():
+            interval, origin_s = self._between_windows(interval)
             try:
                 samples = run.interval_samples(interval, variables=variables)
             except RecordingError as error:
@@ -201,7 +207,22 @@ class IntervalParts:
                     self.lost.setdefault(interval.label, []).append(lost)
             else:
                 self._seen.add(interval.label)
-                yield samples
+                yield replace(samples, origin_s=origin_s)
+
+    def _between_windows(self, part: Interval) -> tuple[Interval, float]:
+        """A part that ends where windows of the whole interval end, and the start of one of these; s."""
+        if part.label not in self._whole:
+            (whole,) = (one for one in self._run.intervals(self._use) if one.label == part.label)
+            stamps = self._run.stream.stamp_ns
+            self._whole[part.label] = whole, int(stamps[np.argmax(whole.holds(stamps))])
+        whole, first_ns = self._whole[part.label]
+
+        def border(near_ns: int) -> int:
+            return min(near_ns + (first_ns - near_ns) % _WINDOW_NS - _ROUNDING_NS, whole.end_ns)
+
+        start_ns = border(part.start_ns) if part.start_ns > whole.start_ns else part.start_ns
+        end_ns = border(part.end_ns) if part.end_ns < whole.end_ns else part.end_ns
+        return replace(part, start_ns=start_ns, end_ns=end_ns), first_ns * 1e-9
 
     def require(self) -> None:
         """Refuse intervals without a sample in any segment, as in a recording that is reduced as a whole.
