@@ -40,7 +40,8 @@ from forcetorque.inspection.file_contents import (
     stream_table,
     times_text,
 )
-from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.findings import inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.segmented_findings import inspect_segments
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
 from forcetorque.results.result import Result
@@ -329,7 +330,7 @@ def _of_experiment(
 ) -> tuple[Finding, ...]:
     chosen = {} if calibration is None else one_per_sensor(experiment, {"calibration": calibration})
     calibrations = {sensor: one for sensor, (_, one) in chosen.items()}
-    findings = inspect_experiment(experiment, calibrations=calibrations, sensors=sensors, progress=progress)
+    findings = inspect_segments(experiment, calibrations=calibrations, sensors=sensors, progress=progress)
     return findings if patches is None else (*findings, *taxel_findings(patches))
 
 
