@@ -341,7 +341,7 @@ def skin_study_figure(study: SkinStudy) -> Figure:
         points = np.array([np.nan if value is None else value for value in values])
         panel.plot(at, points, **look(k).key | {"linestyle": "none", "markerfacecolor": "none" if of_thesis else None})
 
-    at = np.arange(len(level))
+    at = range(len(level))
     draw(forces, at, 0, [row.simple_N - row.weight_N for row in level], of_thesis=False)
     draw(forces, at, 1, [row.interpolated_N - row.weight_N for row in level], of_thesis=False)
     for k, field in enumerate(("simple_N", "interpolated_N")):

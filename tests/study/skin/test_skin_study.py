@@ -178,9 +178,8 @@ def test_what_is_no_shin_is_refused(tmp_path: Path) -> None:
     write_layout_table(file, shin)
     with pytest.raises(SkinError, match="expected --trials of at least 1"):
         study_skin(file, trials=0)
-    write_layout_table(
-        file, replace(shin, thermal_pads=shin.thermal_pads[:0], thermal_modules=shin.thermal_modules[:0])
-    )
+    none = shin.thermal_pads[:0]
+    write_layout_table(file, replace(shin, thermal_pads=none, thermal_modules=none))
     with pytest.raises(SkinError, match="expected thermal pads"):
         study_skin(file)
     write_layout_table(file, replace(shin, positions=shin.positions + [0.0, 0.0, 0.5]))
@@ -252,9 +251,7 @@ def test_the_study_on_a_leg_of_real_taxels(data_dir: Path, tmp_path: Path) -> No
     study = skin_study(trials, layout="right_leg_lower.txt", taxels=len(layout), seed=SEEDS[0])
     assert [row.trials for row in study.loads] == [len(SEEDS)] * len(LOADS)
     inside = [row for row in study.loads if row.degrees == of.LEVEL_DEG and row.mass_kg < 3.0]
-    simple, interpolated = (
-        np.mean([getattr(row, f"{name}_error_N") for row in inside]) for name in ("simple", "interpolated")
-    )
+    simple, interpolated = np.mean([[row.simple_error_N, row.interpolated_error_N] for row in inside], axis=0)
     assert simple > 2.5 * interpolated
     at = {row.degrees: row for row in study.loads if row.leaning}
     assert at[75].skin_rmse_Nm > at[90].skin_rmse_Nm
