@@ -84,6 +84,7 @@ WORDS = {
     "skin wrench": f"{PARQUET} --table fitted.json",
     "study sphere": f"{PARQUET}",
     "study fits": f"{PARQUET}",
+    "study skin": f"{PARQUET}",
     "tare": f"{PARQUET} --interval fit --to ft-tools",
     "bench sensor": f"{PARQUET}",
     "bench thermal": f"{PARQUET}",

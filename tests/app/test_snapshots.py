@@ -122,10 +122,11 @@ WITHOUT_TABLE = {
     "run",
     "schema",
     "simulate",
+    "study skin",
 }
 """Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `oscillation-causes`,
-`run` and `demo` minutes; `schema` is JSON; `dataset compensate` a dataset, `live` a stream, `joint-collisions` an arm,
-which their own tests have."""
+`study skin`, `run` and `demo` minutes; `schema` is JSON; `dataset compensate` a dataset, `live` a stream,
+`joint-collisions` an arm, which their own tests have."""
 
 
 def _write_limits(arm: Path) -> None:
