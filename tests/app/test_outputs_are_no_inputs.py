@@ -88,6 +88,7 @@ WORDS = {
     "tare": f"{PARQUET} --interval fit --to ft-tools",
     "bench sensor": f"{PARQUET}",
     "bench thermal": f"{PARQUET}",
+    "bench drift": f"{PARQUET}",
     "robot oscillation-causes": f"{PARQUET}",
     "robot torque-loop": f"{PARQUET}",
     "view": f"{PARQUET}",

@@ -48,6 +48,7 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
                 "sensor",
                 "workbench",
                 "thermal",
+                "drift",
                 "response",
                 "gains",
                 "device",

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from forcetorque.base.errors import FitError, ForceTorqueError
-from forcetorque.results.command import Option, command
+from forcetorque.results.command import SENSORS, Option, command
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
@@ -23,7 +23,7 @@ def study(
         "Path | str | None",
         Option("Folder to make, with a folder per sensor.", "--output", "-o", required=True, folder=True),
     ] = None,
-    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    sensors: Annotated[Collection[str], SENSORS] = (),
     data_sets: Annotated[
         "Mapping[str, Sequence[str]] | None",
         Option(
