@@ -31,7 +31,7 @@ from forcetorque.viewer.live_page import live_page
 from tests.browser import Visit
 from tests.live.test_ros_topics import Loopback
 from tests.scenes.calibrations import make_calibration
-from tests.viewer.browser.test_accessibility import AXE, OPEN, violations
+from tests.viewer.browser.test_accessibility import AXE, OPEN, needs_axe, violations
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -173,10 +173,9 @@ def test_a_server_that_is_gone_is_named(visit: Visit) -> None:
     visit.errors.clear()
 
 
+@needs_axe
 def test_no_violation_of_accessibility(visit: Visit) -> None:
     """Of a page that follows a run, with all details open and the time plots enlarged."""
-    if not AXE.is_file():
-        pytest.skip("axe-core is not installed: run `npm ci` in web")
     with _running(make_calibration(), Arm()) as url:
         page = visit.go(url)
         _until(page, "window.ft.live().samples > 0")
