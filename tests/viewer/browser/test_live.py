@@ -145,6 +145,30 @@ def test_the_page_follows_a_run(visit: Visit) -> None:
     assert values.count("\n") >= 2
 
 
+@pytest.mark.parametrize("key", [" ", "Home", "End"])
+def test_a_page_that_is_held_before_the_first_sample_goes_on(visit: Visit, key: str) -> None:
+    """Held while nothing came, it follows when it is told to."""
+    begin, source = threading.Event(), Arm()
+    moving = source.packets
+
+    def packets() -> Iterator[Packet | None]:
+        while not (begin.wait(0.05) or source.stop.is_set()):
+            yield None
+        yield from moving()
+
+    source.packets = packets  # type: ignore[method-assign]
+    with _running(make_calibration(), source) as url:
+        page = visit.go(url)
+        page.get_by_role("button", name="Hold").wait_for()
+        page.keyboard.press(key)
+        page.get_by_role("button", name="Follow").wait_for()
+        begin.set()
+        _until(page, "window.ft.live().update.total > 10")
+        assert _live(page)["samples"] == 0
+        page.get_by_role("button", name="Follow").click()
+        _until(page, "window.ft.live().samples > 10")
+
+
 def test_a_page_that_is_closed_does_not_end_the_run(visit: Visit) -> None:
     """Another one that is opened later shows the last seconds."""
     source = Arm()
