@@ -79,7 +79,9 @@ export function liveBar(data: LiveData, store: Store): { bar: HTMLElement; show:
     if (update) {
       const { received, lost, late, repeated } = update;
       const unseen = skipped > 0 ? `; ${skipped} samples not shown: the page was too slow, or held` : "";
-      const text = `Packets: ${received} received, ${lost ?? "not countable"} lost, ${late} late, ${repeated} repeated${unseen}`;
+      const [first, last] = data.span;
+      const room = data.isFull ? `; shown are ${(last - first).toFixed(0)} s, not ${data.feed.window_s} s: ${data.time.length} samples at most` : "";
+      const text = `Packets: ${received} received, ${lost ?? "not countable"} lost, ${late} late, ${repeated} repeated${unseen}${room}`;
       say(packets, text);
     }
     play.disabled = ended !== null;
