@@ -214,6 +214,16 @@ def test_a_calibration_without_a_figure_is_written_with_a_warning(run: Run, tmp_
     assert not figure.exists()
 
 
+def test_blank_rows_are_no_positions(tmp_path: Path) -> None:
+    """As a spreadsheet leaves them below its table, whose other components are zeros."""
+    path = _single(tmp_path)
+    with (tmp_path / "cell.csv").open("a", encoding="utf-8") as table:
+        table.write(",\n,\n")
+    assert len(read_bench(path).loads) == 18
+    result, _ = _fitted(path)
+    assert result.sensors[0].without_load == ()
+
+
 def test_an_axis_that_no_position_loads_is_named(tmp_path: Path) -> None:
     """Without a prior matrix there is no matrix then."""
     loads = {**_axis_by_axis(2), "fz": np.zeros(12)}
