@@ -132,7 +132,9 @@ def test_a_tool_of_a_replayed_arm_is_weighed_by_the_gravity_of_its_log(tmp_path:
     assert run("calibrate", file, "-o", fitted).error().count("sensor 'wrist': ") == 1
     edit(file, "# full_scale = [fx, fy, fz, tx, ty, tz]", "full_scale = [150, 150, 150, 10, 10, 10]")
     assert 'next: add an [[interval]] with use = "validation"' in run("calibrate", file, "-o", fitted).out
-    assert "expected a calibration (`forcetorque calibrate` makes one), got a TOML" in run("live", file).error()
+    for other in (file, log):
+        assert "expected JSON, got" in (refused := run("live", other).error())
+        assert "a calibration is a JSON file, which `forcetorque calibrate` writes" in refused
     replay = ("live", fitted, "--replay", file, "--speed", 0, "--offset", "tare")
     centre = ",".join(map(str, tool.centre))
     weighed = run(*replay, "--tool-mass", tool.mass, "--tool-centre", centre, "--take-tool-off")

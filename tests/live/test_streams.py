@@ -444,6 +444,10 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"quantity": None}, "expected --quantity"),
         ({"channels": ()}, "--channels with 6 columns"),
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
+        (
+            {"channels": (",".join(f"actual_TCP_force_{k}" for k in range(6)),)},
+            "along the axes of the base; take --replay",
+        ),
         ({"stamp": "t"}, "COLUMN:UNIT"),
         ({"envelope": True}, "--envelope: not of"),
         ({"speed": 0.0}, "--speed: not of --input csv"),

@@ -62,6 +62,15 @@ def test_what_an_instant_is_worth_is_the_diagonal_of_the_inverse(noise: SlowNois
     np.testing.assert_allclose(single.precision_diagonal(noise), 1.0 / _written_out(single, noise)[0], rtol=1e-12)
 
 
+@pytest.mark.parametrize("noise", CANDIDATES[::5], ids=lambda noise: f"{noise.time_constant_s:g}s-{noise.ratio:g}")
+def test_one_instant_has_factors_too(noise: SlowNoise) -> None:
+    """As a log that gives one mean."""
+    line, columns = Timeline.of([3.0], share=[0.5]), np.array([[2.0, -1.0]])
+    factors, variance = line.factors(noise), _written_out(line, noise)[0, 0]
+    np.testing.assert_allclose(factors.solve(columns, slice(0, 1)).columns, columns / variance, rtol=1e-12)
+    assert factors.log_determinant == pytest.approx(np.log(variance), rel=1e-12)
+
+
 def test_a_recording_of_its_own_is_not_correlated_with_the_one_before() -> None:
     """Negative control: as one recording the same instants have another determinant."""
     noise = SlowNoise(time_constant_s=50.0, ratio=1.0)

@@ -457,7 +457,7 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         given = ([reason.remedy for reason in use.reasons if reason.remedy is not None] for use in forbidden)
         remedies = dict.fromkeys((own[0] if own else "keep the prior matrix").rstrip(".") for own in given)
         texts = [f"{use.sensor}: {use.message}" for use in forbidden]
-        way.stop("evaluate", texts, "; ".join(remedies), "inspect", str(way.files[0]))
+        way.stop("evaluate", texts, "; ".join(remedies))
     elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
         texts += [f"{one.subject.split()[0]}: no verdict" for one in without]

@@ -346,11 +346,7 @@ def read_calibration(path: Path | str) -> Calibration:
     try:
         content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
     except FormatError as error:
-        if file.suffix.lower() != ".toml":
-            raise
-        raise FormatError(
-            f"{file}: expected a calibration (`forcetorque calibrate` makes one), got a TOML file"
-        ) from error
+        raise FormatError(f"{error}; a calibration is a JSON file, which `forcetorque calibrate` writes") from error
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema == JOINT_SCHEMA:
         raise FormatError(

@@ -111,10 +111,9 @@ def prior_lines(
             serial = line("serial", matrix.serial, "of its matrix file")
         return [serial, line("prior", relative(matrix.path, folder))]
     if files:
-        words = "; its serial number follows from it" if all(file.serial for file in files) else ""
         names = listed([file.path.name for file in files], _MOST_FILES)
         place = relative(files[0].path.parent, folder)
-        return [question("prior", f'file of its own matrix{words}, "{place}/" and the name: {names}'), serial]
+        return [question("prior", f'file of its own matrix, "{place}/" and the name: {names}'), serial]
     if sensor.is_raw:
         words = "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table"
         return [serial, question("prior", words)]

@@ -280,6 +280,7 @@ def _signal_lines(
             question("quantity", f"one of {listed(QUANTITIES, 99)}"),
             question("columns", f"names of its columns in the order of the quantity{names}"),
             question("units", "unit of each column"),
+            *_few_component_lines(sketch),
         ]
     elif rest:
         lines += ["", remark(f"not read: {listed(rest)}"), *_few_component_lines(sketch)]
