@@ -83,7 +83,7 @@ class SkinLayout(ArrayRecord):
             first = int(np.flatnonzero(bad)[0])
             raise SkinError(
                 f"patch {self.name!r}, taxel {self.taxels[first]}: {expected}, got {values[first]} "
-                f"({np.count_nonzero(bad)} such); correct the layout's file; `forcetorque skin check` lists defects"
+                f"({np.count_nonzero(bad)} such); `forcetorque skin check` with the layout's file says what to do"
             )
 
 
