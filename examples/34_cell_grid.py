@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Write a simulated grid of capacitive cells: its layout, a plate of weights on all cells twice, weights on some.
 
-Usage: python examples/34_cell_grid.py FOLDER
+Usage: python examples/34_cell_grid.py [FOLDER]
 
 Writes grid.csv (layout), plate.csv and again.csv (weights on a plate that covers the grid), weights.csv (four weights,
 one after the other) and an experiment file for each log. docs/guides/cells.md reads them.
@@ -120,5 +120,7 @@ def main(folder: Path) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Write a simulated grid of capacitive cells with its logs.")
-    parser.add_argument("folder", type=Path, help="folder for the files; made if it does not exist")
+    parser.add_argument(
+        "folder", nargs="?", type=Path, default=Path("cells"), help="folder for the files; made if it does not exist"
+    )
     main(parser.parse_args().folder)

@@ -46,6 +46,7 @@ from tests.scenes.thermal_cycles import record, write_cycles
 from tests.scenes.touched import write_table, write_touched
 from tests.scenes.tutorial_log import FOLDER as FOLDER_OF_THE_TUTORIAL
 from tests.scenes.wrist_contest import write_contest, write_runs
+from tests.scenes.wrist_sessions import write_sessions
 
 WIDTHS = (60, 80, 100, 120)
 FOLDER = Path(__file__).parent / "snapshots"
@@ -103,6 +104,7 @@ COMMANDS = _of_experiments() | {
     "bench fit-plate": ("bench", "fit-plate", "floor/pole.c3d", *POLE),
     "bench sensor": ("bench", "sensor", "--force", "0,0,500", "--lever", "0,0.01,0"),
     "bench thermal": ("bench", "thermal", "chamber/chamber.toml"),
+    "bench drift": ("bench", "drift", "days/days.toml"),
     "study validate": ("study", "validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),
     "bench workbench": ("bench", "workbench", "SIM001.toml"),
@@ -122,10 +124,11 @@ WITHOUT_TABLE = {
     "run",
     "schema",
     "simulate",
+    "study skin",
 }
 """Shown elsewhere: `payload` needs a wrist, `fleet run` processes, `simulate`, `torque-loop`, `oscillation-causes`,
-`run` and `demo` minutes; `schema` is JSON; `dataset compensate` a dataset, `live` a stream, `joint-collisions` an arm,
-which their own tests have."""
+`study skin`, `run` and `demo` minutes; `schema` is JSON; `dataset compensate` a dataset, `live` a stream,
+`joint-collisions` an arm, which their own tests have."""
 
 
 def _write_limits(arm: Path) -> None:
@@ -147,6 +150,11 @@ def _write_touch(arm: Path) -> None:
 def _write_warm_record(arm: Path) -> None:
     (arm / "chamber").mkdir()
     write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
+
+
+def _write_days(arm: Path) -> None:
+    (arm / "days").mkdir()
+    write_sessions(arm / "days")
 
 
 def _write_runs(arm: Path) -> None:
@@ -203,6 +211,7 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "fit.toml": write_chambers,
         "touched.toml": _write_touch,
         "chamber/chamber.toml": _write_warm_record,
+        "days/days.toml": _write_days,
         "wrist/contest.toml": _write_runs,
         "excited/taps.toml": _write_fast,
         "sway/swaying.toml": _write_sway,

@@ -6,18 +6,23 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment import loading
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.formats.ros.mcap_writer import typestore
 from tests.app.outcome import Run
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.scenes.experiments import PARQUET
+from tests.viewer.test_rerun_file import rrd_columns
 
 pytest.importorskip("rosbags")
+SOLVER_ROUNDING = 1e-9
+"""N, N m: sums of wrenches of some 60 N in another order, at 1e-16 times the condition number."""
 
 
 def _topics(file: Path) -> dict[str, int]:
@@ -39,6 +44,21 @@ def _forces(file: Path, topic: str) -> FloatArray:
         rows = [row for _, data in bag.messages(topic) for row in data]
         forces = [types.deserialize_cdr(row, bag.types[topic]).wrench.force for row in rows]
     return np.array([[force.x, force.y, force.z] for force in forces])
+
+
+def _series(file: Path, name: str) -> tuple[list[int], FloatArray]:
+    """Stamps of a wrench, and its numbers, shape (n, 6), as the library of the form reads them."""
+    if file.suffix == ".rrd":
+        columns = rrd_columns(file)[0]
+        force, moment = (columns[f"/{name}/{half}"] for half in ("force", "torque"))
+        assert force["time"] == moment["time"]
+        return force["time"], np.hstack([half["Scalars:scalars"] for half in (force, moment)])
+    types = typestore(file)
+    with opened_bag(file) as bag:
+        stamps, data = zip(*bag.messages(f"/{name}"), strict=True)
+        wrenches = [types.deserialize_cdr(row, bag.types[f"/{name}"]).wrench for rows in data for row in rows]
+    halves = (half for wrench in wrenches for half in (wrench.force, wrench.torque))
+    return np.concatenate(stamps).tolist(), np.array([[half.x, half.y, half.z] for half in halves]).reshape(-1, 6)
 
 
 def test_an_evaluation_is_written_for_viewers(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -71,6 +91,50 @@ def test_a_load_is_written_for_viewers(run: Run, tmp_path: Path) -> None:
     assert np.sqrt((error**2).mean()) < 0.2
     assert any(text.startswith("payload: wrist (not stated): 1.2") for text in _events(file))
     assert (tmp_path / "tool.foxglove.json").is_file()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("ending", ["mcap", "rrd"])
+def test_estimates_read_back_as_their_samples(run: Run, arm: Path, ending: str) -> None:
+    """Contact, expected and measured wrenches at the stamps of the written samples; the error is their difference."""
+    if ending == "rrd":
+        pytest.importorskip("rerun")
+    file = arm / f"view.{ending}"
+    ended = run("estimate", PARQUET, "-c", "fitted.json", "-o", "samples.parquet", "--view", file)
+    assert ended.code == 0, ended.err
+    samples = pq.read_table(arm / "samples.parquet")
+    read = {}
+    for column, name in {
+        "contact.arm_ft": "arm_ft/contact",
+        "contact.base": "base/contact",
+        "expected.arm_ft": "arm_ft/expected",
+        "measured.arm_ft": "arm_ft/fitted_json",
+    }.items():
+        stamps, values = _series(file, name)
+        rows = np.searchsorted(stamps, samples["stamp_ns"])  # the measurement goes on between intervals
+        written = np.column_stack([samples[f"{column}.{component}"] for component in WRENCH_COMPONENTS])
+        assert np.array(stamps)[rows].tolist() == samples["stamp_ns"].to_pylist()
+        np.testing.assert_allclose(values[rows], written, atol=SOLVER_ROUNDING)
+        assert np.abs(values[rows][1:] - written[:-1]).max() > 0.01  # negative control: the sample before
+        read[column] = values[rows]
+    stamps, error = _series(file, "arm_ft/fitted_json/error")
+    assert stamps == samples["stamp_ns"].to_pylist()
+    np.testing.assert_allclose(error, read["measured.arm_ft"] - read["expected.arm_ft"], atol=SOLVER_ROUNDING)
+
+
+@pytest.mark.long
+def test_an_evaluation_in_rerun_reads_back_as_in_mcap(run: Run, arm: Path) -> None:
+    """The same stamps, errors to the last bit, and verdict."""
+    pytest.importorskip("rerun")
+    for ending in ("mcap", "rrd"):
+        assert run("evaluate", PARQUET, "-c", "fitted.json", "--view", f"view.{ending}").code == 0
+    for name in ("arm_ft/fitted_json/error", "arm_ft/prior/error"):
+        (mcap_stamps, mcap_values), (stamps, values) = (_series(arm / f"view.{end}", name) for end in ("mcap", "rrd"))
+        assert len(stamps) > 100
+        assert stamps == mcap_stamps
+        np.testing.assert_array_equal(values, mcap_values)
+    texts = [text for (text,) in rrd_columns(arm / "view.rrd")[0]["/events"]["TextLog:text"]]
+    assert sorted(texts) == sorted(_events(arm / "view.mcap"))
 
 
 @pytest.mark.long

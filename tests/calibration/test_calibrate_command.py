@@ -66,8 +66,8 @@ def test_the_answer_counts_many_intervals(arm: Path, run: Run) -> None:
         calibration_answer(calibration, None, "made.json", saved=True, doubtful=False).why[0]
         for calibration in (fitted, campaign)
     )
-    assert f"{fitted.provenance.means} means of 1 s of {interval.label}: residual" in one
-    assert several == one.replace(f"of {interval.label}:", "of 200 intervals:")
+    assert f"{fitted.provenance.means} means of 1 s of '{interval.label}': residual" in one
+    assert several == one.replace(f"of '{interval.label}':", "of 200 intervals:")
 
 
 def test_a_fit_to_fewer_means_than_unknowns_states_no_residual(arm: Path, run: Run) -> None:

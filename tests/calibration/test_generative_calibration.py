@@ -13,7 +13,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, fit_doubts
-from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, read_calibration, write_calibration
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments

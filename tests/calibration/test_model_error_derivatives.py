@@ -17,7 +17,7 @@ from forcetorque.base.pose import rotation_about_z
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
 from forcetorque.calibration.generative.fit import GenerativeFit, SolvedRows, fit_generative
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
-from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration import assumptions
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import Scale

@@ -19,6 +19,8 @@ from forcetorque.collisions.findings import with_collisions
 from forcetorque.collisions.result import Collisions
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.inspection.residual_findings import UNEXPLAINED
 from forcetorque.recording.recording import Finding, Support
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.robot.dynamics import joints_between, link_pose
@@ -191,6 +193,33 @@ def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, mon
     assert [one.kind for one in with_collisions(others, experiment, {})] == ["not_compared", "gap", "gap"]
     ignored = experiment.recording.with_intervals([])
     assert with_collisions(others, replace(experiment, recording=ignored), {}) == others
+
+
+@pytest.mark.parametrize(
+    ("force_N", "end_s", "kinds"),
+    [
+        (60.0, END_S, ["collision"]),
+        (FORCE_N, START_S + 1.5, ["contact"]),
+        (60.0, 30.0, ["step", "new_level"]),
+    ],
+)
+def test_a_push_is_one_event(folder: Path, tmp_path: Path, force_N: float, end_s: float, kinds: list[str]) -> None:
+    """A collision stands in place of what `inspect` finds there; others stay."""
+    experiment = _planted(folder, tmp_path, lambda run: force_N / FORCE_N * _push(run), end_s=end_s).experiment
+    found = [one for one in inspect_experiment(experiment, with_causes=False) if one.kind in UNEXPLAINED]
+    assert found
+    events = with_collisions(found, experiment, {})
+    assert [one.kind for one in events] == kinds
+    assert events[-1].size == pytest.approx(force_N, rel=0.05)
+    start_ns = experiment.recording.start_ns
+    others = [
+        replace(found[0], kind=kind, stream=stream, start_ns=start_ns + first * 10**9, end_ns=start_ns + last * 10**9)
+        for kind, stream, first, last in (
+            ("contact", "arm_ft", 2, 3), ("off_level", "arm_ft", 0, 40), ("contact", "joints", 17, 18),
+            ("outlier", "arm_ft", 17, 17),
+        )
+    ]  # fmt: skip
+    assert {id(one) for one in others} <= {id(one) for one in with_collisions(others, experiment, {})}
 
 
 def test_the_command_prints_contacts_first(folder: Path, tmp_path: Path, run: Run) -> None:

@@ -16,7 +16,7 @@ import pytest
 import forcetorque
 from forcetorque import evaluation
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
-from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept

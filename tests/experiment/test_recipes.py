@@ -272,6 +272,17 @@ def test_files_of_one_stream_follow_each_other(poses: Path) -> None:
         _recording(poses, rated.replace("{start}", "-1.1"))
 
 
+def test_a_name_that_is_there_is_no_pattern_and_numbers_are_ordered_by_value(poses: Path) -> None:
+    """A file called `wrench[1].txt` is read; `w2.txt` stands before `w10.txt`."""
+    lines = (poses / "wrench.txt").read_text().splitlines(keepends=True)
+    for name, part in (("wrench[1]", lines), ("w2", lines[:11]), ("w10", lines[11:])):
+        (poses / f"{name}.txt").write_text("".join(part))
+    whole = _recording(poses).stream("wrench").signal("wrench").values
+    for name in ("wrench[1].txt", "w[0-9]*.txt"):
+        read = _recording(poses, TEXT.replace('"wrench.txt"', f'"{name}"')).stream("wrench").signal("wrench").values
+        np.testing.assert_array_equal(read, whole)
+
+
 def _replaced(old: str, new: str) -> Callable[[str], str]:
     return lambda text: text.replace(old, new)
 
@@ -293,6 +304,7 @@ REFUSED = {
     "rows before the first": (_replaced(WRENCH_STAMP, f"skip_rows = -1\n{WRENCH_STAMP}"), "skip_rows"),
     "all rows skipped": (_replaced(WRENCH_STAMP, f"skip_rows = 99\n{WRENCH_STAMP}"), r"wrench\.txt"),
     "a pattern of nothing": (_replaced('"wrench.txt"', '"raw/*.csv"'), r"expected files of the pattern 'raw/\*\.csv'"),
+    "no pattern": (_replaced('"wrench.txt"', '"**x/*.txt"'), r"expected (a|files of the) pattern"),
     "a pattern with a rate": (
         _replaced('"wrench.txt"\n' + WRENCH_STAMP, '"w*.txt"\nrate_hz = 5.0\nstart_s = 0.0\ncolumn_names = ["a"'),
         "list the files of a rate",

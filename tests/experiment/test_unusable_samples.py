@@ -14,7 +14,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
 from forcetorque.calibration.joint.untouched_interval import joint_interval
-from forcetorque.calibration.moments import store_moments
+from forcetorque.calibration.reduced_recordings import store_moments
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.calibration.stored_moments import read_moments

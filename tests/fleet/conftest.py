@@ -12,5 +12,6 @@ import pytest
 def without_inspection() -> Iterator[None]:
     """Find nothing in recordings; pictures of commands and processes have what `inspect` finds."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("forcetorque.fleet.sensor_record.inspect_experiment", lambda experiment, **_: ())
+        for module in ("fleet.sensor_record", "calibration.doubts"):
+            patch.setattr(f"forcetorque.{module}.inspect_experiment", lambda experiment, **_: ())
         yield

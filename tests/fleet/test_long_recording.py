@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -19,38 +19,37 @@ from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.contact_windows import Disagreeing
+from forcetorque.calibration.segmented_moments import SegmentedMoments
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.long_recording import joined_findings, recorded_segments
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.fleet.evaluation_blocks import evaluated_variables
-from forcetorque.fleet.long_recording import SegmentedSensor, joined_findings, recorded_segments
+from forcetorque.fleet.segmented_evaluation import SegmentedEvaluation
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
 from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment
+from tests.scenes.segments import SEGMENT_S, short_segments
 from tests.scenes.studies import CALIBRATION, VALIDATION
 
 _SAME = 1e-5
-"""Stamps jitter, and the grid on which joints are differentiated begins elsewhere in a segment: parts of a load."""
-_JITTER = 2
-"""Samples of a second that are in the next one: seconds count from the first sample of a segment."""
-_SEGMENT_S = 5.9
-"""Length of the segments."""
-_OF_ERROR = 0.05
+"""The grid on which joints are differentiated begins elsewhere in a segment: parts of a load."""
+_TWO_SAMPLES_S = 0.045
+"""Two periods at 50 Hz, and rounding of messages: parts end where windows do, up to a sample behind the border."""
+_OF_ERROR = 1e-3
 """The same after a fit, as a part of the standard error."""
 
 
-@pytest.fixture
-def short_segments(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Segments with 2.4 s around them, of no sample beside these, cut at whole seconds."""
-    monkeypatch.setattr("forcetorque.recording.segments.BLOCK_NS", 10**9)
-    monkeypatch.setattr("forcetorque.recording.segments._SHORT", 0)
-    monkeypatch.setattr("forcetorque.fleet.long_recording._LEAST_MARGIN_S", 0.0)
-    monkeypatch.setattr("forcetorque.fleet.long_recording._WINDOWS", 0.6)
+@pytest.fixture(name="short_segments")
+def segments() -> Iterator[None]:
+    """Segments with few samples around them, whose length a test states."""
+    with short_segments(1800.0):
+        yield
 
 
 def _records(file: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[SensorRecord, SensorRecord]:
@@ -58,7 +57,7 @@ def _records(file: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[SensorRecord,
     options = AddOptions()
     (whole,) = sensor_records(load_experiment(file), options, "1")
     with monkeypatch.context() as patch:
-        shorter = partial(recorded_segments, length_s=_SEGMENT_S)
+        shorter = partial(recorded_segments, length_s=SEGMENT_S)
         patch.setattr("forcetorque.fleet.sensor_record.recorded_segments", shorter)
         experiment = load_experiment(file)
         assert len(shorter(experiment)) > 1
@@ -89,7 +88,8 @@ def test_moments_of_segments_are_those_of_the_recording(recorded: Path, monkeypa
         assert one.interval.content is not None
         assert other.interval.content is not None
         assert [term.name for term in one.terms] == [term.name for term in other.terms]
-        assert np.abs(one.count - other.count).max() <= _JITTER
+        assert np.array_equal(one.count, other.count)
+        assert np.array_equal(one.raw, other.raw)
         for name in ("raw_minimum_counts", "raw_maximum_counts", "variable_minimum", "variable_maximum"):
             assert np.array_equal(getattr(one, name), getattr(other, name))
         for name in ("mean", "second_moment"):
@@ -186,7 +186,7 @@ def test_a_segment_without_samples_is_left_out(recorded: Path, monkeypatch: pyte
         calls.append(interval)
         raise RecordingError("no sample in it to use")
 
-    patch = partial(recorded_segments, length_s=_SEGMENT_S)
+    patch = partial(recorded_segments, length_s=SEGMENT_S)
     monkeypatch.setattr("forcetorque.fleet.sensor_record.recorded_segments", patch)
     with monkeypatch.context() as lose:
         lose.setattr("forcetorque.experiment.sensor_run.SensorRun.interval_samples", lost)
@@ -214,7 +214,7 @@ def test_an_interval_without_samples_is_refused(recorded: Path, monkeypatch: pyt
         return samples(run, interval, **options)
 
     monkeypatch.setattr(SensorRun, "interval_samples", without_late)
-    sensor = SegmentedSensor(run, block_s=60.0)
+    sensor = SegmentedMoments(run)
     sensor.add(run)
     with pytest.raises(RecordingError, match="'late' has no sample"):
         sensor.moments()
@@ -232,7 +232,8 @@ def test_an_event_across_segments_is_one_warning(recorded: Path, monkeypatch: py
         seen.append((start, end))
         return (_finding(start + start_ns, end + start_ns, "no sample"),) if start < end else ()
 
-    monkeypatch.setattr("forcetorque.fleet.sensor_record.inspect_experiment", inspected)
+    for module in ("fleet.sensor_record", "calibration.doubts"):
+        monkeypatch.setattr(f"forcetorque.{module}.inspect_experiment", inspected)
     monkeypatch.setattr("forcetorque.inspection.findings.inspect_experiment", inspected)
     whole, segmented = _records(file, monkeypatch)
     assert len(set(seen)) > 2
@@ -244,7 +245,7 @@ def test_an_event_across_segments_is_one_warning(recorded: Path, monkeypatch: py
 def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A contact that begins gently before the border leaves out the same samples as in the whole recording."""
     file = recorded / CALIBRATION[0]
-    border_s = recorded_segments(load_experiment(file), length_s=_SEGMENT_S)[1].start_ns * 1e-9
+    border_s = recorded_segments(load_experiment(file), length_s=SEGMENT_S)[1].start_ns * 1e-9
 
     def agreeing(
         data_sets: Sequence[DataSet], *_: object, **__: object
@@ -267,7 +268,7 @@ def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeyp
     said = [text for record in records if record.moments for text in record.moments.warnings if "left out" in text]
     border = border_s - load_experiment(file).recording.start_ns * 1e-9
     ends = [[float(end) for end in re.findall(r"\d+\.\d+", text)[:2]] for text in said]
-    assert np.abs(np.array(ends) - border - [[-1.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]).max() < 0.03
+    assert np.abs(np.array(ends) - border - [[-1.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]).max() < _TWO_SAMPLES_S
 
 
 @pytest.mark.usefixtures("short_segments")
@@ -275,7 +276,7 @@ def test_frozen_samples_are_counted_across_segments(recorded: Path, monkeypatch:
     """Also those of a segment of which no sample is left, and those that were left out for another reason."""
     experiment = load_experiment(recorded / CALIBRATION[0])
     sensor = experiment.sensors[0]
-    borders = [segment.start_ns for segment in recorded_segments(experiment, length_s=_SEGMENT_S)]
+    borders = [segment.start_ns for segment in recorded_segments(experiment, length_s=SEGMENT_S)]
     assert len(borders) > 2
     stream = experiment.recording.stream(sensor.stream)
     values = np.array(stream.signal(sensor.quantity).values)
@@ -285,7 +286,7 @@ def test_frozen_samples_are_counted_across_segments(recorded: Path, monkeypatch:
     streams = {**experiment.recording.streams, stream.name: replace(stream, signals=signals)}
     experiment = replace(experiment, recording=replace(experiment.recording, streams=streams))
     (whole,) = sensor_records(experiment, AddOptions(), "1")
-    patch = partial(recorded_segments, length_s=_SEGMENT_S)
+    patch = partial(recorded_segments, length_s=SEGMENT_S)
     monkeypatch.setattr("forcetorque.fleet.sensor_record.recorded_segments", patch)
     (segmented,) = sensor_records(replace(experiment), AddOptions(), "1")
     (one,), (parts,) = _intervals(whole), _intervals(segmented)
@@ -314,9 +315,9 @@ def test_validation_intervals_share_their_files(recorded: Path, monkeypatch: pyt
     roles = {part.label: experiment.roles[first.label] for part in parts}
     experiment = replace(experiment, recording=replace(experiment.recording, intervals=parts), roles=roles)
     run = SensorRun(experiment, experiment.sensors[0])
-    sensor = SegmentedSensor(run, block_s=60.0)
-    sensor.add(run)
-    evaluated = sensor.evaluated()
+    evaluation = SegmentedEvaluation(run)
+    evaluation.add(run)
+    evaluated = evaluation.samples()
     assert evaluated is not None
     assert len(files) == 2
     for part, own in zip(parts, evaluated, strict=True):

@@ -29,6 +29,7 @@ import pyarrow.parquet as pq
 from scipy.io import savemat
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.log_format import SketchingFormat
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.tabular.numbers import ISO8601
@@ -131,6 +132,25 @@ def _table_case(folder: Path, name: str) -> Case:
     return Case(log=path, file=path, read=lambda: tables._stream(path, layout))
 
 
+def _lists_case(folder: Path, form: str) -> Case:
+    """Lists of fixed and of variable length in a table of Parquet, or in a file or stream of Arrow."""
+    columns = tables._columns(tables.ROWS)
+    flat = pa.array(np.column_stack([columns[name] for name in WRENCH_COMPONENTS]).reshape(-1))
+    lists = pa.FixedSizeListArray.from_arrays(flat, 6)
+    table = pa.table({"t": columns["t"], "w": lists, "v": lists.cast(pa.list_(flat.type))})
+    path = folder / f"log.{form}"
+    if form == "parquet":
+        pq.write_table(table, path)
+    else:
+        make = pa.ipc.new_file if form == "feather" else pa.ipc.new_stream
+        packed = pa.ipc.IpcWriteOptions(compression="lz4") if form == "feather" else None
+        with make(str(path), table.schema, options=packed) as writer:
+            writer.write_table(table, max_chunksize=tables.ROWS // 2)
+    signals = [replace(tables.WRENCH, columns=tuple(f"{name}[{k}]" for k in range(6))) for name in "wv"]
+    layouts = [replace(tables.LAYOUT, signals=(signal,)) for signal in signals]
+    return Case(log=path, file=path, read=lambda: [tables._stream(path, layout) for layout in layouts])
+
+
 def _dates_case(folder: Path) -> Case:
     columns = tables._columns(tables.ROWS)
     columns["t"] = columns["t"].astype("datetime64[ms]")
@@ -202,6 +222,9 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
     "tsv": ("tabular", lambda folder: _table_case(folder, "log.tsv")),
     "dates": ("tabular", _dates_case),
     "parquet table": ("tabular", lambda folder: _table_case(folder, "parquet")),
+    "lists in a table": ("tabular", lambda folder: _lists_case(folder, "parquet")),
+    "lists in a file of Arrow": ("tabular", lambda folder: _lists_case(folder, "feather")),
+    "lists in a stream of Arrow": ("tabular", lambda folder: _lists_case(folder, "arrows")),
     "recording": ("parquet", _recording_case),
     "packed port": ("yarp", _port_case),
     "bag of ROS 1": ("ros", lambda folder: _bag_case(folder, "bag")),
@@ -225,6 +248,11 @@ CASES: dict[str, tuple[str, Callable[[Path], Case]]] = {
         "lerobot",
         lambda folder: _dataset_case(folder, "v3.0", "meta/episodes/chunk-000/file-000.parquet"),
     ),
+    "frames of an episode": (
+        "lerobot",
+        lambda folder: _dataset_case(folder, "v2.1", "data/chunk-000/episode_000001.parquet"),
+    ),
+    "description of a dataset of v3.0": ("lerobot", lambda folder: _dataset_case(folder, "v3.0", "meta/info.json")),
     "list of episodes": ("lerobot", lambda folder: _dataset_case(folder, "v2.1", "meta/episodes.jsonl")),
     "description of a dataset": ("lerobot", lambda folder: _dataset_case(folder, "v2.1", "meta/info.json")),
 }

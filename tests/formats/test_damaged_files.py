@@ -19,8 +19,17 @@ from tests.formats.ros import test_log_format as ros
 from tests.formats.ros.bags import write_bag
 from tests.fuzzing import sampled
 
-SLOW = ("packed sqlite3", "packed mcap", "index", "matlab 7.3", "hdf5 of other files")
-"""Forms of files that take seconds; other forms of the same readers stand for them in the quick run."""
+SLOW = (
+    "packed sqlite3",
+    "packed mcap",
+    "index",
+    "matlab 7.3",
+    "hdf5 of other files",
+    "lists in a stream of Arrow",
+    "frames of an episode",
+    "description of a dataset of v3.0",
+)
+"""Forms of files that take seconds, or are read as others are; those stand for them in the quick run."""
 
 
 @pytest.fixture(scope="module")

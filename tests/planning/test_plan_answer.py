@@ -58,7 +58,7 @@ def test_errors_before_and_after_are_the_reason() -> None:
         "(95 %: 0.15 N m); held at base, tool: none",
         "after all 2 recordings: 1 N (95 %: 1.5 N) of 1 N allowed, 0.05 N m (95 %: 0.075 N m) of 0.1 N m allowed",
     )
-    assert (answer.written, answer.concern) == (("next",), Concern.NONE)
+    assert (answer.written, answer.concern) == (("next", None), Concern.NONE)
 
 
 @pytest.mark.parametrize(("force", "moment"), [(1.1, 0.05), (0.9, 0.11)])
@@ -81,3 +81,14 @@ def test_that_nothing_helps_is_the_verdict() -> None:
 def test_what_is_not_limited_does_not_help(limits: dict[str, float], expected: bool) -> None:
     """A moment error that falls, where only the force is limited."""
     assert helps(_recording(1, 3.999, 0.1, **limits)) == expected
+
+
+def test_the_figure_has_typical_errors_what_they_are_at_most_and_what_is_allowed() -> None:
+    """Before, and after each recording; no limit where none is stated, and on paper what the message says."""
+    figure = _plan(_recording(1, 2.0, 0.1, moment=np.inf), _recording(2, 1.0, 0.05, moment=np.inf)).figure()
+    force, moment = figure.axes
+    assert [list(line.get_ydata()) for line in force.lines] == [[4.0, 2.0, 1.0], [1.0, 1.0]]
+    assert [list(line.get_ydata()) for line in moment.lines] == [[0.2, 0.1, 0.05]]
+    (spans,) = moment.collections
+    np.testing.assert_allclose([end[1] for _, end in spans.get_segments()], [0.3, 0.15, 0.075])
+    assert figure.get_suptitle() == ("arm_ft (SIM001), push: predicted force error 4 N now, 1 N after 2 recordings")

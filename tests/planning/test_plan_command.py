@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -37,10 +38,13 @@ def limited(arm: Path) -> str:
 def test_a_plan_is_shown_and_written(run: Run, arm: Path, limited: str) -> None:
     """Tables for people; JSON that is the same in the folder; a line per recording as CSV."""
     words = ("plan", limited, "-c", "fitted.json", "--recordings", "1", "--seconds", "20")
-    shown = run(*words, "-o", "next", "--details")
+    shown = run(*words, "-o", "next", "--figure", "plan.png", "--details")
     assert shown.code == 0
+    assert (arm / "plan.png").read_bytes().startswith(b"\x89PNG")
+    assert "drawn to plan.png" in shown.out.splitlines()
+    assert json.loads((arm / "next/plan.json").read_text(encoding="utf-8"))["figure"] == "plan.png"
     assert "recording 1: positions of the joints that move, deg" in shown.out
-    assert "written: next" in shown.out.splitlines()
+    assert "written: next, plan.png" in shown.out.splitlines()
     names = sorted(path.name for path in (arm / "next").iterdir())
     assert names == ["plan.json", "trajectory_1.csv", "trajectory_1_ros.yaml", "trajectory_1_yarp"]
     result = run(*words, "--format", "json").result()

@@ -36,7 +36,15 @@ def test_people_see_steps_and_sensors(days: Path, run: Run) -> None:
 
 
 @pytest.mark.parametrize(
-    "option", [("-c", "x.json"), ("--load-case", "push"), ("--clearance-deg", "5"), ("--seconds", "9"), ("-o", "next")]
+    "option",
+    [
+        ("-c", "x.json"),
+        ("--load-case", "push"),
+        ("--clearance-deg", "5"),
+        ("--seconds", "9"),
+        ("-o", "next"),
+        ("--figure", "x.png"),
+    ],
 )
 def test_options_of_one_sensor_are_refused(days: Path, run: Run, option: tuple[str, ...]) -> None:
     """Motions are given: there is nothing to look for."""

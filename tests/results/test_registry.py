@@ -20,11 +20,11 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Row
 from forcetorque.study.result import Studies
 
-class Drift(Result):
-    schema_name: Literal["forcetorque/drift/3"] = Field(default="forcetorque/drift/3", alias="schema")
+class Wear(Result):
+    schema_name: Literal["forcetorque/wear/3"] = Field(default="forcetorque/wear/3", alias="schema")
 
 class Foreign(Result):
-    schema_name: Literal["elsewhere/drift/1"] = Field(default="elsewhere/drift/1", alias="schema")
+    schema_name: Literal["elsewhere/wear/1"] = Field(default="elsewhere/wear/1", alias="schema")
 
 class Part(Result):
     pass
@@ -36,15 +36,15 @@ def test_a_result_is_known_without_being_listed(tmp_path: Path, monkeypatch: pyt
     package = tmp_path / "registry_sample"
     package.mkdir()
     (package / "__init__.py").touch()
-    (package / "drift.py").write_text(MODULE, encoding="utf-8")
+    (package / "wear.py").write_text(MODULE, encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
     import registry_sample  # type: ignore[import-not-found]
 
-    assert "registry_sample.drift" not in sys.modules
+    assert "registry_sample.wear" not in sys.modules
     (name, kind), *others = result_classes(registry_sample).items()
-    assert (name, kind.__name__, others) == ("drift", "Drift", [])
+    assert (name, kind.__name__, others) == ("wear", "Wear", [])
     assert issubclass(kind, Result)
-    assert "drift" not in result_classes(forcetorque), "control: packages that were not asked for"
+    assert "wear" not in result_classes(forcetorque), "control: packages that were not asked for"
 
 
 def test_results_of_questions_are_known() -> None:

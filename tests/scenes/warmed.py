@@ -17,10 +17,8 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import (
     NOISE_COUNTS,
-    REFERENCE_PA,
-    REST_COUNTS,
     TaxelResponses,
-    chamber_recording,
+    chamber_messages,
 )
 from forcetorque.skin.simulation.temperature import HeatResponses, Warmth, warm_recording
 from tests.scenes.patches import cylinder_patch
@@ -68,16 +66,6 @@ class WarmShank:
     def chamber(self, seed: int = 8) -> Recording:
         """A chamber log; pads stay as they are."""
         return chamber_messages(self.layout, self.taxels, np.random.default_rng(seed))
-
-
-def chamber_messages(layout: SkinLayout, taxels: TaxelResponses, rng: np.random.Generator) -> Recording:
-    """A chamber log in whole messages; thermal pads stay as they are."""
-    log = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
-    stream = log.stream("counts")
-    counts = np.zeros((len(stream.stamp_ns), layout.columns))
-    counts[:, layout.taxels] = stream.signal("taxel_counts").values
-    counts[:, layout.thermal_pads] = REST_COUNTS
-    return with_counts(log, counts)
 
 
 def counts_of(recording: Recording) -> tuple[FloatArray, FloatArray]:

@@ -23,7 +23,7 @@ from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
 from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
-from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
+from forcetorque.skin.simulation.recordings import REFERENCE_PA, SIMPLE_AREA_M2, TaxelResponses, chamber_recording
 from forcetorque.skin.taxels.curve import CurveKind, fit_curve
 from forcetorque.skin.taxels.fit import calibrated_taxel
 from forcetorque.skin.taxels.patch_calibration import PressureTable
@@ -33,8 +33,6 @@ from forcetorque.skin.wrench.patch import SkinPatch
 
 TUNED_SEED: Final = 1
 JUDGED_SEED: Final = 2
-SIMPLE_AREA_M2: Final = 39e-6
-"""Area of a taxel with which the simple sum is as much too small as in table 7.1: a triangle of 3 cm over 10."""
 FRAMES: Final = 10
 REST_FRAMES: Final = 100
 DEAD_SHARE: Final = 0.15

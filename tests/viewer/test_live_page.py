@@ -169,6 +169,7 @@ def test_sensors_without_a_robot_stand_side_by_side() -> None:
     ("changed", "message"),
     [
         ({"joints": None}, "--joints and --frame too"),
+        ({"robot": None}, "--joints: .* expected --robot too"),
         ({"frame": None}, "--joints and --frame too"),
         ({"frame": "nowhere"}, "expected a link"),
         ({"shown": False}, "got none of --base-gravity, --tool-mass"),
@@ -192,6 +193,7 @@ def test_the_command_serves_a_page(arm: Path, run: Run) -> None:
     assert "page: http://127.0.0.1:" in outcome.err
     assert "1200 samples" in outcome.err
     assert "--view too" in run(*words, "--port", 8123).error()
-    assert "more than 0" in run(*words, "--view", "--view-s", 0).error()
-    with pytest.raises(ForceTorqueError, match="more than 0"), live_page(Settings(), None, [], window_s=-1.0):  # type: ignore[arg-type]
+    for window_s in (0, "inf", "nan"):
+        assert "--view-s: expected a finite number above 0" in run(*words, "--view", "--view-s", window_s).error()
+    with pytest.raises(ForceTorqueError, match="above 0"), live_page(Settings(), None, [], window_s=-1.0):  # type: ignore[arg-type]
         pass

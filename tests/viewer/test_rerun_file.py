@@ -21,8 +21,8 @@ SINGLE = 1e-6
 """Rerun keeps poses and arrows in 24 bits."""
 
 
-def _columns(file: Path) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
-    """Columns over time by entity, and the kinds of what the file holds."""
+def rrd_columns(file: Path) -> tuple[dict[str, dict[str, list[Any]]], list[str]]:
+    """Read columns over time by entity, and the kinds of what the file holds, by the library of Rerun."""
     reader = pytest.importorskip("rerun.chunk").RrdReader(file)
     found: dict[str, dict[str, list[Any]]] = {}
     for chunk in reader.stream():
@@ -42,7 +42,7 @@ def test_the_file_reads_back(built: BuiltScene, tmp_path: Path) -> None:
     pytest.importorskip("rerun")
     log, file = viewer_log(built), tmp_path / "view.rrd"
     assert write_rrd(file, log) == file.stat().st_size
-    columns, kinds = _columns(file)
+    columns, kinds = rrd_columns(file)
     assert sorted(kinds) == ["blueprint", "recording"]
     for wrench in log.wrenches:
         for half, part in (("force", slice(3)), ("torque", slice(3, 6))):
@@ -73,7 +73,7 @@ def test_a_load_of_a_log_reads_back(run: Run, tmp_path: Path) -> None:
     log = write_text(tmp_path / "log.txt", recorded(Tool(), poses=10, samples=4, raw=True))
     ended = run("payload", log, "--view", tmp_path / "tool.rrd")
     assert ended.code == 0, ended.err
-    columns, kinds = _columns(tmp_path / "tool.rrd")
+    columns, kinds = rrd_columns(tmp_path / "tool.rrd")
     assert sorted(kinds) == ["blueprint", "recording"]
     errors = np.array(columns["/wrist/logged/error/force"]["Scalars:scalars"])
     assert 0.0 < np.sqrt((errors**2).mean()) < 0.2

@@ -11,10 +11,12 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, UnitError
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.workbench.calibrate import workbench
 from forcetorque.workbench.recording import read_bench
 from forcetorque.workbench.result import Workbench
+from tests.app.outcome import Run
 
 CELL = """schema = "forcetorque/bench/1"
 
@@ -148,6 +150,78 @@ def test_what_does_not_fit_is_refused(
     path.write_text(text.replace(old, new, 1).replace("p.txt", "p.json"), encoding="utf-8")
     with pytest.raises(kind, match=message):
         read_bench(path)
+
+
+def _single(folder: Path, *, gain_of_last: float = 1.0) -> Path:
+    """A cell of one component with three series from zero, the last of another gain."""
+    force = np.tile(np.linspace(0.0, 10.0, 6), 3)
+    gains = np.repeat([1.0, 1.0, gain_of_last], 6)
+    path = _cell(folder, ["fz"], {"fz": force * gains}, np.array([[5e4]]))
+    table = np.loadtxt(folder / "cell.csv", delimiter=",", skiprows=1)
+    table[:, 1] /= gains
+    np.savetxt(folder / "cell.csv", table, delimiter=",", header="raw0,fz", comments="")
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('format = "rows"', 'format = "rows"\nseries_from_zero = true'), encoding="utf-8")
+    return path
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+@pytest.mark.parametrize(("gain", "count"), [(1.0, 0), (3.0, 1)])
+def test_a_series_that_the_others_do_not_predict_is_named(tmp_path: Path, gain: float, count: int) -> None:
+    """By the ratio over the measured components; those of one gain are predicted."""
+    result, _ = _fitted(_single(tmp_path, gain_of_last=gain))
+    named = [warning for warning in result.warnings if "the other series do not predict 'from line 14'" in warning]
+    assert len(named) == count
+    assert all(np.isfinite(row.ratio) for row in result.series)
+
+
+@pytest.mark.parametrize(
+    ("table", "limits", "message"),
+    [
+        ("workbench", {"faults": 0}, r"\[workbench\] cannot be evaluated: workbench.faults was not measured"),
+        ("workbench", {"invalid_blocks": 0}, "workbench.invalid_blocks was not measured"),
+        ("workbench", {"held_out": {"tx": 0.1}}, "workbench.held_out.tx was not measured"),
+        ("uncertainty", {"offset": {"fx": 0.1}}, "uncertainty.offset.fx was not measured"),
+        ("matrix", {"condition": 3.0}, r"\[matrix\] cannot be evaluated: expected a sensor of six components"),
+    ],
+)
+def test_limits_for_what_is_not_measured_are_refused(
+    tmp_path: Path, table: str, limits: dict[str, object], message: str
+) -> None:
+    """Whether or not zero would keep them; those of the measured component are judged."""
+    recording = read_bench(_single(tmp_path))
+    stated = {"workbench": {"held_out": {"fz": 10.0}}, "uncertainty": {"matrix_relative": 0.5}}
+    accepted, refused = (
+        AcceptanceFile.model_validate({"schema": "forcetorque/acceptance/1", "name": "cell", **tables})
+        for tables in (stated, {table: limits})
+    )
+    result = workbench([recording], code_version="0", created="2026-01-01", spec=accepted)
+    assert {row.criterion: row.passed for row in result.criteria} == {
+        "uncertainty.matrix_relative": True,
+        "workbench.held_out.fz": True,
+    }
+    with pytest.raises(ExperimentError, match=message):
+        workbench([recording], code_version="0", created="2026-01-01", spec=refused)
+
+
+def test_a_calibration_without_a_figure_is_written_with_a_warning(run: Run, tmp_path: Path) -> None:
+    """Forces of one component lie on no sphere."""
+    path, written, figure = _single(tmp_path), tmp_path / "new.json", tmp_path / "new.png"
+    outcome = run("bench", "workbench", path, "-o", written, "--figure", figure)
+    assert outcome.code == 0
+    assert "not drawn: --figure" in outcome.err
+    assert written.exists()
+    assert not figure.exists()
+
+
+def test_blank_rows_are_no_positions(tmp_path: Path) -> None:
+    """As a spreadsheet leaves them below its table, whose other components are zeros."""
+    path = _single(tmp_path)
+    with (tmp_path / "cell.csv").open("a", encoding="utf-8") as table:
+        table.write(",\n,\n")
+    assert len(read_bench(path).loads) == 18
+    result, _ = _fitted(path)
+    assert result.sensors[0].without_load == ()
 
 
 def test_an_axis_that_no_position_loads_is_named(tmp_path: Path) -> None:

@@ -17,6 +17,11 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Change a text where it differs: what the user selected stays selected, and a reader aloud is not told twice. */
+export function say(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** Make a text for who listens, where others see a colour or a picture. */
 export function spoken(text: string): HTMLElement {
   return el("span", { class: "spoken" }, text);

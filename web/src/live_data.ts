@@ -15,6 +15,8 @@ interface Kept {
 /** Samples of a stream. */
 export class LiveData extends SceneData {
   readonly feed: LiveFeed;
+  /** Whether there is room for less than the time that is wanted. */
+  isFull = false;
   private count = 0;
   private readonly kept: readonly Kept[];
 
@@ -64,7 +66,9 @@ export class LiveData extends SceneData {
   /** Leave out what is older than an instant, and more where there is no room for some rows. */
   private makeRoom(rows: number, oldest_s: number): void {
     const old = this.count === 0 ? 0 : this.firstAt(oldest_s);
-    const leave = Math.min(this.count, Math.max(old, this.count + rows - this.time.length));
+    const over = this.count + rows - this.time.length;
+    this.isFull = over > old;
+    const leave = Math.min(this.count, Math.max(old, over));
     this.time.copyWithin(0, leave, this.count);
     for (const { values, columns } of this.kept) values.copyWithin(0, leave * columns, this.count * columns);
     this.count -= leave;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Following a stream: the page asks for what came since it asked last, and draws it before it asks again.
 
-import { button, el } from "./dom";
+import { button, el, say } from "./dom";
 import type { LiveData } from "./live_data";
 import type { LiveSensorState, LiveUpdate } from "./scene_types";
 import type { Store } from "./store";
@@ -79,13 +79,15 @@ export function liveBar(data: LiveData, store: Store): { bar: HTMLElement; show:
     if (update) {
       const { received, lost, late, repeated } = update;
       const unseen = skipped > 0 ? `; ${skipped} samples not shown: the page was too slow, or held` : "";
-      const text = `Packets: ${received} received, ${lost ?? "not countable"} lost, ${late} late, ${repeated} repeated${unseen}`;
-      if (packets.textContent !== text) packets.textContent = text;
+      const [first, last] = data.span;
+      const room = data.isFull ? `; shown are ${(last - first).toFixed(0)} s, not ${data.feed.window_s} s: ${data.time.length} samples at most` : "";
+      const text = `Packets: ${received} received, ${lost ?? "not countable"} lost, ${late} late, ${repeated} repeated${unseen}${room}`;
+      say(packets, text);
     }
     play.disabled = ended !== null;
     const seconds = update?.silent_s ?? 0;
-    silence.textContent =
-      ended !== null ? `The run ended: ${ended}. What came last stays here.` : seconds > SILENT_S ? `No packet for ${seconds.toFixed(0)} s` : "";
+    const quiet = seconds > SILENT_S ? `No packet for ${seconds.toFixed(0)} s` : "";
+    say(silence, ended !== null ? `The run ended: ${ended}. What came last stays here.` : quiet);
   };
   return { bar: el("footer", { class: "transport" }, play, time, packets, silence), show };
 }
@@ -102,14 +104,17 @@ export function livePanel(data: LiveData): { panel: HTMLElement; show: (state: F
     body,
   );
   const show = ({ update }: Following): void => {
-    const rows = (update?.sensors ?? []).map((sensor, k) => {
+    (update?.sensors ?? []).forEach((sensor, k) => {
       const cells = [sensor.status, drift(sensor), `${sensor.faulty} of ${sensor.samples}`];
-      const name = data.sensor(k)?.name ?? "";
-      return el("tr", {}, el("th", { scope: "row" }, name), ...cells.map((text) => el("td", {}, text)));
+      const row = body.rows[k] ?? body.appendChild(emptyRow(data.sensor(k)?.name ?? "", cells.length));
+      cells.forEach((text, c) => say(row.cells[c + 1]!, text));
     });
-    body.replaceChildren(...rows);
   };
   return { panel: table, show };
+}
+
+function emptyRow(name: string, cells: number): HTMLTableRowElement {
+  return el("tr", {}, el("th", { scope: "row" }, name), ...Array.from({ length: cells }, () => el("td")));
 }
 
 function drift({ drift }: LiveSensorState): string {

@@ -103,7 +103,7 @@ export function goesOn(data: SceneData, store: Store): boolean {
 export function togglePlay(data: SceneData, store: Store): void {
   const { playing, sample } = store.state;
   if (!playing && sample >= data.samples - 1) store.set({ sample: 0 });
-  store.set({ playing: !playing && data.samples > 1 });
+  store.set({ playing: !playing && (data.scene.live !== null || data.samples > 1) });
 }
 
 /** Let the recording run while `playing`: each frame shows the sample of its instant. */

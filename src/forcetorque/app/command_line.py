@@ -48,6 +48,7 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
                 "sensor",
                 "workbench",
                 "thermal",
+                "drift",
                 "response",
                 "gains",
                 "device",
@@ -77,8 +78,8 @@ GROUPS: Final[Mapping[str, tuple[str, Mapping[str, str]]]] = {
         {"check": "check-dataset", "compensate": "compensate-dataset"},
     ),
     "study": (
-        "Compare estimation types, trials and sensors.",
-        {"fits": "study"} | {name: name for name in ("sphere", "compare", "validate")},
+        "Compare estimation types, trials and sensors, and skin with a sensor.",
+        {"fits": "study", "skin": "study-skin"} | {name: name for name in ("sphere", "compare", "validate")},
     ),
 }
 """Help of every group, and its commands with the names that their functions have."""

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
     from forcetorque.calibration.export.command import export_calibrations
     from forcetorque.calibration.joint.calibrate import calibrate_jointly
-    from forcetorque.calibration.moments import recording_moments, store_moments
+    from forcetorque.calibration.reduced_recordings import recording_moments, store_moments
     from forcetorque.calibration.summary import information_figure
 
 CAPABILITY = Capability(
@@ -43,7 +43,7 @@ __getattr__, __dir__ = lazy_names(
         "calibrate_sensor": "forcetorque.calibration.calibrate",
         "export_calibrations": "forcetorque.calibration.export.command",
         "information_figure": "forcetorque.calibration.summary",
-        "recording_moments": "forcetorque.calibration.moments",
-        "store_moments": "forcetorque.calibration.moments",
+        "recording_moments": "forcetorque.calibration.reduced_recordings",
+        "store_moments": "forcetorque.calibration.reduced_recordings",
     },
 )

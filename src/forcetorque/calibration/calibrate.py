@@ -12,11 +12,12 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.doubts import doubts_of_intervals, doubts_of_samples
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
-from forcetorque.calibration.moments import recording_moments
 from forcetorque.calibration.mount import with_estimated_mount
+from forcetorque.calibration.reduced_recordings import is_long, recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
     InformationGain,
     calibration_answer,
@@ -27,7 +28,7 @@ from forcetorque.calibration.summary import (
     learnt_words,
 )
 from forcetorque.calibration.thesis.calibrate import thesis_calibration
-from forcetorque.experiment.additions import added_to, with_recording_notes
+from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
@@ -36,9 +37,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
-from forcetorque.payload.load_on_wrist_sensor import wrist_loads
-from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
-from forcetorque.recording.recording import Finding, Interval, Use
+from forcetorque.recording.recording import Use
 from forcetorque.results.answer import Answer
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
@@ -244,10 +243,6 @@ def _unit(variable: CalibratedVariable) -> str:
     return f"{variable.unit} " if variable.unit else ""
 
 
-_MOST_ALIKE = 5
-"""Findings of one kind in an interval that are doubts by themselves; the rest is counted."""
-
-
 class SensorCalibration(Row):
     """One calibration and the file that holds it."""
 
@@ -428,69 +423,10 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         the file, one per interval in which the file says that something touches the robot beyond it, and one per
         finding in a fitted interval; of many of one kind the first few, and how many more there are.
     """
+    if by_model and is_long(run):
+        yield from reduced_in_segments(run).warnings
+        return
     sensors = (run.sensor.name,)
     yield from doubts_of_samples(run)
     found = unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors, computed=run)
     yield from doubts_of_intervals(run, found, by_model=by_model)
-
-
-def doubts_of_samples(run: SensorRun) -> Iterator[str]:
-    """Say what makes any fit doubtful by the loads, and what the samples say about them.
-
-    Args:
-        run: The sensor, in a recording or a segment of one.
-
-    Yields:
-        The first sentences of `data_doubts`.
-    """
-    if (loads := wrist_loads(run.experiment)) is not None and not loads.are_stated:
-        yield (
-            "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
-            "give mass_kg and centre_of_mass_m to judge it"
-        )
-    yield from contradicted_statements(run)
-    yield from load_doubts(run)
-
-
-def doubts_of_intervals(
-    run: SensorRun, found: Sequence[tuple[Interval, Finding]], *, by_model: bool = True
-) -> Iterator[str]:
-    """Say which intervals are doubtful, without a look at samples.
-
-    Args:
-        run: The sensor in the whole recording.
-        found: Findings in its calibration intervals, as of `unreliable_intervals`.
-        by_model: As of `data_doubts`.
-
-    Yields:
-        The other sentences of `data_doubts`.
-    """
-    if by_model:
-        yield from _touched(run)
-        if (sentence := possible_touch(run)) is not None:
-            yield sentence
-    yield from added_to(run.experiment.recording)
-    yield from _found(run.experiment.recording.start_ns, found)
-
-
-def _found(start_ns: int, found: Sequence[tuple[Interval, Finding]]) -> Iterator[str]:
-    """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
-    alike: dict[str, list[str]] = {}
-    for interval, finding in found:
-        start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
-        kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
-        alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")
-    for kind, sentences in alike.items():
-        yield from sentences[:_MOST_ALIKE]
-        if len(sentences) > _MOST_ALIKE:
-            yield f"{kind}: {len(sentences) - _MOST_ALIKE} more, which `inspect` lists"
-
-
-def _touched(run: SensorRun) -> Iterator[str]:
-    for interval in run.experiment.intervals(Use.CALIBRATION):
-        if names := run.touched_beyond(interval):
-            yield (
-                f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
-                "[[contact]] or contact_links, so that nobody knows what it must read; calibrate all sensors at once, "
-                "--jointly, from Python calibrate_jointly"
-            )

@@ -109,7 +109,7 @@ def calibrate(
     from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
     from forcetorque.calibration.calibrate_jointly_command import calibrate_together, refuse_beside_jointly
     from forcetorque.calibration.corrected_urdf import write_corrected_urdf
-    from forcetorque.calibration.moments import store_moments
+    from forcetorque.calibration.reduced_recordings import store_moments
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
     from forcetorque.results.terminal.output import refuse_figure

@@ -151,7 +151,7 @@ def agreeing_samples(
     spans: list[Disagreeing] = []
     agree = []
     for data, own, rest in zip(data_sets, np.split(marks, ends[:-1]), np.split(left, ends[:-1]), strict=True):
-        window = _window_of_samples(data)
+        window = data.window
         spans += _spans(data, window, own, rest)
         agree.append(~own[window])
     return agree, tuple(spans)
@@ -164,7 +164,7 @@ def _residual(data: DataSet, means: WindowMeans, fit: GenerativeFit) -> tuple[Fl
     with_variables = data.variables.shape[1] > 0
     reference = data.reference if data.flattening is None else data.reference + FLATTENED * data.flattening
     error = model.wrench(data.raw, data.variables if with_variables else None) - model.expected_reading(reference)
-    window = _window_of_samples(data)
+    window = data.window
     starts = np.flatnonzero(np.diff(window, prepend=-1))
     counts = np.diff(starts, append=len(window))
     left: FloatArray = np.add.reduceat(error, starts, axis=0) / counts[:, None]
@@ -197,12 +197,6 @@ def _level(left: FloatArray) -> FloatArray:
     count = min(_AROUND, len(left))
     around = np.median(np.lib.stride_tricks.sliding_window_view(left, count, axis=0), axis=-1)
     return around[np.clip(np.arange(len(left)) - count // 2, 0, len(around) - 1)]
-
-
-def _window_of_samples(data: DataSet) -> IntArray:
-    """Number of the window that each sample is in, as `WindowMeans.of` cuts them; shape (n,)."""
-    window = np.floor((data.time_s - data.time_s[0]) / WINDOW_S + 1e-9)
-    return np.cumsum(np.diff(window, prepend=-1.0) > 0.0) - 1
 
 
 def _spans(data: DataSet, window: IntArray, marks: BoolArray, left: FloatArray) -> Iterator[Disagreeing]:

@@ -9,7 +9,6 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
 from forcetorque.calibration.joint.model_error_columns import (
     delay_terms,
     error_terms,
@@ -247,8 +246,7 @@ def _measured_at_root(run: SensorRun, support: Support | MovingSupport, tree: Bo
 
 def _picked(data: DataSet) -> tuple[IntArray, IntArray]:
     """Samples at which the columns are computed, and the number of the window of every sample."""
-    elapsed = np.floor((data.time_s - data.time_s[0]) / WINDOW_S + WINDOW_ROUNDING)
-    window = np.cumsum(np.diff(elapsed, prepend=elapsed[0]) > 0.0)
+    window = data.window
     starts = np.flatnonzero(np.diff(window, prepend=-1))
     counts = np.diff(starts, append=len(window))
     step = np.maximum(counts // SAMPLES_PER_WINDOW, 1)

@@ -5,30 +5,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
-from urllib.parse import quote
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
 from forcetorque.calibration.model_error_derivatives import model_columns
-from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moment_blocks import in_blocks
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, VariableDescription
-from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.raw_counts import full_scale_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.parameter_vector import OF_LOAD, Kind, places
-from forcetorque.payload.load_warnings import reference_doubts
-from forcetorque.payload.loads_on_robot_links import link_loads
-from forcetorque.recording.recording import Use
 
 _ROUNDING = 1e-12
 """Share of the largest variance below which a combination of loads is known exactly."""
@@ -64,42 +57,6 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
             if biases and np.isfinite(solution.covariance[biases[row], biases[row]]):
                 factor[row, 6 + number] = solution.covariance[biases[row], loads] @ root
     return LoadError(sessions=tuple(sessions), factor=factor)
-
-
-def recording_moments(runs: Runs, *, block_s: float | None = None) -> list[RecordingMoments]:
-    """Reduce the calibration intervals of a sensor.
-
-    Args:
-        runs: The sensor, in one experiment or several.
-        block_s: Longest block that intervals are divided into, `moment_blocks.joined` puts them together; s; None for
-            whole intervals.
-
-    Returns:
-        Moments and means of every recording.
-
-    Raises:
-        ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
-    """
-    from forcetorque.inspection.plausibility.checks import examine
-
-    campaign = Campaign.of(runs)
-    sensor = campaign.sensor
-    without_variables = campaign.runs[0].experiment.fit_options.with_variables is False
-    variables = [] if without_variables else [v.linear for v in sensor.variables]
-    intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
-    doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
-    turned = mount_doubts(campaign, intervals)
-    results = []
-    for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
-        own = [interval for interval in intervals if interval.recording == recording]
-        if not own:
-            continue
-        stated_by = CampaignRecording.of(run)
-        kept, left_out = agreeing_moments(run, own, variables=variables, block_s=block_s)
-        said = [*(doubt.message for doubt in doubts), *turned, *reference_doubts(run), *left_out]
-        moments = moments_of(stated_by, kept, variables=variables, doubts=said)
-        results.append(moments.model_copy(update={"load_error": _load_error(run)}))
-    return results
 
 
 def agreeing_moments(
@@ -181,14 +138,6 @@ def assumptions_of(recording: CampaignRecording) -> Assumptions:
     )
 
 
-def _load_error(run: SensorRun) -> LoadError | None:
-    """What is not known of loads on links that the sensor itself weighed, with the matrix of the same fit."""
-    loads = link_loads(run.experiment)
-    if loads is None or loads.are_stated or loads.weigher.name != run.sensor.name:
-        return None
-    return load_error_of(loads.solution(run.experiment))
-
-
 def moments_of(
     recording: CampaignRecording,
     intervals: Sequence[IntervalMoments],
@@ -243,24 +192,3 @@ def channel_full_scale(recording: CampaignRecording) -> FloatArray:
         Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
     """
     return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
-
-
-def store_moments(runs: Runs, folder: Path | str, *, force: bool = False) -> list[Path]:
-    """Keep what a calibration needs of every recording of a sensor.
-
-    Args:
-        runs: The sensor, in one experiment or several.
-        folder: Where the files go; made where it is missing.
-        force: As of `RecordingMoments.save`.
-
-    Returns:
-        The files, one per recording.
-    """
-    place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
-    files = []
-    for recording in recording_moments(runs):
-        name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
-        files.append(place / f"{quote(name, safe=' ')}.json")
-        recording.save(files[-1], force=force)
-    return files

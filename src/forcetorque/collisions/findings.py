@@ -12,6 +12,7 @@ from forcetorque.collisions.result import CollisionRow
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.residual_findings import UNEXPLAINED
 from forcetorque.recording.recording import Finding, Use
 from forcetorque.results.number_text import plus_minus
 
@@ -19,23 +20,42 @@ ALARMS_PER_HOUR = 1.0
 """Rate of false alarms that they are for, that of `robot collisions`."""
 LONGEST_S = 1800.0
 """Time beyond which the search, which holds a few kilobytes for every 50 ms, is left to the command."""
+_MARGIN_NS = 500_000_000
+"""How far begin and end may differ by the smoothing of `inspect`; ns."""
 
 
 def with_collisions(
     findings: Sequence[Finding], experiment: Experiment, calibrations: Mapping[str, Calibration]
 ) -> tuple[Finding, ...]:
-    """Add the collisions of every sensor that `robot collisions` can look at.
+    """Add the collisions of every sensor that `robot collisions` can look at, in place of the same by `inspect`.
 
     Args:
-        findings: Other findings.
+        findings: Other findings; of these, what `inspect` cannot explain is left out where half of it or more lies in
+            collisions of its stream. A `step` stays beside a `new_level`, which may be that step.
         experiment: The experiment.
         calibrations: By what sensors are read, by their names; by prior or as logged without.
 
     Returns:
         All in the order of time, those without a time first.
     """
-    found = [*findings, *_collisions(experiment, calibrations)]
+    collisions = list(_collisions(experiment, calibrations))
+    found = [*(one for one in findings if not _is_in(one, collisions)), *collisions]
     return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
+
+
+def _is_in(finding: Finding, collisions: Sequence[Finding]) -> bool:
+    if finding.kind not in UNEXPLAINED or finding.start_ns is None or finding.end_ns is None:
+        return False
+    overlaps_ns = [
+        min(one.end_ns + _MARGIN_NS, finding.end_ns) - max(one.start_ns - _MARGIN_NS, finding.start_ns)
+        for one in collisions
+        if one.stream == finding.stream
+        and one.start_ns is not None
+        and one.end_ns is not None
+        and (one.kind, finding.kind) != ("new_level", "step")
+    ]
+    shared_ns = [overlap for overlap in overlaps_ns if overlap >= 0]
+    return bool(shared_ns) and 2 * sum(shared_ns) >= finding.end_ns - finding.start_ns
 
 
 def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> Iterator[Finding]:

@@ -150,6 +150,6 @@ def _strongest(row: CollisionRow) -> str:
 
 def _noticed(sensor: SensitivityRow) -> str:
     return (
-        f"noticed: any force from {sensor.smallest_force_N:.2g} N; threshold for {sensor.alarms_per_hour:g} false "
-        f"alarms per hour, from {sensor.free_s:.3g} s without contact"
+        f"noticed: any force from {sensor.smallest_force_N:.2g} N; threshold for a false alarm rate of "
+        f"{sensor.alarms_per_hour:g} per hour, from {sensor.free_s:.3g} s without contact"
     )

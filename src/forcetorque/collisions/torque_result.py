@@ -100,8 +100,8 @@ class JointCollisions(DrawnResult):
             why=(
                 *found,
                 f"noticed: external torques from {amount(least.threshold_Nm, 'N m')} on {least.joint} to "
-                f"{amount(most.threshold_Nm, 'N m')} on {most.joint}; set for {self.alarms_per_hour:g} false alarms "
-                f"per hour, from {self.free_s:.3g} s without contact",
+                f"{amount(most.threshold_Nm, 'N m')} on {most.joint}; set for a false alarm rate "
+                f"of {self.alarms_per_hour:g} per hour, from {self.free_s:.3g} s without contact",
             ),
             step="see all by --details, and the torques over time by --figure" if self.contacts else "",
             written=(self.figure_file,),

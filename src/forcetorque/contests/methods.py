@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.contests.entries import Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, Trial, trial_by_phase
 from forcetorque.experiment.calibration.artefact import Calibration

@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from forcetorque.results.command import Option, command
+from forcetorque.results.command import SENSORS, Option, command
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -79,7 +79,7 @@ def evaluate(
 
 @command()
 def accept(
-    run: Annotated["Runs", Option("Sensor in one recording or in several, whose errors are pooled.")],
+    run: Annotated["Runs", Option("Sensor in one recording or in several, whose errors are pooled.", "--sensor")],
     spec: Annotated[
         "AcceptanceFile | Path | str",
         Option("Acceptance file (TOML) with the limits; see docs/evaluation/acceptance.md.", "--spec"),
@@ -181,7 +181,7 @@ def compare(
         Option("Experiment files (TOML), in the order of the trials; see docs/evaluation/sphere.md.", typed=list[Path]),
     ],
     *,
-    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    sensors: Annotated[Collection[str], SENSORS] = (),
     calibrations: Annotated["Mapping[str, Calibration] | None", _COMPARED_CALIBRATIONS] = None,
     intervals: Annotated[Collection[str], _SPHERE_INTERVALS] = (),
     by_interval: Annotated[
@@ -227,7 +227,7 @@ def compare(
 @command("the forces, the ellipsoids and the weight by the model")
 def sphere(
     experiment: Annotated["Experiment", Option("Experiment in which a limb is carried around.")],
-    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    sensors: Annotated[Collection[str], SENSORS] = (),
     calibrations: Annotated["Mapping[str, Calibration] | None", _COMPARED_CALIBRATIONS] = None,
     intervals: Annotated[Collection[str], _SPHERE_INTERVALS] = (),
     *,

@@ -19,6 +19,7 @@ from forcetorque.experiment.campaign_intervals import (
 )
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.long_recording import first_segment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 
@@ -152,7 +153,8 @@ class Campaign:
     def usable(self) -> Campaign:
         """Leave out recordings whose samples to fit cannot be evaluated, such as where the log lacks a joint.
 
-        A recording by itself is not left out, nor is any where what the samples need is estimated from all.
+        A recording by itself is not left out, nor is any where what the samples need is estimated from all. Of a long
+        one the first segment with such samples is evaluated.
 
         Returns:
             The recordings that can be fitted, with the others in `left_out`; the same where all can.
@@ -168,7 +170,7 @@ class Campaign:
         for run in self.runs:
             try:
                 if run.has(Use.CALIBRATION):
-                    run.samples(Use.CALIBRATION, variables=variables)
+                    first_segment(run, Use.CALIBRATION).samples(Use.CALIBRATION, variables=variables)
             except ForceTorqueError as error:
                 errors.append((run.experiment.file, error))
             else:
@@ -197,12 +199,15 @@ class Campaign:
         with stated_in(str(run.experiment.file)) if len(self.runs) > 1 else nullcontext():
             yield
 
-    def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[CampaignInterval]:
+    def samples(
+        self, use: Use, *, variables: Collection[str] = (), runs: Sequence[SensorRun] | None = None
+    ) -> list[CampaignInterval]:
         """Pair reading and reference over the intervals of one use.
 
         Args:
             use: The use.
             variables: Names of the linear variables that are wanted; samples that lack one are left out.
+            runs: Those of its runs that are wanted; None for all that have such an interval.
 
         Returns:
             Samples per interval, in the order of the runs and in each in the order of its file.
@@ -213,7 +218,7 @@ class Campaign:
         recordings = dict(zip(self.runs, self._recordings, strict=True))
         return [
             interval
-            for run in self.runs_with(use)
+            for run in (self.runs_with(use) if runs is None else runs)
             for interval in self.names.intervals(recordings[run], run.samples(use, variables=variables))
         ]
 

@@ -84,6 +84,8 @@ class IntervalSamples:
     """The same readings in every form that a correction may want."""
     content: Content | None = None
     """By what samples that are fitted are known again in another log."""
+    origin_s: float | None = None
+    """Instant at which a window of a second starts; s; None for that of the first sample."""
 
     @property
     def raw(self) -> FloatArray:
@@ -100,6 +102,7 @@ class IntervalSamples:
             variables=self.samples.variables,
             time_s=self.samples.stamp_ns * 1e-9,
             flattening=self.samples.flattening,
+            origin_s=self.origin_s,
         )
 
 

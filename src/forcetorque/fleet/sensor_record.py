@@ -18,21 +18,25 @@ from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.calibration.calibrate import data_doubts, doubts_of_intervals, doubts_of_samples
-from forcetorque.calibration.moments import recording_moments
+from forcetorque.calibration.calibrate import data_doubts
+from forcetorque.calibration.doubts import SegmentedDoubts
+from forcetorque.calibration.reduced_recordings import recording_moments
+from forcetorque.calibration.segmented_moments import SegmentedMoments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.address import is_address
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
-from forcetorque.fleet.long_recording import SegmentedSensor, forget_recording, joined_findings, recorded_segments
-from forcetorque.inspection.findings import inspect_experiment, unreliable_among
+from forcetorque.fleet.segmented_evaluation import SegmentedEvaluation
+from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
+from forcetorque.recording.segments import Segment
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 SCHEMA: Final = "forcetorque/dataset/2"
@@ -169,35 +173,23 @@ def sensor_records(
         found = _joined([own.findings for own in reduced])
         yield from (_record(run, found, own, code_version) for run, own in zip(runs, reduced, strict=True))
         return
-    sensors = [SegmentedSensor(run, block_s=options.block_s) for run in runs]
+    sensors = [_Segmented(run, options) for run in runs]
     findings: list[Sequence[Finding]] = []
-    warnings: list[dict[str, None]] = [{} for _ in runs]
-    of_fits: list[list[Sequence[Finding]]] = [[] for _ in runs]
     left = TimeLeft(progress, f"adding {experiment.name}", len(segments) * len(runs))
     forget_recording(experiment)  # which was looked at as it was read
     for number, segment in enumerate(segments):
         found_in = []
         parts = _runs(replace(experiment, recording=segment.recording))
-        for place, (run, sensor, said, of_fit) in enumerate(zip(runs, sensors, warnings, of_fits, strict=True)):
+        for place, sensor in enumerate(sensors):
             own = parts.pop(0)  # its samples are let go before those of the next are computed
-            sensor.add(own)
-            found_in.append(_findings(own))
-            of_fit.append(_findings_of_fit(own) if run.has(Use.CALIBRATION) else ())
-            if own.has(Use.CALIBRATION):
-                said |= dict.fromkeys(doubts_of_samples(own))
+            found_in.append(sensor.add(own))
             del own
             forget_recording(experiment)
             left.at(number * len(runs) + place + 1)
         findings.append(_joined(found_in))
     found_in_all = joined_findings(segments, findings)
-    for run, said, of_fit in zip(runs, warnings, of_fits, strict=True):
-        sensor = sensors.pop(0)  # what is kept of it is let go with its record
-        evaluated = sensor.evaluated()
-        evaluation = None if evaluated is None else StoredEvaluation.of(run, evaluated)
-        if run.has(Use.CALIBRATION):
-            among = unreliable_among(joined_findings(segments, of_fit), run.experiment, Use.CALIBRATION)
-            said |= dict.fromkeys(doubts_of_intervals(run, among))
-        whole = _Reduced(moments=sensor.moments(), evaluation=evaluation, warnings=tuple(said), findings=())
+    for run in runs:
+        whole = sensors.pop(0).reduced(segments)  # what is kept of a sensor is let go with its record
         yield _record(run, found_in_all, whole, code_version)
 
 
@@ -217,6 +209,34 @@ class _Reduced:
     warnings: tuple[str, ...]
 
 
+class _Segmented:
+    """What is computed of one sensor in the segments of a recording."""
+
+    def __init__(self, run: SensorRun, options: AddOptions) -> None:
+        self._run, self._fits = run, run.has(Use.CALIBRATION)
+        self._moments = SegmentedMoments(run, block_s=options.block_s)
+        self._evaluation, self._doubts = SegmentedEvaluation(run), SegmentedDoubts(run)
+
+    def add(self, run: SensorRun) -> list[Finding]:
+        """Reduce a segment, and give what is found in it."""
+        self._moments.add(run)
+        self._evaluation.add(run)
+        findings = _findings(run)
+        if self._fits:
+            self._doubts.add(run)
+        return findings
+
+    def reduced(self, segments: Sequence[Segment]) -> _Reduced:
+        """Put together what was computed."""
+        evaluated = self._evaluation.samples()
+        return _Reduced(
+            moments=self._moments.moments(),
+            evaluation=None if evaluated is None else StoredEvaluation.of(self._run, evaluated),
+            warnings=self._doubts.warnings(segments) if self._fits else (),
+            findings=(),
+        )
+
+
 def _of_whole(run: SensorRun, options: AddOptions) -> _Reduced:
     moments = recording_moments(run, block_s=options.block_s)[0] if run.has(Use.CALIBRATION) else None
     evaluation = StoredEvaluation.of(run) if run.has(Use.VALIDATION) else None
@@ -231,11 +251,6 @@ def _findings(run: SensorRun) -> list[Finding]:
     others = {sensor.stream for sensor in experiment.sensors} - {run.sensor.stream}
     found = inspect_experiment(experiment, sensors=[run.sensor.name], computed=run)
     return [finding for finding in found if finding.stream not in others]
-
-
-def _findings_of_fit(run: SensorRun) -> Sequence[Finding]:
-    """The findings of which `data_doubts` warns; a fit checks the causes by itself."""
-    return inspect_experiment(run.experiment, with_causes=False, sensors=[run.sensor.name], computed=run)
 
 
 def _joined(findings: Sequence[Iterable[Finding]]) -> list[Finding]:

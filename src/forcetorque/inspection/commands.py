@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`forcetorque init` and `forcetorque inspect`."""
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,7 +9,7 @@ import typer
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
-from forcetorque.results.command import Option, command
+from forcetorque.results.command import SENSORS, Option, command
 from forcetorque.results.terminal.options import (
     ColumnNamesOption,
     DetailsOption,
@@ -157,6 +158,7 @@ def inspect(
         "Path | str | None",
         Option("Calibration that reads its sensor. Default: the prior, or as logged.", "--calibration", "-c"),
     ] = None,
+    sensors: Annotated[Collection[str], SENSORS] = (),
     progress: Annotated["Progress", Option("Called with a line for people as work goes on.")] = lambda _: None,
 ) -> "Inspection":
     """Find faults of a log, its experiment file and the URDF.
@@ -170,4 +172,4 @@ def inspect(
     """
     from forcetorque.inspection.inspect import inspect_log
 
-    return inspect_log(log, log_format=log_format, calibration=calibration, progress=progress)
+    return inspect_log(log, log_format=log_format, calibration=calibration, sensors=sensors, progress=progress)

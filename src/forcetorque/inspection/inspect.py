@@ -19,6 +19,7 @@ from forcetorque.experiment.applicability import one_per_sensor
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
+from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.streams import load_tried_clocks
 from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, not_read_message
@@ -40,7 +41,8 @@ from forcetorque.inspection.file_contents import (
     stream_table,
     times_text,
 )
-from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.findings import inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.segmented_findings import inspect_segments
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
 from forcetorque.results.result import Result
@@ -171,6 +173,7 @@ def inspect_log(
     *,
     log_format: str | None = None,
     calibration: Path | str | None = None,
+    sensors: Collection[str] = (),
     progress: Progress = lambda _: None,
 ) -> Inspection:
     """Inspect an experiment file, a log of any known format, or the calibration of a maker.
@@ -179,28 +182,34 @@ def inspect_log(
         path: Experiment file, folder or file of a log, or file of the calibration of a maker.
         log_format: Name of the format of a log; recognised from the files if left out.
         calibration: File of the calibration that reads its sensor; priors, or the logged wrench, if left out.
+        sensors: Names of the sensors of the experiment to inspect; all if empty.
         progress: Called with what is read and, of a log that takes longer than a few seconds, the time that is left.
 
     Returns:
         Contents and findings.
 
     Raises:
-        ExperimentError: If there is a calibration for a log without an experiment file.
+        ExperimentError: If there is a calibration, or a sensor is named, for a log without an experiment file.
     """
     source = Path(path)
     progress(f"reading {source}")
     unread = _without_experiment(source, log_format)
-    if unread is None and calibration is None:
+    of_log = calibration is None and not sensors
+    if unread is None and of_log:
         recording, findings, to_calibrate = _recorded(source, log_format, progress)
         return _inspection(str(source), recording, findings, to_calibrate=to_calibrate)
-    if unread is not None and calibration is None:
+    if unread is not None and of_log:
         return unread
     if unread is not None or log_format is not None or recognised_format(source) is not None:
         raise ExperimentError(
-            f"{source}: expected an experiment file, got a log, where --calibration reads nothing; `forcetorque init "
+            f"{source}: expected an experiment file, got a log, where "
+            f"{'--sensor names' if calibration is None else '--calibration reads'} nothing; `forcetorque init "
             f"{source}` drafts one"
         )
-    return inspected(load_experiment(source), calibration, source=str(source), progress=progress)
+    experiment = load_experiment(source)
+    with stated_in(str(source)):
+        named = [experiment.sensor(name).name for name in sensors] or None
+    return inspected(experiment, calibration, source=str(source), sensors=named, progress=progress)
 
 
 @with_recording_notes
@@ -329,7 +338,7 @@ def _of_experiment(
 ) -> tuple[Finding, ...]:
     chosen = {} if calibration is None else one_per_sensor(experiment, {"calibration": calibration})
     calibrations = {sensor: one for sensor, (_, one) in chosen.items()}
-    findings = inspect_experiment(experiment, calibrations=calibrations, sensors=sensors, progress=progress)
+    findings = inspect_segments(experiment, calibrations=calibrations, sensors=sensors, progress=progress)
     return findings if patches is None else (*findings, *taxel_findings(patches))
 
 

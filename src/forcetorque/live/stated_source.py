@@ -201,6 +201,8 @@ def is_robot_shown_alone(settings: Settings) -> bool:
 
 
 def _joint_positions(settings: Settings) -> JointPositions | None:
+    if settings.robot is None and settings.joints is not None and is_robot_shown_alone(settings):
+        raise RecordingError("--joints: a page needs the URDF that they are of: expected --robot too, got none")
     if not settings.shown or settings.robot is None:
         return None
     if settings.joints is None or settings.frame is None:

@@ -215,16 +215,16 @@ def oscillation_causes_answers(causes: OscillationCauses) -> Iterator[Answer]:
         rows = sorted(
             (row for row in causes.rows if (row.loop, row.tilt_deg) == (loop, tilt_deg)), key=lambda row: -row.share
         )
-        hit = [row for row in rows if row.larger]
-        first = rows[0]
+        hit = [row for row in rows if row.tells_apart]
+        first = hit[0] if hit else rows[0]
         in_file = first.in_file
+        verdict = f"NO CAUSE makes errors '{causes.larger}' oscillate surely more than '{causes.smaller}'"
+        if hit:
+            grows = "OSCILLATES" if first.frequency_hz else "FALLS"
+            verdict = f"{grows}: {_hit(first)} with errors '{causes.larger}', {first.smaller} with '{causes.smaller}'"
         yield Answer(
             subject=f"{loop}, sole {tilt_deg:g} deg",
-            verdict=(
-                f"OSCILLATES: {_hit(first)} with errors '{causes.larger}', {first.smaller} with '{causes.smaller}'"
-                if hit
-                else f"NO CAUSE makes errors '{causes.larger}' oscillate where '{causes.smaller}' hardly do"
-            ),
+            verdict=verdict,
             why=(
                 f"with the values of the file {in_file} of {first.draws} draws oscillate",
                 f"then {', '.join(_hit(row) for row in hit[1:_NAMED])}" if hit[1:] else "by no other cause",

@@ -30,7 +30,13 @@ def plan_answer(plan: Plan) -> Answer:
     first = plan.recordings[0]
     subject = f"{plan.sensor} ({plan.serial}), {plan.load_case}"
     if not helps(first):
-        return Answer(subject=subject, verdict="NOTHING HELPS", why=(plan.advice,), concern=Concern.BAD)
+        return Answer(
+            subject=subject,
+            verdict="NOTHING HELPS",
+            why=(plan.advice,),
+            written=(plan.figure_file,),
+            concern=Concern.BAD,
+        )
     last = plan.recordings[-1]
     count = len(plan.recordings)
     after = f"after {f'all {count} recordings' if count > 1 else 'it'}: {_after(last)}"
@@ -51,7 +57,7 @@ def plan_answer(plan: Plan) -> Answer:
             if plan.folder is None
             else "play every motion slowly, or in a simulator, before it is recorded; collisions were not checked"
         ),
-        written=(plan.folder,),
+        written=(plan.folder, plan.figure_file),
         concern=Concern.UNCERTAIN if beyond else Concern.NONE,
     )
 

@@ -9,7 +9,14 @@ from typing import Annotated
 import typer
 
 from forcetorque.results.terminal.options import DetailsOption, FormatOption
-from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
+from forcetorque.results.terminal.output import (
+    Format,
+    drawn_to,
+    refuse_figure,
+    refuse_standard_output,
+    show,
+    start_logging,
+)
 
 
 def plan(
@@ -50,6 +57,10 @@ def plan(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder to make, for trajectories (CSV, ROS, YARP) and JSON.")
     ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", help="PNG of the predicted errors before and after each recording."),
+    ] = None,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
@@ -70,7 +81,7 @@ def plan(
     log = start_logging()
     if jointly:
         alone = {"-c": calibration, "--load-case": load_case, "--sensor": sensor, "--clearance-deg": clearance_deg}
-        refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output})
+        refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output, "--figure": figure})
         contents = list(read_experiments(experiments, log).values())
         show(
             plan_jointly(contents, recordings=recordings, progress=log.info),
@@ -82,6 +93,7 @@ def plan(
     refuse_standard_output("--output", output)
     if output is not None:
         refuse_full_folder(output, where="--output ")
+    refuse_figure(figure)
     known = None if calibration is None else read_calibration(calibration)
     contents = planned_experiments(experiments, log)
     name = planned_sensor(contents[0], sensor, known)
@@ -94,6 +106,8 @@ def plan(
         seconds=seconds,
         progress=log.info,
     )
+    if figure is not None:
+        result = drawn_to(result, figure)
     if output is not None:
         result = write_plan(result, output)
     show(result, output_format, details=details, experiments=experiments)

@@ -34,7 +34,7 @@ from forcetorque.planning.result import (
 )
 from forcetorque.planning.search import Criterion
 from forcetorque.planning.section import PLAN, PlanTable
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table
 
 RECORDINGS, SECONDS = 3, 60.0
@@ -42,8 +42,10 @@ RECORDINGS, SECONDS = 3, 60.0
 _QUICK = Effort(postures=150, swaps=0)
 
 
-class Plan(Result):
+class Plan(DrawnResult):
     """Recordings, the most useful first, and what is expected after each."""
+
+    drawn_by: ClassVar[str] = "forcetorque.planning.figure:plan_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.planning.answers:plan_answer"
 

@@ -23,6 +23,7 @@ from forcetorque.base.arrays import (
     read_only,
 )
 from forcetorque.base.errors import RecordingError, known_names
+from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.stream import Signal, Stream
 
@@ -206,7 +207,11 @@ class Recording(ArrayRecord):
         stamps = [stream.stamp_ns for stream in self.streams.values() if len(stream)]
         if not stamps:
             raise RecordingError("the recording holds no sample in any stream")
-        return min(int(s.min()) for s in stamps), max(int(s.max()) for s in stamps)
+        ends = []
+        for stream in stamps:
+            ends.append((int(stream.min()), int(stream.max())))
+            forget_pages([stream])  # of a day they are half a gigabyte
+        return min(start for start, _ in ends), max(end for _, end in ends)
 
     def stream(self, name: str) -> Stream:
         """Give one stream.

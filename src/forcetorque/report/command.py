@@ -8,10 +8,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, PopulationOption
+from forcetorque.results.terminal.options import (
+    DetailsOption,
+    ForceOption,
+    FormatOption,
+    PopulationOption,
+    SensorOption,
+)
 from forcetorque.results.terminal.output import Format, say, show, start_logging
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.experiment import Experiment
     from forcetorque.results.document.content import Section
 
 
@@ -27,6 +37,7 @@ def report(
         typer.Option("--output", "-o", help="File to write, .html or .pdf; repeat for both. A .json goes beside it."),
     ],
     title: Annotated[str | None, typer.Option("--title", help="Title. Default: names of the experiments.")] = None,
+    sensor: SensorOption = None,
     population: PopulationOption = None,
     viewer: Annotated[
         bool, typer.Option("--viewer", help="Put the viewer of each experiment into the HTML; some 1 MB and more.")
@@ -61,6 +72,11 @@ def report(
     demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
     experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in sources.experiments]
     groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
+    if sensor:
+        groups = [
+            _of_sensors(file, experiment, group, sensor)
+            for (file, experiment), group in zip(experiments, groups, strict=True)
+        ]
 
     def section(place: int) -> Section:
         log.info("building the viewer")
@@ -82,3 +98,13 @@ def report(
     written.save(*files)
     show(written, output_format, details=details)
     say(f"written: {', '.join(map(str, files))}", output_format)
+
+
+def _of_sensors(
+    file: str, experiment: Experiment, group: dict[str, dict[str, Calibration]], sensors: Sequence[str]
+) -> dict[str, dict[str, Calibration]]:
+    """Calibrations of the sensors that are named, none of them left out, so that these are what is assessed."""
+    from forcetorque.experiment.input_files import stated_in
+
+    with stated_in(file):
+        return {experiment.sensor(name).name: group.get(name, {}) for name in sensors}

@@ -59,6 +59,10 @@ class Option:
         self.folder, self.all_sensors, self.python_only = folder, all_sensors, python_only
 
 
+SENSORS = Option("Sensor of the experiment. Default: all.", "--sensor")
+"""Names of sensors, a `Collection[str]`, of an analysis that goes over sensors by itself."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Saved:
     """A file that a command writes from its result."""

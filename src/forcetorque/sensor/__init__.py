@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sensor by itself: its choice, how load becomes counts, gains, drift with temperature, response to fast forces."""
+"""The sensor by itself: its choice, how load becomes counts, gains, drift, response to fast forces."""
 
 from typing import TYPE_CHECKING
 
@@ -9,7 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response
     from forcetorque.sensor.choice.command import choose_sensor
-    from forcetorque.sensor.commands import thermal
+    from forcetorque.sensor.commands import drift, thermal
     from forcetorque.sensor.gains.gains import select_gains
 
 CAPABILITY = Capability(
@@ -19,11 +19,13 @@ CAPABILITY = Capability(
         "forcetorque.sensor.choice.command:sensor",
         "forcetorque.sensor.commands:response",
         "forcetorque.sensor.commands:thermal",
+        "forcetorque.sensor.commands:drift",
     ),
 )
 
 __all__ = [
     "choose_sensor",
+    "drift",
     "response",
     "select_gains",
     "thermal",
@@ -33,6 +35,7 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "choose_sensor": "forcetorque.sensor.choice.command",
+        "drift": "forcetorque.sensor.commands",
         "response": "forcetorque.sensor.bandwidth.bandwidth",
         "select_gains": "forcetorque.sensor.gains.gains",
         "thermal": "forcetorque.sensor.commands",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Answers of temperature, fast forces and gains in a few lines."""
+"""Answers of temperature, sessions, fast forces and gains in a few lines."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.decays import ResponseNumber
     from forcetorque.sensor.gains.gains import Gains
     from forcetorque.sensor.gains.result import SensorRow
+    from forcetorque.sensor.sessions.session_drift import Drift
     from forcetorque.sensor.temperature.temperature_drift import Thermal, ThermalDriftRow
 
 
@@ -58,6 +59,39 @@ def _largest(rows: Sequence[ThermalDriftRow]) -> ThermalDriftRow:
 
 def _drift(row: ThermalDriftRow) -> str:
     return plus_minus(row.drift_per_degC, row.drift_half_width_95_per_degC, f"{row.unit}/degC")
+
+
+def drift_answers(drift: Drift) -> Iterator[Answer]:
+    """Give the answer for every sensor.
+
+    Args:
+        drift: Sessions of sensors.
+
+    Yields:
+        One answer each.
+    """
+    for row in drift.sensors:
+        drifts = row.drifts
+        largest = [
+            max(alike, key=lambda change: abs(change.change))
+            for unit in ("N", "N m", "1")
+            if (alike := [change for change in drifts if change.unit == unit])
+        ]
+        more = f"; {len(drifts) - len(largest)} more in the details" if len(drifts) > len(largest) else ""
+        shown = max(change.half_width_95 for change in row.changes if change.quantity == "offset")
+        least = "" if drifts else f"; half-widths of offset changes up to {amount(shown, '')}"
+        yield Answer(
+            subject=f"{row.sensor} ({row.serial}), {row.wrench_source}",
+            verdict="DRIFT BEYOND NOISE" if drifts else "NO DRIFT BEYOND NOISE",
+            why=(
+                *(change.text for change in largest),
+                f"{len(row.sessions)} sessions, {len(row.changes)} comparisons{more}{least}",
+            ),
+            step="fit an offset per session" if drifts else "",
+            command=typed("calibrate", EXPERIMENT) if drifts else "",
+            written=(drift.figure_file,),
+            concern=Concern.UNCERTAIN if drifts else Concern.NONE,
+        )
 
 
 def response_answer(response: Response) -> Answer:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque bench thermal`, `response` and `gains`."""
+"""`forcetorque bench thermal`, `drift`, `response` and `gains`."""
 
 from collections.abc import Collection, Sequence
 from functools import partial
@@ -15,8 +15,10 @@ from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
     from forcetorque.experiment.calibrations_under_test import OneCalibration
+    from forcetorque.experiment.campaign import Runs
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.sensor.gains.gains import Gains
+    from forcetorque.sensor.sessions.session_drift import Drift
     from forcetorque.sensor.temperature.temperature_drift import Thermal
 
 
@@ -52,6 +54,36 @@ def thermal(
     from forcetorque.sensor.temperature.temperature_drift import temperature_drift
 
     return temperature_drift(run, run.read_by(*one_named(calibration)), intervals, variable)
+
+
+@command("offset and gain of every session with their intervals")
+def drift(
+    run: Annotated[
+        "Runs", Option("Sensor in recordings of several sessions: files, or `session` of intervals.", "--sensor")
+    ],
+    calibration: Annotated[
+        "OneCalibration | None",
+        Option("Calibration that reads the sensor, without its offsets. Default: its prior, or as logged."),
+    ] = None,
+) -> "Drift":
+    """Tell offset and gain of every session, and which changed beyond noise.
+
+    Example: forcetorque bench drift monday.toml friday.toml --figure drift.png
+
+    Python: `run.drift(calibration)`, over experiments `sensor.drift([run, other["arm_ft"]], calibration)`
+
+    Returns:
+        Offsets and gains by session with intervals, and their changes with a test.
+
+    Raises:
+        ExperimentError: If there are fewer than two sessions.
+        FitError: If there are too few samples.
+    """
+    from forcetorque.experiment.calibrations_under_test import one_named
+    from forcetorque.experiment.campaign import Campaign
+    from forcetorque.sensor.sessions.session_drift import session_drift
+
+    return session_drift(Campaign.of(run), *one_named(calibration))
 
 
 def response(

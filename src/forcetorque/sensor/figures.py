@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a sensor: range of its channels by gain, drift over temperature, response to fast forces."""
+"""Figures of a sensor: range of its channels by gain, drift over temperature and sessions, response to fast forces."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.decays import DecayCurve
     from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
     from forcetorque.sensor.gains.gains import SensorGains
+    from forcetorque.sensor.sessions.session_drift import SensorSessions, SessionRow
     from forcetorque.sensor.temperature.temperature_drift import SensorThermal
 
 
@@ -230,3 +231,61 @@ def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:
 def _short(title: str) -> str:
     """The end of a title, which shows the event."""
     return shown_name(title if len(title) <= 28 else f"…{title[-27:]}")
+
+
+@in_figure_style
+def session_figure(sensors: Sequence[SensorSessions]) -> Figure:
+    """Draw offset and gain of every session with their 95 % intervals, those of a change beyond noise in colour.
+
+    Args:
+        sensors: Sensors; two rows each, offsets and gains, with a panel per component.
+
+    Returns:
+        The figure, `ROW_INCHES` high for each row.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    width = max(len({row.component for row in sensor.rows}) for sensor in sensors)
+    figure = new_figure(ROW_INCHES[1] * 2 * len(sensors))
+    panels = figure.subplots(2 * len(sensors), width, squeeze=False)
+    for k, sensor in enumerate(sensors):
+        components = list(dict.fromkeys(row.component for row in sensor.rows))
+        for row, quantity in enumerate(("offset", "gain")):
+            for panel, component in zip(panels[2 * k + row], components, strict=False):
+                rows = [one for one in sensor.rows if one.component == component]
+                changed = any(one.component == component and one.quantity == quantity for one in sensor.drifts)
+                _draw_sessions(panel, rows, quantity, changed=changed)
+            for panel in panels[2 * k + row, len(components) :]:
+                panel.set_visible(False)
+        panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
+    legend_below(figure, [("changed beyond noise", look(1).key), ("no change beyond noise", look(0).key)])
+    return figure
+
+
+def _draw_sessions(panel: Axes, rows: Sequence[SessionRow], quantity: str, *, changed: bool) -> None:
+    style = look(1 if changed else 0)
+    values = [row.offset if quantity == "offset" else row.gain for row in rows]
+    widths = [row.offset_half_width_95 if quantity == "offset" else row.gain_half_width_95 for row in rows]
+    for k, (value, width) in enumerate(zip(values, widths, strict=True)):
+        if np.isfinite(width):
+            panel.errorbar(k, value, width, color=style.colour, marker=style.marker, capsize=3.0)
+        elif quantity == "offset":
+            panel.plot(k, value, color=style.colour, marker=style.marker, markerfacecolor="none")
+    known = [value for value, width in zip(values, widths, strict=True) if np.isfinite(width)]
+    if not known and quantity == "gain":
+        panel.text(0.5, 0.5, "not determined", transform=panel.transAxes, ha="center", va="center")
+    panel.set_xlim(-0.5, len(rows) - 0.5)
+    few = len(rows) <= _MOST_SESSION_NAMES
+    panel.set_xticks(range(len(rows)) if few else [0, len(rows) - 1])
+    if quantity == "gain":
+        names = [shown_name(row.session) for row in rows]
+        panel.set_xticklabels(names if few else [names[0], names[-1]], rotation=30.0, ha="right")
+    else:
+        panel.set_xticklabels([])
+    unit = f", {rows[0].unit}" if quantity == "offset" else ""
+    panel.set_ylabel(f"{quantity} of {rows[0].component}{unit}")
+
+
+_MOST_SESSION_NAMES = 8
+"""Sessions that are named below a panel; of more the first and the last are."""

@@ -316,7 +316,7 @@ def skin_surface(
         shared = points[first[count > 1][0]]
         raise SkinError(
             f"positions: expected distinct taxels, got {np.flatnonzero((points == shared).all(axis=1)).tolist()} all "
-            f"at {shared.tolist()} m; look at the layout with `forcetorque skin check`"
+            f"at {shared.tolist()} m; correct the file of the layout"
         )
     triangles = surface_triangles(points, longest_edge_m)
     if not len(triangles):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Estimation types of the thesis, lambdas and data sets compared, and the best of them (thesis 5.3)."""
+"""Studies of the thesis: estimation types, lambdas and data sets compared (5.3), and torques by skin (7.3)."""
 
 from typing import TYPE_CHECKING
 
@@ -7,6 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
+    from forcetorque.study.command import study_skin
     from forcetorque.study.result import Studies
     from forcetorque.study.study import study_sensor
     from forcetorque.study.study_data import read_study_data
@@ -15,18 +16,20 @@ CAPABILITY = Capability(
     page="study.md",
     needs=(
         "simulation",
+        "skin",
         "estimation",
         "inspection",
         "calibration",
         "evaluation",
     ),
-    commands=("forcetorque.study.command:study",),
+    commands=("forcetorque.study.command:study", "forcetorque.study.command:study_skin"),
 )
 
 __all__ = [
     "Studies",
     "read_study_data",
     "study_sensor",
+    "study_skin",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -35,5 +38,6 @@ __getattr__, __dir__ = lazy_names(
         "Studies": "forcetorque.study.result",
         "read_study_data": "forcetorque.study.study_data",
         "study_sensor": "forcetorque.study.study",
+        "study_skin": "forcetorque.study.command",
     },
 )

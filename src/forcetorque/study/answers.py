@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answer of `study` in a few lines: the best candidate, and how it compares with the prior matrix."""
+"""The answers of `study fits` and `study skin` in a few lines."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import within
+from forcetorque.results.number_text import amount, counted, plus_minus, within
 from forcetorque.study.one_sensor import WORKBENCH
 from forcetorque.study.selection import FAR_SD
 
 if TYPE_CHECKING:
     from forcetorque.study.result import ChosenCandidate, Studies
+    from forcetorque.study.skin.result import ComparedRow, SkinStudy
 
 _TWO_SIGMA = 1.96
 """Standard errors of a bound that holds with 95 %."""
@@ -55,3 +56,57 @@ def _far(best: ChosenCandidate) -> str:
         f"at loads that were not fitted it is {best.unfitted.deviation_sd or 0.0:.1f} standard deviations from the "
         "generative fit of the same data: the contact force decides little there"
     )
+
+
+def skin_study_answer(study: SkinStudy) -> Answer:
+    """Say how far forces and torques by skin are off, and what the thesis printed.
+
+    Args:
+        study: Simulated trials.
+
+    Returns:
+        The answer.
+    """
+    from forcetorque.study.skin import result as of
+
+    simple, interpolated, gained_simple, gained, to_ft, to_truth, lost = (
+        study.compared_of(quantity)
+        for quantity in (
+            of.SIMPLE,
+            of.INTERPOLATED,
+            of.GAINED_SIMPLE,
+            of.GAINED_INTERPOLATED,
+            of.TO_FT,
+            of.TO_TRUTH,
+            of.LOST,
+        )
+    )
+    return Answer(
+        subject=f"{study.layout}, {study.taxels} taxels, {counted(study.trials, 'simulated trial')}",
+        verdict=f"ERROR OF FORCES: interpolated {_compared(interpolated)}, simple {_compared(simple)}",
+        why=(
+            f"with the gain that fits best, which corrects a wrong area: interpolated {_compared(gained)}, simple "
+            f"{_compared(gained_simple)}",
+            f"knee torque by skin: RMSE to the sensor {_compared(to_ft)}, to the truth {_compared(to_truth)}; from 90 "
+            f"to 75 degrees it changes by {_changed(lost)} against the sensor",
+        ),
+    )
+
+
+def _compared(row: ComparedRow) -> str:
+    """The number with its upper bound, and that of the thesis where it has one."""
+    size = amount(row.simulated, row.unit) if row.half_width_95 is None else within(*_numbers(row))
+    return f"{size}{_thesis(row)}"
+
+
+def _changed(row: ComparedRow) -> str:
+    """The number with a sign and its interval, and that of the thesis."""
+    return f"{plus_minus(*_numbers(row))}{_thesis(row)}"
+
+
+def _numbers(row: ComparedRow) -> tuple[float, float | None, str]:
+    return row.simulated, row.half_width_95, row.unit
+
+
+def _thesis(row: ComparedRow) -> str:
+    return "" if row.thesis is None else f" (thesis {amount(row.thesis, row.unit)})"

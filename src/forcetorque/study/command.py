@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque study fits`: every estimation type, lambda and combination of data sets, and the best of them."""
+"""`forcetorque study fits` and `study skin`: all fits of thesis 5.3, and forces and torques by skin of thesis 7.3."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from forcetorque.base.errors import FitError, ForceTorqueError
-from forcetorque.results.command import Option, command
+from forcetorque.results.command import SENSORS, Option, command
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.study.result import Studies
+    from forcetorque.study.skin.result import SkinStudy
     from forcetorque.study.study import SensorStudy
 
 
@@ -21,7 +23,7 @@ def study(
         "Path | str | None",
         Option("Folder to make, with a folder per sensor.", "--output", "-o", required=True, folder=True),
     ] = None,
-    sensors: Annotated[Collection[str], Option("Sensor of the experiment. Default: all.", "--sensor")] = (),
+    sensors: Annotated[Collection[str], SENSORS] = (),
     data_sets: Annotated[
         "Mapping[str, Sequence[str]] | None",
         Option(
@@ -106,6 +108,52 @@ def study(
         sensors=tuple(studied_sensor(one) for one in fitted),
         warnings=tuple(sentence for one in fitted for sentence in study_warnings(one)),
     )
+
+
+@command("errors of forces and torques by load and angle, beside the thesis")
+def study_skin(
+    layout: Annotated[
+        "Path | str",
+        Option(
+            "File with the layout of the skin of a shin, such as iCub's right_leg_lower.txt: x to the front, z to the "
+            "knee, which is the origin. Normals are rebuilt."
+        ),
+    ],
+    *,
+    trials: Annotated[int, Option("Trials, in which taxels, noise, offset and positions are drawn anew.")] = 10,
+    seed: Annotated[int, Option("Seed of the first trial; the others follow.")] = 1,
+    progress: Annotated["Progress", Option("Called with a line for people as work goes on.")] = lambda _: None,
+) -> "SkinStudy":
+    """Repeat the weights on a leg with skin of thesis 7.3 in simulation, where the truth is known.
+
+    Example: forcetorque study skin right_leg_lower.txt --figure skin.png
+
+    Python: `study.study_skin("right_leg_lower.txt", progress=print)`, minutes
+
+    Returns:
+        Tables 7.1 to 7.3 against the truth, and what the thesis prints.
+
+    Raises:
+        SkinError: If there is no trial, the layout is not valid, or has no skin where a load rests.
+    """
+    from tempfile import TemporaryDirectory
+
+    from forcetorque.base.errors import SkinError
+    from forcetorque.base.progress import TimeLeft
+    from forcetorque.skin.layout.formats.registry import read_layout
+    from forcetorque.study.skin.result import skin_study
+    from forcetorque.study.skin.trial import STEPS, LoadTrial, trial
+
+    if trials < 1 or seed < 0:
+        raise SkinError(f"expected --trials of at least 1 and --seed of at least 0, got {trials} and {seed}")
+    skin = read_layout(layout, rebuild_normals=True)
+    if not len(skin.thermal_pads):
+        raise SkinError(f"{layout}: expected thermal pads, got none; without them heat is not separable from pressure")
+    left, steps, done = TimeLeft(progress, "simulated trials", STEPS * trials), count(1), list[list[LoadTrial]]()
+    for k in range(trials):
+        with TemporaryDirectory() as folder:
+            done.append(trial(Path(folder), skin, seed=seed + k, done=lambda: left.at(next(steps))))
+    return skin_study(done, layout=Path(layout).name, taxels=len(skin), seed=seed)
 
 
 def data_sets_of(texts: Sequence[str]) -> dict[str, list[str]]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of thesis 5.3 for one sensor, among them contact force over lambda, and the files they go to."""
+"""Figures of thesis 5.3 for one sensor, among them contact force over lambda, and their files; figure of thesis 7.3."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
     drawable_each,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -48,6 +49,8 @@ from forcetorque.study.study import SensorStudy
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from forcetorque.study.skin.result import SkinStudy
 
 
 _PAUSE_S = 2.0
@@ -311,3 +314,56 @@ def _keys(hues: list[str], kinds: list[str]) -> list[tuple[str, dict[str, Any]]]
         return [(shown_name(kind), look(k).key) for k, kind in enumerate(kinds)]
     sets = [(shown_name(name), {"color": look(k).colour, "linewidth": 5.0}) for k, name in enumerate(hues)]
     return sets + [(shown_name(kind), look(k).key | {"color": MUTED}) for k, kind in enumerate(kinds)]
+
+
+@in_figure_style
+def skin_study_figure(study: SkinStudy) -> Figure:
+    """Draw errors of forces and torques by load, and of torques by angle, with open points for the thesis.
+
+    Args:
+        study: Simulated trials.
+
+    Returns:
+        The figure.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    from forcetorque.study.skin.result import LEVEL_DEG
+
+    figure = new_figure(ROW_INCHES[1])
+    forces, torques, angles = figure.subplots(1, 3)
+    level = [row for row in study.loads if row.degrees == LEVEL_DEG]
+    leaning = [row for row in study.loads if row.leaning]
+    names = [row.name for row in level]
+
+    def draw(panel: Axes, at: Sequence[float], k: int, values: Sequence[float | None], *, of_thesis: bool) -> None:
+        points = np.array([np.nan if value is None else value for value in values])
+        panel.plot(at, points, **look(k).key | {"linestyle": "none", "markerfacecolor": "none" if of_thesis else None})
+
+    at = range(len(level))
+    draw(forces, at, 0, [row.simple_N - row.weight_N for row in level], of_thesis=False)
+    draw(forces, at, 1, [row.interpolated_N - row.weight_N for row in level], of_thesis=False)
+    for k, field in enumerate(("simple_N", "interpolated_N")):
+        printed = [getattr(row.thesis, field) for row in level]
+        less = [None if value is None else value - row.weight_N for value, row in zip(printed, level, strict=True)]
+        draw(forces, at, k, less, of_thesis=True)
+    draw(torques, at, 2, [row.rmse_to_ft_Nm for row in level], of_thesis=False)
+    draw(torques, at, 2, [row.thesis.rmse_to_ft_Nm for row in level], of_thesis=True)
+    draw(torques, at, 3, [row.skin_rmse_Nm for row in level], of_thesis=False)
+    degrees = [row.degrees for row in leaning]
+    draw(angles, degrees, 2, [row.skin_Nm - row.ft_Nm for row in leaning], of_thesis=False)
+    draw(angles, degrees, 2, [row.thesis.leaning_change_Nm for row in leaning], of_thesis=True)
+    draw(angles, degrees, 3, [row.skin_bias_Nm for row in leaning], of_thesis=False)
+    for panel, label in ((forces, "force less weight, N"), (torques, "RMSE of the knee torque, N m")):
+        panel.set_xticks(at, names, rotation=60, fontsize=7)
+        panel.set_ylabel(label)
+    angles.set_xticks(degrees)
+    angles.set_xlabel("angle of the leg, deg")
+    angles.set_ylabel("mean error of the knee torque, N m")
+    for panel in (forces, angles):
+        panel.axhline(0.0, color=REFERENCE_COLOUR, linewidth=0.8)
+    headline(figure, f"{study.layout}: filled points are simulated, open ones of the thesis; * is on top")
+    keys = ("simple force", "interpolated force", "skin to sensor", "skin to truth")
+    legend_below(figure, [(name, look(k).key | {"linestyle": "none"}) for k, name in enumerate(keys)])
+    return figure

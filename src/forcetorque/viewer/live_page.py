@@ -358,11 +358,11 @@ def live_page(
         What the run gives its samples to.
 
     Raises:
-        ForceTorqueError: If the time is not above 0, or the port is taken.
+        ForceTorqueError: If the time is not finite and above 0, or the port is taken.
         MissingFileError: If a folder is missing.
     """
-    if not window_s > 0.0:
-        raise ForceTorqueError(f"--view-s: expected more than 0, got {window_s:g}")
+    if not 0.0 < window_s < np.inf:
+        raise ForceTorqueError(f"--view-s: expected a finite number above 0, got {window_s:g}")
     for folder in mesh_folders:
         if not folder.is_dir():
             raise MissingFileError(f"--mesh-dir {folder}: expected a folder, there is none")

@@ -3,19 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, FitError, SensorError
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, SensorError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.acceptance import acceptance_file as limits
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import OF_CALIBRATION, Bound, Criterion, Judged
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.matrix_checks import LEAST_POPULATION, matrix_checks, most_unusual, position_in_population
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.input_files import stated_in
 from forcetorque.workbench.faults import FaultRow, FaultSearch, search_faults
 from forcetorque.workbench.loads import BenchLoads
 from forcetorque.workbench.recording import BenchRecording
@@ -41,10 +43,10 @@ class BenchSubject(Judged):
 
     row: BenchSensorRow
     """Errors and directions."""
-    faults: int
-    """Number of detected faults."""
-    invalid_blocks: int
-    """Number of blocks with findings."""
+    faults: int | None
+    """Number of detected faults; None where they were not searched."""
+    invalid_blocks: int | None
+    """Number of blocks with findings; None where there are no blocks."""
 
 
 def bench_subject(
@@ -53,8 +55,8 @@ def bench_subject(
     others: Mapping[str, FloatArray],
     *,
     limit_counts: float,
-    faults: int,
-    invalid_blocks: int,
+    faults: int | None,
+    invalid_blocks: int | None,
 ) -> BenchSubject:
     """Compute the quantities that acceptance limits apply to.
 
@@ -63,29 +65,34 @@ def bench_subject(
         row: Errors and directions.
         others: Matrices of the other sensors by serial number.
         limit_counts: Largest magnitude of a raw sample; counts.
-        faults: Number of detected faults.
-        invalid_blocks: Number of blocks with findings.
+        faults: Number of detected faults; None where they were not searched.
+        invalid_blocks: Number of blocks with findings; None where there are no blocks.
 
     Returns:
         The subject of the criteria.
     """
-    matrix = matrix_checks(calibration.matrix, calibration.offset, limit_counts=limit_counts)
-    reasons = {} if matrix.full_scale is not None else {"full_scale": matrix.no_full_scale}
-    position = None
+    matrix, position, reasons = None, None, {}
+    if len(row.components) < len(WRENCH_COMPONENTS):
+        reasons["matrix"] = f"expected a sensor of six components, {calibration.sensor.name!r} measures " + ", ".join(
+            row.components
+        )
+    else:
+        matrix = matrix_checks(calibration.matrix, calibration.offset, limit_counts=limit_counts)
+        reasons["full_scale"] = matrix.no_full_scale
     try:
         position = position_in_population(calibration.matrix, others)
-    except SensorError as error:
+    except ForceTorqueError as error:
         reasons["population"] = str(error)
-    full_scale = matrix.full_scale
+    full_scale = None if matrix is None else matrix.full_scale
     checks = StaticChecks(
         sensor=calibration.sensor.name,
         serial=calibration.sensor.serial,
         calibration=row.file,
         limit_counts=limit_counts,
-        condition=matrix.condition,
-        resolution_worst=matrix.resolution.worst,
-        resolution_rms=matrix.resolution.rms,
-        full_scale_specified=matrix.stated_full_scale,
+        condition=None if matrix is None else matrix.condition,
+        resolution_worst=None if matrix is None else matrix.resolution.worst,
+        resolution_rms=None if matrix is None else matrix.resolution.rms,
+        full_scale_specified=None if matrix is None else matrix.stated_full_scale,
         full_scale_positive=None if full_scale is None else full_scale.positive,
         full_scale_negative=None if full_scale is None else full_scale.negative,
         population_count=None if position is None else len(others),
@@ -113,7 +120,7 @@ def bench_criteria(subject: BenchSubject, spec: limits.AcceptanceFile) -> Iterat
         One criterion per limit.
 
     Raises:
-        ExperimentError: If a limit needs recordings on a robot.
+        ExperimentError: If a limit needs recordings on a robot, or is stated for what was not measured.
     """
     for table in _ON_A_ROBOT:
         if getattr(spec, table):
@@ -123,15 +130,18 @@ def bench_criteria(subject: BenchSubject, spec: limits.AcceptanceFile) -> Iterat
             )
     for table, criteria in OF_CALIBRATION.items():
         if bounds := getattr(spec, table):
-            yield from criteria(subject, bounds)
+            with stated_in(f"{subject.row.file}: [{table}] cannot be evaluated"):
+                yield from criteria(subject, bounds)
     if spec.workbench is not None:
-        yield from _workbench(subject, spec.workbench)
+        with stated_in(f"{subject.row.file}: [workbench] cannot be evaluated"):
+            yield from _workbench(subject, spec.workbench)
 
 
 def _workbench(subject: BenchSubject, bounds: limits.WorkbenchLimits) -> Iterator[Criterion]:
     row = subject.row
-    n = row.positions
-    yield from subject.at_limits("workbench.held_out", row.held_out, bounds.held_out, count=n)
+    n, measured = row.positions, np.isin(WRENCH_COMPONENTS, row.components)
+    held_out = None if row.held_out is None else np.where(measured, row.held_out, np.nan)
+    yield from subject.at_limits("workbench.held_out", held_out, bounds.held_out, count=n)
     yield from subject.at_limit("workbench.rank", row.rank, bounds.rank, bound=Bound.AT_LEAST, count=n)
     yield from subject.at_limit("workbench.faults", subject.faults, bounds.faults, count=n)
     yield from subject.at_limit("workbench.invalid_blocks", subject.invalid_blocks, bounds.invalid_blocks, count=n)
@@ -249,7 +259,9 @@ def workbench(
         positions=position_rows(searches) if same_loads else (),
         spheres=sphere_rows(searches) if same_loads else (),
         unusual=_unusual(calibrations),
-        criteria=() if spec is None else tuple(_criteria(with_matrix, calibrations, faults, blocks, spec)),
+        criteria=()
+        if spec is None
+        else tuple(_criteria(with_matrix, calibrations, faults, scatter.keys(), blocks, spec)),
         calibrations=calibrations,
         picture=picture_of(searches) if searches else None,
         warnings=tuple(_warnings(fits, searches)),
@@ -284,18 +296,20 @@ def _criteria(
     fits: Sequence[SensorFit],
     calibrations: Sequence[Calibration],
     faults: Sequence[FaultRow],
+    searched: Collection[str],
     blocks: Sequence[BlockRow],
     spec: AcceptanceFile,
 ) -> Iterator[Criterion]:
     for fit, calibration in zip(fits, calibrations, strict=True):
         serial = fit.row.serial
+        own = [row for row in blocks if row.serial == serial]
         subject = bench_subject(
             calibration,
             fit.row,
             _others(calibrations, serial),
             limit_counts=float(fit.bench.full_scale.min()),
-            faults=sum(row.serial == serial for row in faults),
-            invalid_blocks=sum(row.serial == serial and not row.valid for row in blocks),
+            faults=sum(row.serial == serial for row in faults) if serial in searched else None,
+            invalid_blocks=sum(not row.valid for row in own) if own else None,
         )
         yield from bench_criteria(subject, spec)
 

@@ -119,7 +119,8 @@ def _table_of_means(readings: RowReadings, measured: BoolArray, inputs: Inputs) 
     wrench = _measured_loads(readings, measured, path) if states_components else stream.signal("wrench").values
     first = 1 if readings.columns is not None else 2
     lines = [str(first + k) for k in range(len(raw))]
-    filled = np.flatnonzero(np.isfinite(raw).any(axis=1) | np.isfinite(wrench).any(axis=1))
+    stated = wrench[:, measured] if states_components else wrench
+    filled = np.flatnonzero(np.isfinite(raw).any(axis=1) | np.isfinite(stated).any(axis=1))
     series = np.cumsum(~wrench[filled].any(axis=1)) if readings.series_from_zero else np.zeros(len(filled), dtype=int)
     first_lines = {number: lines[filled[np.flatnonzero(series == number)[0]]] for number in np.unique(series)}
     loads = BenchLoads(

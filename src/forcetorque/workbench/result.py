@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, FitError
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.summary import calibration_blocks
@@ -315,6 +315,24 @@ class Workbench(DrawnResult):
     def passed(self) -> bool:
         """Whether every sensor has a matrix, and all limits are kept."""
         return all(row.fitted for row in self.sensors) and all(criterion.passed for criterion in self.criteria)
+
+    def without_figure(self, file: Path, error: ForceTorqueError | OSError) -> Self:
+        """Give the result with a warning where a calibration has no figure, as of a sensor of fewer components.
+
+        Args:
+            file: The figure.
+            error: Why it is not there.
+
+        Returns:
+            The result.
+
+        Raises:
+            ForceTorqueError: If nothing was fitted.
+            OSError: If the figure cannot be written.
+        """
+        if self.picture is not None or not self.calibrations:
+            raise error
+        return self.model_copy(update={"warnings": (*self.warnings, f"not drawn: {error}")})
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.

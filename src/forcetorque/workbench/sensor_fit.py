@@ -223,7 +223,7 @@ def fit_sensor(
         unexcited_raw=excitation.describe_unexcited(channel_names=channels) if len(channels) > count else "",
         fitted=fitted is not None,
         reason=reason,
-        held_out=None if held_out is None else held_out,
+        held_out=held_out,
         folds_mean=None if folds is None else folds.mean(axis=0),
         folds_least=None if folds is None else folds.min(axis=0),
         folds_largest=None if folds is None else folds.max(axis=0),
@@ -254,16 +254,19 @@ def _unused_positions(bench: Bench) -> Iterator[str]:
 
 
 def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...]:
+    measured = fitted.bench.measured
+    outcomes = whole_series(fitted)
+    errors = [None if isinstance(outcome, str) else rms(outcome) for outcome in outcomes.values()]
     return tuple(
         SeriesRow(
             serial=fitted.bench.serial,
             series=name,
-            error=None if isinstance(outcome, str) else rms(outcome),
+            error=error,
             largest_force_N=None if isinstance(outcome, str) else float(np.linalg.norm(outcome[:, :3], axis=1).max()),
-            ratio=float("nan") if isinstance(outcome, str) else float((rms(outcome) / held_out).max()),
+            ratio=float("nan") if error is None else float((error[measured] / held_out[measured]).max()),
             reason=outcome if isinstance(outcome, str) else "",
         )
-        for name, outcome in whole_series(fitted).items()
+        for (name, outcome), error in zip(outcomes.items(), errors, strict=True)
     )
 
 
@@ -295,7 +298,8 @@ def _fitted(bench: Bench, doubts: Sequence[Doubt], check_prior: str = CHECK_PRIO
                 raise FitError(f"{doubt.message}; these loads alone do not determine a matrix")
         return fitted, ()
     errors = one_by_one(fitted)
-    worst = int((errors / alone).argmax())
+    measured = np.flatnonzero(bench.measured)
+    worst = int(measured[(errors[measured] / alone[measured]).argmax()])
     if not errors[worst] > _CONTRADICTED * alone[worst]:
         return fitted, ()
     unit = "N" if worst < 3 else "N m"

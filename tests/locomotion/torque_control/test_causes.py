@@ -11,16 +11,27 @@ import pytest
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.commands import oscillation_causes
 from forcetorque.locomotion.torque_control.balancing import Phase, standing
-from forcetorque.locomotion.torque_control.causes import TORQUES, CauseRow, OscillationCauses
+from forcetorque.locomotion.torque_control.causes import (
+    TORQUES,
+    CauseRow,
+    OscillationCauses,
+    _Cause,
+    _row,
+    study_causes,
+)
 from forcetorque.locomotion.torque_control.elastic_joints import massless_drives, with_springs
 from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
 from forcetorque.locomotion.torque_control.linear_robot import linear_robot
+from forcetorque.locomotion.torque_control.stability import Stability
+from forcetorque.locomotion.torque_control.study import share_interval
 from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped
 from forcetorque.results.answer import Concern
 from tests.app.outcome import Run
 
 
-def cause_row(cause: str, larger: int, *, in_file: int = 0, loop: str = TORQUES) -> CauseRow:
+def cause_row(
+    cause: str, larger: int, *, in_file: int = 0, loop: str = TORQUES, frequency_hz: float = 15.0, draws: int = 20
+) -> CauseRow:
     """A cause with so many of 20 draws."""
     return CauseRow(
         loop=loop,
@@ -30,14 +41,14 @@ def cause_row(cause: str, larger: int, *, in_file: int = 0, loop: str = TORQUES)
         limit=26.0,
         at=20.0,
         larger=larger,
-        larger_least_percent=1.0,
-        larger_most_percent=90.0,
+        larger_least_percent=share_interval(larger, draws)[0],
+        larger_most_percent=share_interval(larger, draws)[1],
         smaller=1,
-        smaller_most_percent=25.0,
-        draws=20,
+        smaller_most_percent=share_interval(1, draws)[1],
+        draws=draws,
         in_file=in_file,
         median_limit=18.0,
-        frequency_hz=15.0,
+        frequency_hz=frequency_hz,
     )
 
 
@@ -48,14 +59,45 @@ def causes_of(*rows: CauseRow) -> OscillationCauses:
 
 def test_the_cause_that_tells_errors_apart_comes_first() -> None:
     """With both counts; the others follow; a loop in which none does says so."""
-    causes = causes_of(cause_row("gains", 3), cause_row("delay, ms", 15), cause_row("K_zmp", 0, loop="point"))
+    causes = causes_of(
+        cause_row("gains", 12),
+        cause_row("friction", 3),
+        cause_row("delay, ms", 15),
+        cause_row("K_zmp", 0, loop="point"),
+    )
     first, second = causes.answers()
     assert first.verdict == "OSCILLATES: 15 of 20 at delay 20 ms with errors 'workbench', 1 with 'in situ'"
-    assert first.why[1] == "then 3 of 20 at gains 20"
+    assert first.why[1] == "then 12 of 20 at gains 20"
     assert second.verdict.startswith("NO CAUSE makes errors 'workbench' oscillate")
     assert {first.concern, second.concern} == {Concern.NONE}
     (answer,) = causes_of(cause_row("delay, ms", 15, in_file=2)).answers()
     assert answer.concern is Concern.UNCERTAIN
+
+
+def test_a_mode_without_a_frequency_is_a_fall() -> None:
+    """What grows without swinging does not oscillate."""
+    (answer,) = causes_of(cause_row("gains", 15, frequency_hz=0.0)).answers()
+    assert answer.verdict.startswith("FALLS: 15 of 20 at gains 20")
+
+
+def test_one_size_of_errors_is_refused() -> None:
+    """There is nothing to compare."""
+    with pytest.raises(ControlError, match="expected at least two sizes to compare, got bench"):
+        study_causes(TorqueLoopFile(errors={"bench": 0.01}), lambda _: None)
+
+
+def test_a_whole_value_is_counted_where_it_is_reported() -> None:
+    """Draws that are stable up to 20 ms, and unstable from 21 ms on, are not counted at 20 ms."""
+
+    def stability(value: float, matrix: np.ndarray) -> Stability:
+        return Stability(growth=value - (matrix[0, 0, 0] or 25.5), frequency_hz=5.0)
+
+    cause = _Cause(
+        loop=TORQUES, name="delay, ms", value=1.0, grid=np.arange(1.0, 31.0), stability=stability, whole=True
+    )
+    sizes = [np.full((20, 4, 6, 6), value) for value in (10.5, 20.5)]
+    row = _row(cause, 0.0, larger=sizes[0], smaller=sizes[1], chosen=sizes[1])
+    assert (row.limit, row.at, row.larger, row.smaller) == (26.0, 20.0, 20, 0)
 
 
 @pytest.mark.long

@@ -61,6 +61,28 @@ def test_the_covariance_of_several_shapes_is_that_of_their_mixture() -> None:
     assert (apart > 0.01 * np.diag(result.covariance)).all()
 
 
+def test_estimated_sizes_of_axes_widen_what_several_axes_tell() -> None:
+    """As in Meier's weighted mean, by `1 + 4 sum s (1 - s) / degrees of freedom`; what one axis tells is not."""
+    rng = np.random.default_rng(7)
+    design = np.zeros((COUNT, 6, 2))
+    design[:, :, 0] = rng.normal(size=(COUNT, 6))
+    design[:, 0] = [[0.0, value] for value in rng.normal(size=COUNT)]
+    values = rng.normal(size=(COUNT, 6))
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)))
+    groups = groups_of(rows, design, values, np.ones(6), np.ones(COUNT))
+    result = estimate(groups, np.eye(2), (np.zeros((2, 2)), np.zeros(2)), (WHITE,))
+    information = np.empty((6, 2))
+    for axes, unknowns in ((slice(3), 2), (slice(3, 6), 1)):
+        columns, read = design[:, axes].reshape(-1, 2)[:, :unknowns], values[:, axes].ravel()
+        residual = read - columns @ np.linalg.lstsq(columns, read, rcond=None)[0]
+        information[axes] = (design[:, axes] ** 2).sum(axis=0) * (3 * COUNT - unknowns) / (residual @ residual)
+    share = information / information.sum(axis=0)
+    factor = 1.0 + 4.0 * (share * (1.0 - share) / (COUNT - share.sum(axis=1, keepdims=True))).sum(axis=0)
+    np.testing.assert_allclose(result.covariance, np.diag(factor / information.sum(axis=0)), rtol=1e-9)
+    assert factor[0] > 1.2
+    assert factor[1] == 1.0
+
+
 def test_what_no_row_tells_has_no_degree_of_freedom() -> None:
     """It stays what the prior says, and its interval is infinite."""
     rng = np.random.default_rng(3)

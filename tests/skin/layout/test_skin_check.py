@@ -16,7 +16,13 @@ from forcetorque.skin.layout.check import SkinCheck, check_patch
 from forcetorque.skin.layout.finding import Defect
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
-from forcetorque.skin.layout.modules import MODULE_TAXELS, module_poses, outward_of_boards, placed_pads
+from forcetorque.skin.layout.modules import (
+    MODULE_TAXELS,
+    PlannedModule,
+    module_poses,
+    outward_of_boards,
+    placed_pads,
+)
 from forcetorque.skin.layout.normals import module_planes, patch_normals
 from forcetorque.skin.surface import skin_surface
 from tests.scenes.patches import collapsed, cylinder_patch
@@ -256,6 +262,19 @@ PLANS = {
     "right_leg_upper": "right_leg_upper",
     "right_foot": "right_foot",
 }
+
+
+def test_nearer_modules_show_more_how_one_lies() -> None:
+    """On z = a u^3 the slope is the mean of a u^2, weighted by u^2 and a normal density of 20 mm in the distance."""
+    along, across, curve = np.array([-0.036, -0.018, 0.018, 0.036]), np.array([-0.018, 0.018]), 128.6
+    u, v = np.concatenate([[0.0], along, 0.0 * across]), np.concatenate([[0.0], 0.0 * along, across])
+    centres = np.column_stack([u, v, curve * u**3])
+    plan = [PlannedModule(number=k, u_m=u[k], v_m=v[k], angle_rad=0.0, mirrored=False) for k in range(len(u))]
+    weight = np.exp(-0.5 * (np.linalg.norm(centres[1:5], axis=1) / 0.02) ** 2) * along**2
+    slope = curve * (weight @ along**2) / weight.sum()
+    np.testing.assert_allclose(
+        module_poses(plan, centres)[0][:3, 2], np.array([-slope, 0.0, 1.0]) / np.hypot(slope, 1.0), rtol=0.0, atol=1e-12
+    )
 
 
 @pytest.mark.real_data

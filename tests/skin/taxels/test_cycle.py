@@ -106,6 +106,23 @@ def test_what_is_no_cycle_is_refused(pressure: np.ndarray, message: str) -> None
         pressure_cycle(COUNTS[: len(pressure)], pressure)
 
 
+@pytest.mark.parametrize(
+    ("gauge", "message"),
+    [
+        (PRESSURE, "falls from rest, got one that rises from 4000 to 201600 Pa; leave out pressure_of"),
+        (np.full(ROWS, 4e3), "falls by at least 1000 Pa, got 4000 to 4000 Pa: it never falls"),
+        (1e5 - np.maximum.accumulate(PRESSURE), "only falls, to -104000 Pa"),
+    ],
+)
+def test_what_is_no_cycle_of_a_bag_is_refused_as_the_gauge_reads(gauge: np.ndarray, message: str) -> None:
+    """A gauge inside a bag falls; the numbers are those of the log."""
+    with pytest.raises(SkinError, match=message):
+        pressure_cycle(COUNTS[: len(gauge)], gauge, in_bag=True)
+    turned = pressure_cycle(COUNTS, 1e5 - PRESSURE, in_bag=True)
+    np.testing.assert_allclose(turned.pressure, pressure_cycle(COUNTS, PRESSURE).pressure, atol=1e-6)
+    assert turned.rest_pressure == pytest.approx(1e5 - pressure_cycle(COUNTS, PRESSURE).rest_pressure)
+
+
 def test_a_message_of_zeros_is_refused() -> None:
     """Its row is named."""
     counts = COUNTS.copy()

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ from forcetorque.live.choices import HeldQuantity, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.joint_gravity import JointPositions
 from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.ros_topics import RosSource
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import Status
@@ -31,7 +33,7 @@ from forcetorque.viewer.live_page import live_page
 from tests.browser import Visit
 from tests.live.test_ros_topics import Loopback
 from tests.scenes.calibrations import make_calibration
-from tests.viewer.browser.test_accessibility import AXE, OPEN, violations
+from tests.viewer.browser.test_accessibility import AXE, OPEN, needs_axe, violations
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -145,6 +147,40 @@ def test_the_page_follows_a_run(visit: Visit) -> None:
     assert values.count("\n") >= 2
 
 
+def test_a_page_says_that_it_shows_less_than_is_wanted(visit: Visit, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no room is for the time; not before."""
+    monkeypatch.setattr("forcetorque.viewer.live_page.RecentSamples", partial(RecentSamples, kept=200))
+    with _running(make_calibration(), Arm()) as url:
+        page = visit.go(url)
+        _until(page, "window.ft.live().samples > 20")
+        assert "shown are" not in page.locator("footer").inner_text()
+        page.get_by_text("shown are 1 s, not 3 s: 200 samples at most").wait_for()
+
+
+@pytest.mark.parametrize("key", [" ", "Home", "End"])
+def test_a_page_that_is_held_before_the_first_sample_goes_on(visit: Visit, key: str) -> None:
+    """Held while nothing came, it follows when it is told to."""
+    begin, source = threading.Event(), Arm()
+    moving = source.packets
+
+    def packets() -> Iterator[Packet | None]:
+        while not (begin.wait(0.05) or source.stop.is_set()):
+            yield None
+        yield from moving()
+
+    source.packets = packets  # type: ignore[method-assign]
+    with _running(make_calibration(), source) as url:
+        page = visit.go(url)
+        page.get_by_role("button", name="Hold").wait_for()
+        page.keyboard.press(key)
+        page.get_by_role("button", name="Follow").wait_for()
+        begin.set()
+        _until(page, "window.ft.live().update.total > 10")
+        assert _live(page)["samples"] == 0
+        page.get_by_role("button", name="Follow").click()
+        _until(page, "window.ft.live().samples > 10")
+
+
 def test_a_page_that_is_closed_does_not_end_the_run(visit: Visit) -> None:
     """Another one that is opened later shows the last seconds."""
     source = Arm()
@@ -173,10 +209,9 @@ def test_a_server_that_is_gone_is_named(visit: Visit) -> None:
     visit.errors.clear()
 
 
+@needs_axe
 def test_no_violation_of_accessibility(visit: Visit) -> None:
     """Of a page that follows a run, with all details open and the time plots enlarged."""
-    if not AXE.is_file():
-        pytest.skip("axe-core is not installed: run `npm ci` in web")
     with _running(make_calibration(), Arm()) as url:
         page = visit.go(url)
         _until(page, "window.ft.live().samples > 0")

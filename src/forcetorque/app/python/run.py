@@ -128,6 +128,7 @@ class Run(SensorRun):
     gains = _sensor.gains
     collisions = _collisions.collisions
     thermal = _sensor.thermal
+    drift = _sensor.drift
     if TYPE_CHECKING:
         payload = _payload.weigh_load
         plan = _planning.plan

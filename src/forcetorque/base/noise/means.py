@@ -24,8 +24,10 @@ WINDOW_ROUNDING = 1e-6
 """Part of a window by which a stamp may be rounded: 0.99999999 s belongs to the second window of 1 s."""
 
 
-def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Average the samples of one recording over windows that start with its first sample.
+def means_over(
+    time_s: Any, columns: Any, window_s: float = WINDOW_S, *, origin_s: float | None = None
+) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Average the samples of one recording over windows, of which the first starts with its first sample.
 
     Windows in which there is no sample are left out, so that pauses stay pauses, and a recording that is sampled more
     slowly keeps its samples.
@@ -34,6 +36,7 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
         time_s: Instants of the samples, not falling; shape (n,); s.
         columns: Signals at the instants, all finite; shape (n, k).
         window_s: Length of a window; s.
+        origin_s: Instant at which a window starts; s; that of the first sample if None.
 
     Returns:
         Mean instants of the windows, shape (m,), in s; means of the signals, shape (m, k); and how many samples there
@@ -49,7 +52,7 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
     _require_samples_in_time(time, signals)
     if not len(time):
         return time.copy(), signals.copy(), np.zeros(0, dtype=np.int64)
-    return _means(time, signals, time[0], window_s)
+    return _means(time, signals, float(time[0]) if origin_s is None else origin_s, window_s)
 
 
 def _require_samples_in_time(time: FloatArray, signals: FloatArray) -> None:
@@ -59,12 +62,26 @@ def _require_samples_in_time(time: FloatArray, signals: FloatArray) -> None:
         raise FitError("time_s: expected instants that do not fall; sort the samples")
 
 
+def windows_of(time_s: FloatArray, origin_s: float, window_s: float = WINDOW_S) -> FloatArray:
+    """Number the windows of samples.
+
+    Args:
+        time_s: Instants of the samples; shape (n,); s.
+        origin_s: Start of window 0; s.
+        window_s: Length of a window; s.
+
+    Returns:
+        Number of the window that each sample is in, integers; shape (n,).
+    """
+    return np.floor((time_s - origin_s) / window_s + WINDOW_ROUNDING)
+
+
 def _means(
     time: FloatArray, signals: FloatArray, origin: float, window_s: float
 ) -> tuple[FloatArray, FloatArray, IntArray]:
     """Averages over windows that start at an instant."""
-    window = np.floor((time - origin) / window_s + WINDOW_ROUNDING)
-    starts = np.flatnonzero(np.diff(window, prepend=-1.0))
+    window = windows_of(time, origin, window_s)
+    starts = np.flatnonzero(np.diff(window, prepend=window[0] - 1.0))
     counts = np.diff(starts, append=len(time))
     middle = origin + np.add.reduceat(time - origin, starts) / counts
     return middle, np.add.reduceat(signals, starts, axis=0) / counts[:, None], counts
@@ -94,7 +111,7 @@ def means_of_parts(
             time, signals = np.concatenate([rest[0], time]), np.concatenate([rest[1], signals])
         _require_samples_in_time(time, signals)
         origin = float(time[0]) if origin is None else origin
-        window = np.floor((time - origin) / window_s + WINDOW_ROUNDING)
+        window = windows_of(time, origin, window_s)
         last = int(np.searchsorted(window, window[-1]))  # the last window goes on in the next part
         if last:
             means.append(_means(time[:last], signals[:last], origin, window_s))

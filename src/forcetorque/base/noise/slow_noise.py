@@ -174,8 +174,6 @@ class Timeline(ArrayRecord):
         """
         if noise.is_white or not len(self):
             return self.share
-        if len(self) == 1:
-            return self.share / (1.0 + noise.ratio * self.share)
         forward = self._factors(noise)[0]
         reverse = Timeline(time_s=-self.time_s[::-1], recording=self.recording[::-1], share=self.share[::-1])
         backward = reverse._factors(noise)[0][::-1]
@@ -190,7 +188,10 @@ class Timeline(ArrayRecord):
         if noise.time_constant_s not in self._precisions:  # shapes that are tried have few time constants
             self._precisions[noise.time_constant_s] = self._precision(noise.time_constant_s)
         diagonal, beside, log_inverse = self._precisions[noise.time_constant_s]
-        pivots, multipliers, failed = dpttrf(diagonal + noise.ratio * self.share, beside)
+        diagonal = diagonal + noise.ratio * self.share
+        if len(self) == 1:  # LAPACK wants a side diagonal
+            return diagonal, beside, log_inverse
+        pivots, multipliers, failed = dpttrf(diagonal, beside)
         if failed:
             raise FitError(_TOO_CLOSE)
         return pivots, multipliers, log_inverse
@@ -239,7 +240,7 @@ class NoiseFactors:
 
         Args:
             columns: Signals X at these instants; shape (k, m).
-            rows: Which k instants, at least two.
+            rows: Which k instants.
             before: `after` of the block before; shape (m,); None for the first.
 
         Returns:
@@ -259,7 +260,10 @@ class NoiseFactors:
             left, link = weighted.copy(order="K"), float(self.multipliers[rows.start - 1])
             left[0] -= link * before
         pivots = self.pivots[rows]
-        inner, wrong = dpttrs(pivots, self.multipliers[rows.start : rows.start + len(columns) - 1], left)
+        if len(columns) == 1:  # LAPACK wants a side diagonal
+            inner, wrong = left / pivots[:, None], 0
+        else:
+            inner, wrong = dpttrs(pivots, self.multipliers[rows.start : rows.start + len(columns) - 1], left)
         if wrong:
             raise FitError(_TOO_CLOSE)
         return SolvedBlock(

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.calibration.generative.fit import FRAME_CHANGES
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS
 from forcetorque.experiment.calibration.assumptions import (
-    COEFFICIENTS,
+    COEFFICIENTS_TOGETHER,
     GAIN,
     LOADS,
     Assumptions,
@@ -58,10 +58,10 @@ class SensorPrior:
         basis = np.concatenate([coefficients, gains, moved], axis=2) * UNITS[:, None] / UNITS[:, None, None]
         return cls(
             basis=basis.reshape(CHANGES, -1),
-            scales=(COEFFICIENTS, COEFFICIENTS, GAIN, *mount_scales(assumptions.mount)),
+            scales=(COEFFICIENTS_TOGETHER, COEFFICIENTS_TOGETHER, GAIN, *mount_scales(assumptions.mount)),
             kinds=tuple(np.repeat(np.arange(5), [CHANGES // 2, CHANGES // 2, channels, 3, 3]).tolist()),
         )
 
 
-EVEN: Final = SensorPrior(basis=np.eye(CHANGES), scales=(COEFFICIENTS,), kinds=(0,) * CHANGES)
+EVEN: Final = SensorPrior(basis=np.eye(CHANGES), scales=(COEFFICIENTS_TOGETHER,), kinds=(0,) * CHANGES)
 """Every coefficient of D scatters alike: for a sensor of which no matrix is known."""

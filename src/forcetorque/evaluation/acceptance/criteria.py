@@ -24,6 +24,7 @@ from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.free_sub_model import OtherSensors
@@ -396,18 +397,21 @@ def _no_slope(checks: StaticChecks) -> str:
 
 def _uncertainty(subject: Judged, stated: limits.Uncertainty) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
-    n = fitted.provenance.samples
+    n, measured = fitted.provenance.samples, measured_components(fitted.matrix)
     if stated.matrix_relative is not None:
         if fitted.matrix_standard_error is None:
             raise ExperimentError(f"calibration {name!r} kept its prior: its matrix has no standard error")
-        rows = np.linalg.norm(fitted.matrix_standard_error, axis=1) / np.linalg.norm(fitted.matrix, axis=1)
-        worst = WRENCH_COMPONENTS[int(rows.argmax())]
+        rows = np.linalg.norm(fitted.matrix_standard_error, axis=1)[measured]
+        rows /= np.linalg.norm(fitted.matrix, axis=1)[measured]
+        worst = np.array(WRENCH_COMPONENTS)[measured][int(rows.argmax())]
         yield from subject.at_limit(
             "uncertainty.matrix_relative", rows.max(), stated.matrix_relative, count=n, note=worst
         )
     if stated.offset is not None and fitted.offset_standard_error is None:
         raise ExperimentError(f"calibration {name!r} has no standard error of its offset")
-    yield from subject.at_limits("uncertainty.offset", fitted.offset_standard_error, stated.offset, count=n)
+    error = fitted.offset_standard_error
+    error = None if error is None else np.where(measured, error, np.nan)
+    yield from subject.at_limits("uncertainty.offset", error, stated.offset, count=n)
 
 
 def _excitation(subject: Judged, stated: limits.Excitation) -> Iterator[Criterion]:

@@ -42,8 +42,15 @@ SENSOR: Final = Scale(expected=0.06, weight=6.0)
 """Every coefficient of the matrix, relative to the root mean square of its row."""
 FRAME: Final = Scale(expected=0.02, weight=6.0)
 """Gain, rotation and displacement of the reference."""
-COEFFICIENTS: Final = Scale(expected=0.06, weight=2.0)
-"""The same where the robot model may be wrong: gain and frame of the sensor then have sizes of their own."""
+COEFFICIENTS: Final = Scale(expected=0.045, weight=0.5)
+"""The same where the robot model may be wrong: gain and frame of the sensor then have sizes of their own.
+
+The data of one sensor tell this size, so little is expected of it: intervals of simulated sensors that were 2 to 12 %
+off hold the truth. With 0.06 that counts for two coefficients the forces of the yoga log have errors 2 to 6 % smaller,
+and more of the simulated sensors whose robot model is wrong get worse than they were: 8 of 144 in place of 5.
+"""
+COEFFICIENTS_TOGETHER: Final = Scale(expected=0.06, weight=2.0)
+"""The same in a joint fit, which holds the size: evidence would take errors of the model for errors of sensors."""
 GAIN: Final = Scale(expected=0.02, weight=4.0)
 """Gain of every channel, relative."""
 ROTATION: Final = Scale(expected=float(np.radians(0.7)), weight=1.0)

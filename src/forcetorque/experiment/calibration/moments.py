@@ -21,7 +21,7 @@ from forcetorque.base.arrays import (
     require_shape,
 )
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.noise.means import means_over, windows_of
 from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
@@ -250,12 +250,20 @@ class DataSet(ArrayRecord):
     """Power-up: data sets of one session share an offset."""
     recording: str = ""
     """Recording whose clock and slow noise it shares with others."""
+    origin_s: float | None = None
+    """Instant at which a window of a second starts; s; None for that of the first sample."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
         if self.variables is None:
             none = read_only(np.empty((len(self.raw), 0)), name="variables", shape=(None, 0))
             object.__setattr__(self, "variables", none)
+
+    @property
+    def window(self) -> IntArray:
+        """Number, from 0, of the window of a second that each sample is in; shape (n,)."""
+        number = windows_of(self.time_s, float(self.time_s[0]) if self.origin_s is None else self.origin_s)
+        return np.cumsum(np.diff(number, prepend=number[0]) > 0.0)
 
     def kept(self, marks: BoolArray) -> DataSet:
         """Keep some of the samples.
@@ -351,7 +359,7 @@ class WindowMeans(ArrayRecord):
         columns = np.hstack([data.raw, data.reference, flattening, data.variables])
         if not len(columns) or not np.isfinite(columns).all():
             raise FitError(f"data set {data.label!r}: expected samples of finite values; leave out gaps")
-        time, means, count = means_over(data.time_s, columns)
+        time, means, count = means_over(data.time_s, columns, origin_s=data.origin_s)
         ends = np.cumsum([data.raw.shape[1], 6, 6])
         raw, reference, flattening, variables = np.split(means, ends, axis=1)
         return cls(

@@ -13,6 +13,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.recording.fingerprint import joined_fingerprint
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 
@@ -38,6 +39,20 @@ class Content(StoredTable):
     """Quantity of the reading as it was logged: `raw` or `wrench`."""
     windows: str = Field(pattern=r"^([0-9a-f]{16})+$", repr=False)
     """Hashes of windows of its samples, hexadecimal numbers of 16 letters one behind the other."""
+
+    @classmethod
+    def joined(cls, contents: Sequence[Content]) -> Content | None:
+        """Put the parts of an interval together.
+
+        Args:
+            contents: By what the samples of each are known, in the order of time.
+
+        Returns:
+            By what all are known; None where there is no part.
+        """
+        if not contents:
+            return None
+        return cls(quantity=contents[0].quantity, windows=joined_fingerprint([one.windows for one in contents]))
 
 
 class FittedInterval(StoredTable):

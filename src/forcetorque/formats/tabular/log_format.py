@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -298,7 +299,7 @@ class TabularStream(SpecifiedRate):
     """Name of the stream in the recording."""
     file: Text | Annotated[tuple[Text, ...], Field(min_length=1)]
     """File below the log's folder, or several in the order of time; a pattern such as `raw/*.csv` stands for files in
-    the order of their names."""
+    the order of their names, `2.csv` before `10.csv`; a file that is called so is read as it is."""
     stamp: StampTable | Literal["row"] | None = None
     """Column of the time; `row` for static poses without one, whose rows are then a second apart. Rows with neither
     have `rate_hz` and `start_s`."""
@@ -410,19 +411,25 @@ def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamRe
 
 
 def _matching(file: str, entry: TabularStream, specified: TabularLog, context: LogContext) -> list[str]:
-    """The file, or those of its pattern in the order of their names."""
-    if not set(file) & set("*?["):
-        return [file]
+    """The file, or those of its pattern in the order of their names, numbers in them by value."""
     folder = context.folder(specified.path)
+    if not set(file) & set("*?[") or (folder / file).is_file():
+        return [file]
     if entry.rate_hz is not None or Path(file).is_absolute():
         raise FormatError(
             f"{folder}: stream {entry.name!r}: expected a pattern below the folder of the log, of files with a column "
             f'of times or stamp = "row", got {file!r}; list the files of a rate, each with its start_s'
         )
-    found = sorted(path.relative_to(folder).as_posix() for path in folder.glob(file) if path.is_file())
+    try:
+        found = [path.relative_to(folder).as_posix() for path in folder.glob(file) if path.is_file()]
+    except ValueError as error:
+        raise FormatError(f"{folder}: stream {entry.name!r}: expected a pattern, got {file!r}: {error}") from error
     if not found:
         raise FormatError(f"{folder}: stream {entry.name!r}: expected files of the pattern {file!r}, got none")
-    return found
+    return sorted(found, key=lambda name: [int(part) if k % 2 else part for k, part in enumerate(_NUMBER.split(name))])
+
+
+_NUMBER = re.compile(r"(\d+)")
 
 
 def _layout(entry: TabularStream, number: int) -> TableLayout:

@@ -47,7 +47,8 @@ class CauseRow(Row):
     limit: Annotated[float | None, Shown("limit", digits=2)]
     """Value from which the loop is unstable without errors; None if it is stable up to the largest looked at."""
     at: Annotated[float | None, Shown("at", digits=2)]
-    """Value up to which at most 5 % of other draws of the smaller errors oscillate, at most the limit; None without."""
+    """Value that is counted at: beside the one from which on more than 5 % of other draws of the smaller errors are
+    unstable, at most the limit; of whole numbers the one before it. None where nothing is unstable."""
     larger: Annotated[int, Shown("larger")]
     """Draws of the larger errors that are unstable there."""
     larger_least_percent: Annotated[float, Shown("at least", "%", digits=0)]
@@ -65,7 +66,12 @@ class CauseRow(Row):
     median_limit: Annotated[float | None, Shown("median limit", digits=2)]
     """Median over draws of the value from which the larger errors are unstable; None beyond the largest looked at."""
     frequency_hz: Annotated[float | None, Shown("frequency", "Hz", digits=1)]
-    """Median frequency of the modes that begin to grow with the larger errors; 0 is a drift."""
+    """Median frequency of the modes that begin to grow with the larger errors; 0 is a fall without oscillation."""
+
+    @property
+    def tells_apart(self) -> bool:
+        """Whether the 95 % intervals of both shares are disjoint, that of the larger errors above."""
+        return self.larger_least_percent > self.smaller_most_percent
 
     @property
     def share(self) -> float:
@@ -207,13 +213,14 @@ def _torque_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
             )
         ),
     )
-    yield _Cause(
-        loop=TORQUES,
-        name="compensation of viscous friction",
-        value=1.0,
-        grid=np.geomspace(1.0, 100.0, 20),
-        stability=of_setting(lambda value: replace(setting, gains=replace(gains, bemf=value * gains.bemf))),
-    )
+    if np.any(gains.bemf):  # none of it cannot be worsened by a factor
+        yield _Cause(
+            loop=TORQUES,
+            name="compensation of viscous friction",
+            value=1.0,
+            grid=np.geomspace(1.0, 100.0, 20),
+            stability=of_setting(lambda value: replace(setting, gains=replace(gains, bemf=value * gains.bemf))),
+        )
     yield _Cause(loop=TORQUES, name="gains of the balancing controller", value=1.0, grid=factors, stability=balanced)
     for name, joints in (
         ("compliance of the ankles, rad/(kN m)", ankles),
@@ -283,8 +290,13 @@ def study_causes(file: TorqueLoopFile, progress: Callable[[str], None]) -> Oscil
         Values from which the loops are unstable.
 
     Raises:
-        ControlError: If a loop is unstable without any error.
+        ControlError: If a loop is unstable without any error, or there is one size of errors.
     """
+    if len(set(file.errors.values())) < 2:
+        raise ControlError(
+            f"errors: expected at least two sizes to compare, got {', '.join(file.errors)}; state a larger and a "
+            "smaller one"
+        )
     rng = np.random.default_rng(file.seed)
     chosen, unit = (drawn_matrices(1.0, file.sensor.lever_m, rng, file.seeds) for _ in range(2))
     larger, smaller = (which(file.errors, key=file.errors.__getitem__) for which in (max, min))
@@ -329,7 +341,7 @@ def _row(cause: _Cause, tilt_deg: float, *, larger: FloatArray, smaller: FloatAr
         cause=cause.name,
         value=cause.value,
         limit=finite_or_none(alone),
-        at=finite_or_none(at),
+        at=finite_or_none(at - cause.whole),
         larger=counts[0],
         larger_least_percent=least,
         larger_most_percent=most,

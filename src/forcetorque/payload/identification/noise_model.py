@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All parameters at once under noise of unknown shape, force and moment axes by the size of their noise."""
+"""All parameters at once under noise of unknown shape, force and moment axes by the size of their noise.
+
+References:
+[1] M. G. Kenward, J. H. Roger, Small sample inference for fixed effects from restricted maximum likelihood,
+    Biometrics 53, 1997; of a mean of several means: P. Meier, Variance of a weighted mean, Biometrics 9, 1953.
+"""
 
 from __future__ import annotations
 
@@ -39,6 +44,8 @@ _LEAST_WEIGHT = 1e-3
 """Shapes with less than this part of the weight of the best are left out of the mixture."""
 _SEEN = 1e-6
 """Directions that change the readings of a group by less than this part of the strongest one are not told by it."""
+_LEAST_INFORMATION = 1e-14
+"""Less, over that of unit directions, is rounding."""
 _ROUNDING = 1e-10
 """Noise is at least this part of the size of an axis, so that exact rows have a covariance."""
 
@@ -96,11 +103,16 @@ class _Shape:
     """One group under noise of one shape."""
 
     noise: SlowNoise
-    products: FloatArray  # X' V^-1 X of all r directions over the variance, shape (r, r)
+    axes: FloatArray  # X' V^-1 X of all r directions over the variance, by axis; shape (3, r, r)
     sides: FloatArray  # X' V^-1 y over the variance, shape (r,)
     variance: float  # of the white part
     log_weight: float
     worth: FloatArray  # independent values that each direction of the parameters has of this group, (p,)
+
+    @property
+    def products(self) -> FloatArray:
+        """X' V^-1 X of all r directions over the variance; shape (r, r)."""
+        return np.asarray(self.axes.sum(axis=0))
 
 
 def estimate(
@@ -125,6 +137,7 @@ def estimate(
     spread = np.linalg.inv(precision + np.array([sum(one.products for one in pair) for pair in pairs]))
     sides = expected + np.array([sum(one.sides for one in pair) for pair in pairs])
     mean = np.einsum("krs,ks->kr", spread, sides)
+    spread = spread + _by_estimated_sizes(groups, tried, precision)
     centre = weight @ mean
     apart = mean - centre
     total = np.einsum("k,krs->rs", weight, spread) + np.einsum("k,kr,ks->rs", weight, apart, apart)
@@ -152,6 +165,21 @@ def _together(tried: list[list[_Shape]], basis: FloatArray) -> FloatArray:
     return np.where(np.isfinite(degrees), degrees, 0.0)
 
 
+def _by_estimated_sizes(groups: Sequence[Group], tried: list[list[_Shape]], precision: FloatArray) -> FloatArray:
+    """Covariance that is added because the sizes of the axes, by which they count, are estimated [1]; shape (r, r)."""
+    # sum of 4 C (P - P C P) C / degrees of freedom: C the covariance, P what an axis adds to its inverse
+    axes = np.concatenate([sum(np.exp(one.log_weight) * one.axes for one in group) for group in tried])  # (6, r, r)
+    information = precision + axes.sum(axis=0)
+    scale = 1.0 / np.sqrt(np.diag(information))
+    squares, directions = np.linalg.eigh(scale[:, None] * information * scale)
+    root = scale[:, None] * directions / np.sqrt(np.maximum(squares, _LEAST_INFORMATION))
+    share, turned = np.linalg.eigh(root.T @ axes @ root)  # of what is known in each direction; (6, r)
+    share = np.clip(share, 0.0, 1.0)
+    degrees = np.repeat([len(group.values) / 3.0 for group in groups], 3) - share.sum(axis=1)
+    size = root @ turned * np.sqrt(4.0 * share * (1.0 - share) / np.maximum(degrees, 1.0)[:, None])[:, None]
+    return np.asarray((size @ size.transpose(0, 2, 1)).sum(axis=0))
+
+
 def _tried(group: Group, basis: FloatArray, shapes: Sequence[SlowNoise]) -> list[_Shape]:
     """What a group says under every shape that counts, the best first; weights add up to 1."""
     own = _own_directions(group.design @ basis)
@@ -163,7 +191,10 @@ def _tried(group: Group, basis: FloatArray, shapes: Sequence[SlowNoise]) -> list
     alone = _variances(reach, np.asarray(np.linalg.inv(white), dtype=np.float64))
     fits = []
     for noise in shapes if n > r else shapes[:1]:
-        moments, log_determinant = group.line.product(columns, noise)
+        solved, log_determinant = group.line.solve(columns, noise)
+        axes = columns.reshape(3, -1, r + 1).transpose(0, 2, 1) @ solved.reshape(3, -1, r + 1)
+        axes = 0.5 * (axes + axes.transpose(0, 2, 1))
+        moments = axes.sum(axis=0)
         inverse = np.asarray(np.linalg.inv(moments[:r, :r]), dtype=np.float64)
         sides = moments[:r, r]
         left = max(float(moments[r, r] - sides @ inverse @ sides), floor)
@@ -173,7 +204,7 @@ def _tried(group: Group, basis: FloatArray, shapes: Sequence[SlowNoise]) -> list
         fits.append(
             _Shape(
                 noise=noise,
-                products=own @ moments[:r, :r] @ own.T / variance,
+                axes=own @ axes[:, :r, :r] @ own.T / variance,
                 sides=own @ sides / variance,
                 variance=variance,
                 log_weight=float(evidence) + log_prior(noise),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final, Protocol, Self
 
 import numpy as np
@@ -20,6 +20,8 @@ from forcetorque.skin.taxels.faults import TaxelFault
 
 REFERENCE_PA: Final = 50e3
 """Pressure up to which the patch of the thesis was calibrated."""
+SIMPLE_AREA_M2: Final = 39e-6
+"""Area of a taxel in (7.13), with which the sum is as much too small as in Table 7.1: a triangle of 3 cm over 10."""
 REST_COUNTS: Final = 240
 """Reading without load, 0xF0; it falls with pressure."""
 SWING_COUNTS: Final = 46.0
@@ -185,6 +187,25 @@ def chamber_recording(
     stamps = EPOCH_NS + np.rint(seconds * 1e9).astype(np.int64)
     gauge = pressure + _GAUGE_PA * rng.standard_normal(len(pressure))
     return Recording(streams={stream.name: stream for stream in (_counts(stamps, counts), _chamber(stamps, gauge))})
+
+
+def chamber_messages(layout: SkinLayout, taxels: TaxelResponses, rng: np.random.Generator) -> Recording:
+    """Record whole messages of a patch in a chamber, up to the pressure of the thesis.
+
+    Args:
+        layout: The patch.
+        taxels: How its taxels respond.
+        rng: Source of noise.
+
+    Returns:
+        The streams `counts`, a column for every number of a message, thermal pads at rest, and `chamber`.
+    """
+    log = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
+    stream = log.stream("counts")
+    counts = np.zeros((len(stream.stamp_ns), layout.columns))
+    counts[:, layout.taxels] = stream.signal("taxel_counts").values
+    counts[:, layout.thermal_pads] = REST_COUNTS
+    return replace(log, streams={**log.streams, "counts": _counts(stream.stamp_ns, counts)})
 
 
 def _broken(

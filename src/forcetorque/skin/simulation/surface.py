@@ -72,8 +72,18 @@ class TrueSurface:
             The surface; it passes the taxels by some tenths of a millimetre.
 
         Raises:
-            SkinError: If the patch folds back, seen from the axis of its normals.
+            SkinError: If the patch folds back, seen from the axis of its normals, or is flat.
         """
+        try:
+            return cls._through(layout)
+        except np.linalg.LinAlgError:
+            raise SkinError(
+                f"patch {layout.name!r}: expected a surface around an axis, got a flat or too small one; simulate a "
+                "patch of a limb"
+            ) from None
+
+    @classmethod
+    def _through(cls, layout: SkinLayout) -> Self:
         from scipy.interpolate import RBFInterpolator, RectBivariateSpline
 
         rotation, origin = _axis(layout.positions, layout.normals)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -71,7 +71,7 @@ class PressureCycle(ArrayRecord):
         return self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
 
 
-def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
+def pressure_cycle(counts: FloatArray, pressure: FloatArray, *, in_bag: bool = False) -> PressureCycle:
     """Split a recording of pressure on a patch into rest, loading and unloading.
 
     The rest level is that of this recording, before the pressure first rises: it moves from one to the next with
@@ -80,40 +80,49 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
 
     Args:
         counts: Counts, a row per message; shape (n, c).
-        pressure: Pressure at the same instants; shape (n,); Pa.
+        pressure: Reading of the gauge at the same instants; shape (n,); Pa.
+        in_bag: Whether the gauge is inside a vacuum bag, and falls by what presses on the patch.
 
     Returns:
         The recording from rest.
 
     Raises:
         SkinError: If a message is all zero or has gaps, or the pressure never rises, only rises, or does not begin at
-            rest.
+            rest; the other way round in a bag.
     """
     require_shape(pressure, name="pressure", shape=(len(counts),))
     require_counts(counts)
+    sign, rises, falls = (-1.0, "falls", "rises") if in_bag else (1.0, "rises", "falls")
+    pressure = sign * pressure
     smooth = _median_filtered(pressure)
     lowest, highest = float(smooth.min()), float(smooth.max())
+    resting, pressing = round(sign * lowest), round(sign * highest)
     if highest - lowest < LEAST_RISE_PA:
         raise SkinError(
-            f"expected a pressure that rises by at least {LEAST_RISE_PA:g} Pa, got {lowest:.0f} to {highest:.0f} Pa: "
-            "it never rises; is the unit right?"
+            f"expected a pressure that {rises} by at least {LEAST_RISE_PA:g} Pa, got {resting} to {pressing} Pa: "
+            f"it never {rises}; is the unit right?"
         )
     swing = highest - lowest
     if float(np.median(smooth[:_REST_ROWS])) > highest - REST_SHARE * swing:
+        remedy = (
+            "leave out pressure_of of [[patch]] where the gauge is that of a chamber"
+            if in_bag
+            else 'is the gauge inside a vacuum bag? Then state pressure_of = "bag" in [[patch]]'
+        )
         raise SkinError(
-            f"expected a pressure that rises from rest, got one that falls from {highest:.0f} to {lowest:.0f} Pa; is "
-            'the gauge inside a vacuum bag? Then state pressure_of = "bag" in [[patch]]'
+            f"expected a pressure that {rises} from rest, got one that {falls} from {pressing} to {resting} Pa; "
+            f"{remedy}"
         )
     start = _onset(pressure, smooth, swing, int(np.argmax(smooth > lowest + REST_SHARE * swing)))
     if start < _REST_ROWS:
         raise SkinError(
-            f"expected at least {_REST_ROWS} messages at rest before the pressure rises, got {start}: the rest level "
+            f"expected at least {_REST_ROWS} messages at rest before the pressure {rises}, got {start}: the rest level "
             "is taken anew in each recording; begin the interval earlier, or record a longer rest"
         )
     unloading = _unloading(smooth, TURN_SHARE * swing)
     if not unloading.any():
         raise SkinError(
-            f"expected a pressure that rises and falls, got one that only rises, to {highest:.0f} Pa: without "
+            f"expected a pressure that {rises} and {falls}, got one that only {rises}, to {pressing} Pa: without "
             "unloading nothing is known of hysteresis; let the interval go on until the pressure is let out"
         )
     rest = counts[:start].mean(axis=0)
@@ -123,7 +132,7 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
         pressure=pressure - rest_pressure,
         unloading=unloading,
         rest=rest,
-        rest_pressure=rest_pressure,
+        rest_pressure=sign * rest_pressure,
     )
 
 
@@ -228,9 +237,7 @@ def _recording(
     message = whole[rows]
     require_counts(message, where=repr(patch.counts), rows=rows)
     counts = message[:, patch.taxels]
-    cycle = pressure_cycle(counts, -at) if patch.in_bag else pressure_cycle(counts, at)
-    if patch.in_bag:
-        cycle = replace(cycle, rest_pressure=-cycle.rest_pressure)
+    cycle = pressure_cycle(counts, at, in_bag=patch.in_bag)
     if patch.in_bag and cycle.highest > MOST_IN_BAG_PA:
         raise SkinError(
             f"pressure_of: expected a bag that is at most emptied, {MOST_IN_BAG_PA:g} Pa below rest, got "

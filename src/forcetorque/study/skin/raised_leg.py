@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment of thesis 7.3 in simulation: weights on a raised leg whose shin has skin, while motors warm.
+"""Loads on a raised leg whose shin has skin, while motors warm: layout, logs and experiment files, as a user has them.
 
-`write_leg` leaves a folder as a user has it: layout, logs of a chamber and of a warm-up, one recording with counts,
-force-torque sensor and encoders, and an experiment file for each way to tell torques from it.
+The recording has counts, force-torque sensor and encoders; each way to estimate torques has an experiment file.
 """
 
 from __future__ import annotations
@@ -15,23 +14,26 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import SkinError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.contacts import Contact
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import BIPED_URDF
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ON_SKIN, ClothStrip, ContactTruth, FlatWeight, SkinBody, SkinContact
-from forcetorque.skin.simulation.recordings import Loading, TaxelResponses, contact_recording
+from forcetorque.skin.simulation.recordings import Loading, TaxelResponses, chamber_messages, contact_recording
 from forcetorque.skin.simulation.temperature import HeatResponses, MotorHeat, Warmth, warm_recording
 from forcetorque.skin.taxels.calibrate import calibrate_skin
-from tests.robot.mechanics.simulated import Simulation
-from tests.scenes.warmed import chamber_messages
 
 LINK: Final = "r_shin"
 KNEE: Final = "r_knee"
@@ -115,12 +117,11 @@ def write_leg(
     Returns:
         The truth.
     """
-    rng = np.random.default_rng(seed)
+    body, rng = SkinBody.of(layout), np.random.default_rng(seed)
     taxels, heat = TaxelResponses.drawn(len(layout), rng), HeatResponses.drawn(layout, rng)
     write_layout_table(folder / "shin.csv", layout)
     write_recording(folder / "bag", chamber_messages(layout, taxels, rng))
     write_recording(folder / "warm", warm_recording(layout, taxels, heat, rng, warmth=Warmth(hold_s=900.0)))
-    body = SkinBody.of(layout)
     places = _places(body, loads, rng)
     hip = _hip_rad(body, loads, places)
     pressed = [_pressed(body, *one) for one in zip(loads, places, hip.tolist(), strict=True)]
@@ -129,12 +130,13 @@ def write_leg(
     touched = contact_recording(layout, taxels, [truth for truth, _ in pressed], rng, loading=loading, heat=rise)
     counts = touched.stream("counts")
     whole = shares @ np.stack([wrench for _, wrench in pressed])
-    leg = _leg(_hip(hip, seconds, loading), whole)
-    reading = leg.reading(SENSOR) + OFFSET * rng.normal(size=6) + NOISE * rng.normal(size=(len(seconds), 6))
+    joints = leg_motion(_hip(hip, seconds, loading))
+    leg = loaded_leg(joints, whole)
+    reading = leg.expected_of(SENSOR) + OFFSET * rng.normal(size=6) + NOISE * rng.normal(size=(len(seconds), 6))
     streams = {
         "counts": counts,
         SENSOR: _stream(SENSOR, counts, _wrench(reading)),
-        "joints": _stream("joints", counts, _positions(leg.joints)),
+        "joints": _stream("joints", counts, _positions(joints)),
     }
     write_recording(folder / "leg", Recording(streams=streams))
     (folder / "leg.urdf").write_text(BIPED_URDF.read_text(encoding="utf-8"), encoding="utf-8")
@@ -169,9 +171,16 @@ def _places(body: SkinBody, loads: Sequence[Load], rng: np.random.Generator) -> 
 def _place(body: SkinBody, load: Load, rng: np.random.Generator) -> FloatArray:
     """A place beside the one on which this load would push neither left nor right."""
     radius, along = body.surface.mean_radius_m, -rng.uniform(*(ON_TOP_M if load.on_top else HANGING_M))
-    front = np.array([[np.sqrt(radius**2 - y**2), y, along] for y in SIDEWAYS_M])
-    truths = [_resting(body, load, place, load.mass_kg) for place in body.surface.chart(front)]
+    front = np.array([[np.sqrt(max(radius**2 - y**2, 0.0)), y, along] for y in SIDEWAYS_M])
+    charted = body.surface.chart(front)
+    inside = ((charted >= body.surface.low) & (charted <= body.surface.high)).all(axis=1)
+    truths = [_resting(body, load, place, load.mass_kg) for place in charted[inside]]
     on_skin = [one for one in truths if one.on_skin >= ON_SKIN]
+    if not on_skin:
+        raise SkinError(
+            f"layout {body.layout.name!r}: expected skin of a shin under {load.label}, {-100.0 * along:.0f} cm from "
+            "the knee along -z of its frame, got none there; give a layout with x to the front and the knee as origin"
+        )
     middle = min(on_skin, key=lambda one: abs(one.wrench[1])).contact.place
     place: FloatArray = middle + [rng.uniform(-BESIDE_M, BESIDE_M), 0.0]
     return place
@@ -209,21 +218,42 @@ def _hip(angles: FloatArray, seconds: FloatArray, loading: Loading) -> FloatArra
     return np.interp(seconds, times, values)
 
 
-def _leg(hip: FloatArray, wrench: FloatArray) -> Simulation:
-    """The leg at rest in every pose, touched."""
-    positions = np.zeros((len(hip), len(JOINTS)))
-    positions[:, 0] = hip
-    still = RootMotion(
-        proper_acceleration=np.array([0.0, 0.0, STANDARD_GRAVITY]),
-        angular_velocity=np.zeros(3),
-        angular_acceleration=np.zeros(3),
-    )
+def leg_motion(hip: FloatArray) -> JointMotion:
+    """Give the leg at rest in every pose; the other joints of the robot are at zero.
+
+    Args:
+        hip: Pitch of the hip; shape (n,); rad.
+
+    Returns:
+        Positions of all joints, those of the leg first.
+    """
     model = read_urdf(BIPED_URDF)
-    others = tuple(name for name, joint in model.joints.items() if joint.type.moves and name not in JOINTS)
-    whole = np.hstack([positions, np.zeros((len(hip), len(others)))])
-    leg = Simulation(model, "pelvis", JointMotion.at_rest((*JOINTS, *others), whole), still)
-    leg.touch(Contact(link=LINK), wrench)
-    return leg
+    others = [name for name, joint in model.joints.items() if joint.type.moves and name not in JOINTS]
+    positions = np.zeros((len(hip), len(JOINTS) + len(others)))
+    positions[:, 0] = hip
+    return JointMotion.at_rest((*JOINTS, *others), positions)
+
+
+def loaded_leg(joints: JointMotion, shin_wrench: FloatArray) -> Estimates:
+    """Compute what a perfect sensor reads, and the torque of the knee, while the pelvis is held upright.
+
+    Args:
+        joints: The leg at rest.
+        shin_wrench: What the load does to the shin, in its frame and about its origin; shape (n, 6); N, N m.
+
+    Returns:
+        The expected reading of `SENSOR` and the torque of `KNEE`.
+    """
+    load = Contact(link=LINK, type=ContactType.KNOWN)
+    question = Question(
+        tree=build_tree(read_urdf(BIPED_URDF), "pelvis"),
+        contacts=(load,),
+        expected=(SENSOR,),
+        torques=(KNEE,),
+        equations=(),
+    )
+    root = RootMotion.fixed([0.0, 0.0, -1.0])
+    return estimate(question, joints, root, known=Wrenches.of({load.name: shin_wrench}))
 
 
 def _stream(name: str, counts: Stream, signal: Signal) -> Stream:

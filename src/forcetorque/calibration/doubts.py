@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What makes any fit on the calibration intervals of a recording doubtful, in a recording or in its segments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from forcetorque.experiment.additions import added_to
+from forcetorque.experiment.free_sub_model import possible_touch
+from forcetorque.experiment.long_recording import joined_findings
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.findings import inspect_experiment, unreliable_among
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
+from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
+from forcetorque.recording.recording import Finding, Interval, Use
+from forcetorque.recording.segments import Segment
+
+_MOST_ALIKE = 5
+"""Findings of one kind in an interval that are doubts by themselves; the rest is counted."""
+
+
+def doubts_of_samples(run: SensorRun) -> Iterator[str]:
+    """Say what makes any fit doubtful by the loads, and what the samples say about them.
+
+    Args:
+        run: The sensor, in a recording or a segment of one.
+
+    Yields:
+        The first sentences of `data_doubts`.
+    """
+    if (loads := wrist_loads(run.experiment)) is not None and not loads.are_stated:
+        yield (
+            "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
+            "give mass_kg and centre_of_mass_m to judge it"
+        )
+    yield from contradicted_statements(run)
+    yield from load_doubts(run)
+
+
+def doubts_of_intervals(
+    run: SensorRun, found: Sequence[tuple[Interval, Finding]], *, by_model: bool = True
+) -> Iterator[str]:
+    """Say which intervals are doubtful, without a look at samples.
+
+    Args:
+        run: The sensor in the whole recording.
+        found: Findings in its calibration intervals, as of `unreliable_intervals`.
+        by_model: As of `data_doubts`.
+
+    Yields:
+        The other sentences of `data_doubts`.
+    """
+    if by_model:
+        yield from _touched(run)
+        if (sentence := possible_touch(run)) is not None:
+            yield sentence
+    yield from added_to(run.experiment.recording)
+    yield from _found(run.experiment.recording.start_ns, found)
+
+
+def _found(start_ns: int, found: Sequence[tuple[Interval, Finding]]) -> Iterator[str]:
+    """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
+    alike: dict[str, list[str]] = {}
+    for interval, finding in found:
+        start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
+        kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
+        alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")
+    for kind, sentences in alike.items():
+        yield from sentences[:_MOST_ALIKE]
+        if len(sentences) > _MOST_ALIKE:
+            yield f"{kind}: {len(sentences) - _MOST_ALIKE} more, which `inspect` lists"
+
+
+def _touched(run: SensorRun) -> Iterator[str]:
+    for interval in run.experiment.intervals(Use.CALIBRATION):
+        if names := run.touched_beyond(interval):
+            yield (
+                f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
+                "[[contact]] or contact_links, so that nobody knows what it must read; calibrate all sensors at once, "
+                "--jointly, from Python calibrate_jointly"
+            )
+
+
+class SegmentedDoubts:
+    """What makes a fit on a recording doubtful of which segments are looked at one after the other."""
+
+    def __init__(self, run: SensorRun) -> None:
+        """Begin.
+
+        Args:
+            run: The sensor in the whole recording, of which no samples are looked at.
+        """
+        self._run = run
+        self._said: dict[str, None] = {}
+        self._found: list[Sequence[Finding]] = []
+
+    def add(self, run: SensorRun) -> None:
+        """Look at the next segment.
+
+        Args:
+            run: The sensor in the segment.
+        """
+        # a fit checks the causes by itself
+        found = inspect_experiment(run.experiment, with_causes=False, sensors=[run.sensor.name], computed=run)
+        self._found.append(found)
+        if run.has(Use.CALIBRATION):
+            self._said |= dict.fromkeys(doubts_of_samples(run))
+
+    def warnings(self, segments: Sequence[Segment]) -> tuple[str, ...]:
+        """Put together what was found.
+
+        Args:
+            segments: The segments.
+
+        Returns:
+            The sentences of `data_doubts`.
+        """
+        among = unreliable_among(joined_findings(segments, self._found), self._run.experiment, Use.CALIBRATION)
+        return tuple(dict.fromkeys([*self._said, *doubts_of_intervals(self._run, among)]))

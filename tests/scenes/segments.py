@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Short recordings that are reduced in segments, as long ones are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+SEGMENT_S = 5.9
+"""Length of the segments."""
+
+
+@contextmanager
+def short_segments(length_s: float = SEGMENT_S) -> Iterator[None]:
+    """Make segments short, with 2.4 s around them, of no sample beside these, cut at whole seconds.
+
+    Args:
+        length_s: Length of a segment; s.
+    """
+    long_recording = "forcetorque.experiment.long_recording"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("forcetorque.recording.segments.BLOCK_NS", 10**9)
+        patch.setattr("forcetorque.recording.segments._SHORT", 0)
+        patch.setattr(f"{long_recording}._LEAST_MARGIN_S", 0.0)
+        patch.setattr(f"{long_recording}._WINDOWS", 0.6)
+        patch.setattr(f"{long_recording}.SEGMENT_S", length_s)
+        yield
