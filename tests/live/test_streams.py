@@ -444,6 +444,7 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"quantity": None}, "expected --quantity"),
         ({"channels": ()}, "--channels with 6 columns"),
         ({"channels": ("foot=" + CHANNELS,)}, "once per sensor"),
+        ({"channels": ("a,b,c,d,e,state.O_F_ext_hat_K[5]",)}, "along the axes of the base; take --replay"),
         (
             {"channels": (",".join(f"actual_TCP_force_{k}" for k in range(6)),)},
             "along the axes of the base; take --replay",

@@ -117,7 +117,7 @@ def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
 def test_gravity_that_is_assumed_stands_in_the_answer(tmp_path: Path) -> None:
     """Of orientations, which tell its direction alone; negative control: gravity in the log."""
     weighed = _weighed(write_postures(tmp_path, seed=5, postures=Rotation.random(8, random_state=4), known=False))
-    assert weighed.assumed_gravity_m_per_s2 == 9.80665
+    assert weighed.assumed_gravity_m_per_s2 == pytest.approx(9.80665, rel=1e-12)
     assert any("assumed: gravity 9.80665 m/s2, whose relative error" in line for line in _answer(weighed).why)
     logged = _weighed(_write(tmp_path))
     assert logged.assumed_gravity_m_per_s2 is None

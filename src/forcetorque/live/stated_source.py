@@ -35,8 +35,8 @@ _OF_LINES = ("channels", "variables", "status", "index", "stamp", "sequence", "g
 """What is stated of lines alone."""
 _OF_TOPICS = ("publish", "domain", "router", "robot", "joints", "base_gravity")
 """What is stated of topics alone."""
-_ALONG_BASE = "actual_TCP_force"
-"""Field of Universal Robots whose wrench is along the axes of the base, whatever the arm does."""
+_ALONG_BASE = ("actual_TCP_force", "O_F_ext_hat_K")
+"""Fields of Universal Robots and Franka whose wrench is along the axes of the base, whatever the arm does."""
 _ON_EARTH = (9.7, 9.9)
 """Range of the acceleration of free fall anywhere on earth, with a margin; m/s2."""
 
@@ -365,10 +365,10 @@ def _sensor_columns(settings: Settings, calibrations: Sequence[Calibration]) -> 
                 f"sensor {name!r}: expected --channels with {count} columns, in the order of its calibration, got "
                 f"{len(own)}"
             )
-        if turned := [column for column in own if column.startswith(_ALONG_BASE)]:
+        if turned := [column for column in own if any(field in column for field in _ALONG_BASE)]:
             raise RecordingError(
-                f"--channels {turned[0]}: expected columns along the axes of sensor {name!r}, got those of "
-                "Universal Robots along the axes of the base; take --replay EXPERIMENT, which turns them to the flange "
+                f"--channels {turned[0]}: expected columns along the axes of sensor {name!r}, got a field of the "
+                "arm along the axes of the base; take --replay EXPERIMENT, which turns them to the flange "
                 "(`payload LOG --save-experiment EXPERIMENT` writes it)"
             )
         if settings.form is Input.YARP_MEASURES and not _is_index(index.get(name, "")):

@@ -196,10 +196,10 @@ def weigh_load(runs: Runs) -> WeighedLoad:
 
 
 def _assumed_gravity(experiment: Experiment, wrist: WristLoads) -> float | None:
-    """The size of gravity that is not measured; m/s2."""
+    """The size of gravity that is not measured; m/s2. Beside an orientation, gravity is what its reader made of it."""
     streams = [experiment.recording.stream(name) for name in wrist.table.motion or ()]
-    turned = any("orientation" in stream.signals for stream in streams)
-    return experiment.processing.gravity if turned else None
+    turned = next((stream for stream in streams if {"orientation", "gravity"} <= set(stream.signals)), None)
+    return None if turned is None else float(np.nanmax(np.linalg.norm(turned.signal("gravity").values, axis=1)))
 
 
 def _require_weight(weighed: WeighedLoad) -> None:
