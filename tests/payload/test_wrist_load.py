@@ -114,6 +114,16 @@ def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
     np.testing.assert_allclose(session.bias, BIAS, atol=4 * NOISE.max())
 
 
+def test_gravity_that_is_assumed_stands_in_the_answer(tmp_path: Path) -> None:
+    """Of orientations, which tell its direction alone; negative control: gravity in the log."""
+    weighed = _weighed(write_postures(tmp_path, seed=5, postures=Rotation.random(8, random_state=4), known=False))
+    assert weighed.assumed_gravity_m_per_s2 == 9.80665
+    assert any("assumed: gravity 9.80665 m/s2, whose relative error" in line for line in _answer(weighed).why)
+    logged = _weighed(_write(tmp_path))
+    assert logged.assumed_gravity_m_per_s2 is None
+    assert not any("assumed" in line for line in _answer(logged).why)
+
+
 @pytest.mark.long
 def test_a_tilt_that_is_asked_for_stands_in_answer_and_details(tmp_path: Path) -> None:
     """A world that is level, by orientations: no tilt, with its interval."""

@@ -95,7 +95,9 @@ def test_the_file_of_a_table_with_applied_wrenches_is_that_of_the_page(run: Run,
     _write_readings(plate)
     assert "next: fit them: the same command without --next" in run("bench", "workbench", "plate.toml", "--next").out
     assert "FITTED, NO FAULT OF THE BENCH" in run("bench", "workbench", "plate.toml", "-o", "plate.json").out
-    assert "expected a workbench file (TOML), got " in run("bench", "workbench", "readings.csv", "-o", "x.json").error()
+    refused = run("bench", "workbench", "readings.csv", "-o", "x.json").error()
+    assert "expected a workbench file (TOML), which names" in refused
+    assert "got the table; docs/workbench.md" in refused
 
 
 def test_unknown_loads_are_the_first_reason_of_no_matrix(run: Run, plate: FloatArray) -> None:

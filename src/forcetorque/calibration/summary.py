@@ -51,10 +51,15 @@ def calibration_answer(
     sensor, source = calibration.sensor, calibration.provenance
     labels = [interval.label for interval in source.intervals]
     intervals = ", ".join(map(repr, labels)) if len(labels) <= _MOST_INTERVALS else counted(len(labels), "interval")
-    force, moment = (float(np.linalg.norm(calibration.residual_rms[part])) for part in FORCE_AND_MOMENT)
+    measured = measured_components(calibration.matrix)
+    norms = [
+        f"{np.linalg.norm(calibration.residual_rms[part]):.{digits}f} {unit}"
+        for part, digits, unit in zip(FORCE_AND_MOMENT, (2, 3), ("N", "N m"), strict=True)
+        if measured[part].any()
+    ]
     fitted = f"{source.samples} samples" if source.means is None else f"{counted(source.means, 'mean')} of 1 s"
     unknowns = 0 if calibration.posterior is None else calibration.posterior.mean.shape[1]
-    residual = f"residual {force:.2f} N, {moment:.3f} N m (RMS of the norm)"
+    residual = f"residual {', '.join(norms)} (RMS of the norm)"
     if source.means is not None and source.means <= unknowns:
         residual = f"too few to leave a residual, with {unknowns} unknowns per component: record longer"
     return Answer(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.formats.logged_wrist import BAG
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
-from forcetorque.payload.result import fitted_drifts, mount_words, tilt_words
+from forcetorque.payload.result import fitted_drifts, gravity_words, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.tare_offset import STILL
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
@@ -179,7 +179,9 @@ def _samples(weighed: WeighedLoad) -> str:
     count = f"{weighed.observations} samples" + (
         f", {disagreeing} disagree with the others and count less" if disagreeing else ""
     )
-    return f"{count}; the loads move {weighed.spanned_directions} of 6 directions of wrench"
+    text = f"{count}; the loads move {weighed.spanned_directions} of 6 directions of wrench"
+    gravity = weighed.assumed_gravity_m_per_s2
+    return text if gravity is None else f"{text}; assumed: {gravity_words(gravity)}"
 
 
 def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:

@@ -12,6 +12,7 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.noise.means import means_over
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution, three
@@ -182,6 +183,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         validation=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
         residual_rms=solution.residual_rms,
         spanned_directions=solution.spanned,
+        assumed_gravity_m_per_s2=None if wrist is None else _assumed_gravity(first.experiment, wrist),
         recordings=tuple(alone),
         disagreements=tuple(disagreements(alone)),
     )
@@ -191,6 +193,13 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     )
     doubts = (*payload_doubts(result), *of_runs)
     return result.model_copy(update={"warnings": doubts})
+
+
+def _assumed_gravity(experiment: Experiment, wrist: WristLoads) -> float | None:
+    """The size of gravity that is not measured; m/s2."""
+    streams = [experiment.recording.stream(name) for name in wrist.table.motion or ()]
+    turned = any("orientation" in stream.signals for stream in streams)
+    return experiment.processing.gravity if turned else None
 
 
 def _require_weight(weighed: WeighedLoad) -> None:

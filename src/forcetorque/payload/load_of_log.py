@@ -23,7 +23,7 @@ from forcetorque.inspection.draft.log import draft_of_description, recording_lin
 from forcetorque.inspection.draft.toml_lines import line, toml_value
 from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
 from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques, postures_words
-from forcetorque.payload.result import ArmLog
+from forcetorque.payload.result import ArmLog, gravity_words
 from forcetorque.results.number_text import amount
 
 SERIAL = "not stated"
@@ -230,7 +230,7 @@ def _assumed(path: Path, wrist: LoggedWrist, experiment: Experiment) -> Sequence
     size = float((known[0] ** 2).sum() ** 0.5)
     masses = list(dict.fromkeys(declared.mass for declared in wrist.declared if declared.mass > 0.0))
     declared_masses = ", ".join(amount(mass, "kg") for mass in masses)
-    words = [*wrist.assumed, f"gravity {size:.6g} m/s2"]
+    words = [*wrist.assumed, gravity_words(size)]
     if masses:
         words.append(f"the declared payload of {declared_masses} is part of the load")
     start, end = wrist.declared[0].start_ns, wrist.declared[-1].end_ns

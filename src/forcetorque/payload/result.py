@@ -346,6 +346,18 @@ class ArmLog(Row):
     """What other fields of the log contradict."""
 
 
+def gravity_words(gravity: float) -> str:
+    """Say which gravity was taken, and what its error does.
+
+    Args:
+        gravity: Its size; m/s2.
+
+    Returns:
+        The words.
+    """
+    return f"gravity {gravity:.6g} m/s2, whose relative error is that of the mass"
+
+
 class WeighedLoad(Result):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
@@ -396,6 +408,8 @@ class WeighedLoad(Result):
     """Root mean square residual; N, N m."""
     spanned_directions: int
     """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
+    assumed_gravity_m_per_s2: float | None = None
+    """Gravity where orientations of the sensor give its direction alone; null where it was logged, or of a robot."""
     robot_file: str | None = Field(default=None, exclude=True, repr=False)
     """File for a robot that was written; None for none."""
     recordings: tuple[RecordingLoadRow, ...] = ()

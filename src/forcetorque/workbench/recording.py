@@ -242,7 +242,15 @@ def read_bench(path: Path | str) -> BenchRecording:
 
     Returns:
         Loads, blocks and readings.
+
+    Raises:
+        FormatError: If the file is a table of readings.
     """
+    if Path(path).suffix.lower() in {".csv", ".tsv", ".txt", ".dat"}:
+        raise FormatError(
+            f"{path}: expected a workbench file (TOML), which names sensor and columns of such a table, got the table; "
+            "docs/workbench.md shows the file"
+        )
     content = read_toml(path, BenchFile, what="a workbench file")
     inputs = Inputs(Path(path).parent)
     with stated_in(str(path)):

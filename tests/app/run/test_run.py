@@ -109,6 +109,7 @@ def test_a_calibration_that_must_not_be_used_is_withheld(folder: Path, run: Run)
     stopped = run("run", PARQUET, "-o", "results")
     assert stopped.code == 3
     assert "STOPPED AT EVALUATE" in stopped.out.splitlines()[0]
+    assert "forcetorque inspect" not in stopped.out  # which would show nothing of the remedy
     assert not Path("results").exists()
 
 

@@ -132,6 +132,14 @@ def test_the_offset_that_a_matrix_file_cannot_hold_is_announced(run: Run, leg: P
     assert stored.result()["calibrations"][0]["offset_stored"] is True
 
 
+def test_the_offset_of_a_load_cell_is_that_of_its_component(run: Run, tmp_path: Path) -> None:
+    """Components that are not measured have no offset."""
+    measured = np.arange(6)[:, None] == 2
+    cell = make_calibration(matrix=np.where(measured, 1.0, 0.0), offset=np.where(measured[:, 0], 20.2, -0.0))
+    done = run(_written(tmp_path / "cell.json", cell), "--to", "csv", "-o", tmp_path / "table.csv")
+    assert "offset fz 20.2 N: stored" in done.err
+
+
 def test_the_offset_of_several_sessions_is_said_to_be_the_last(run: Run, tmp_path: Path) -> None:
     """A robot has one offset: it is named, and warned of; with one session there is nothing to say."""
     old, new = (

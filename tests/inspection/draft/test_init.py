@@ -113,6 +113,21 @@ def test_a_sensor_of_fewer_components_is_offered(tmp_path: Path, components: tup
         assert signal == {"quantity": "raw", "columns": list(components), "units": ["counts"] * len(components)}
 
 
+def test_a_load_cell_in_a_file_of_its_own_is_offered(tmp_path: Path) -> None:
+    """Beside a table of joints; the answer names lines that the file has."""
+    rows = np.random.default_rng(5).normal(size=(300, 3))
+    for name, heading, first in (("cell", "time,fz", 0), ("log", "time,shoulder,elbow", 1)):
+        lines = [
+            f"{0.01 * k:.2f}," + ",".join(map(str, row[first : first + heading.count(",")]))
+            for k, row in enumerate(rows)
+        ]
+        log = _written(tmp_path, "\n".join([heading, *lines]) + "\n")
+        log.rename(tmp_path / f"{name}.csv")
+    draft = draft_experiment([tmp_path / "cell.csv", log], tmp_path / "x.toml", urdf=tmp_path / "robot.urdf")
+    assert draft.few_components == ("fz",)
+    assert '# columns = ["fz"]' in draft.content
+
+
 NAMES = ("t", "fx", "fy", "fz", "tx", "ty", "tz")
 
 

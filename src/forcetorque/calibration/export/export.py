@@ -66,7 +66,10 @@ class ExportedCalibration(Row):
 
     @property
     def offset_text(self) -> str:
-        """The offset with its units."""
+        """The offset of the measured components with its units."""
+        if len(self.measured) < len(WRENCH_COMPONENTS):
+            entries = zip(WRENCH_COMPONENTS, self.offset, WRENCH_UNITS, strict=True)
+            return ", ".join(f"{name} {value:.4g} {unit}" for name, value, unit in entries if name in self.measured)
         force, moment = (", ".join(f"{value:.4g}" for value in half) for half in (self.offset[:3], self.offset[3:]))
         return f"({force}) N, ({moment}) N m"
 

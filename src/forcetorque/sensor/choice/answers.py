@@ -52,7 +52,7 @@ def choice_answers(choice: SensorChoice) -> Iterator[Answer]:
         )
 
 
-_RANKED = "smallest stated error first, then narrowest range; an error is what the maker states, not what is measured"
+_RANKED = "smallest stated error over load first, then narrowest range; the maker states the error, it is not measured"
 
 
 def _loads(choice: SensorChoice) -> str:
@@ -69,6 +69,6 @@ def _used(row: SensorRow) -> str:
 
 def _error(row: SensorRow) -> str:
     step = "" if row.resolution_force_N is None else f", step {amount(row.resolution_force_N, 'N')}"
-    if row.error_force_N is None or row.error_moment_Nm is None:
+    if row.error_of_load_percent is None:
         return f"no stated error{step}"
-    return f"error {amount(row.error_force_N, 'N')}, {amount(row.error_moment_Nm, 'N m')}{step}"
+    return f"error {amount(row.error_of_load_percent, '%')} of the load{step}"
