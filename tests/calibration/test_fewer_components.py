@@ -21,7 +21,7 @@ from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.inspect import inspect_experiment
+from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.recording.storage import write_recording
 from tests.app.outcome import Run
 from tests.calibration.synthetic import LIMIT_COUNTS, MOUNTED, PRIOR, anyhow, assumptions, read_by
