@@ -134,7 +134,9 @@ def _run(file: Path) -> tuple[Experiment, SensorRun]:
 
 def test_load_cell_is_calibrated_and_evaluated(axis: Path, run: Run) -> None:
     """The way of a new user: fit, verdict and report speak of fz alone; the error is that of the readings."""
-    assert run("calibrate", str(axis), "-o", "cell.json").code == 0
+    fitted = run("calibrate", str(axis), "-o", "cell.json").out
+    assert " N (RMS of the norm)" in fitted
+    assert " N m (RMS" not in fitted
     done = run("evaluate", str(axis), "-c", "cell.json", "--details")
     assert done.code == 0
     assert "fz, N" in done.out
