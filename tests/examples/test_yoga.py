@@ -88,10 +88,10 @@ def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
 
 @pytest.mark.long
 def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
-    """Nearly static data: .86 to .80 N with the fitted offset, .76 to .48 N with the mean of what is judged."""
+    """Nearly static data: .86 to .75 N with the fitted offset, .76 to .46 N with the mean of what is judged."""
     verdicts = _verdicts(YOGA[2], data_dir)
     prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
-    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.799), abs=0.005)
+    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.752), abs=0.005)
     assert new.moment_error_mean_Nm < 0.92 * prior.moment_error_mean_Nm
     prior, new = verdicts["prior", "judged-mean"], verdicts["new", "judged-mean"]
     assert new.force_error_mean_N < 0.65 * prior.force_error_mean_N
@@ -139,7 +139,7 @@ def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_
         row = rows["judged-mean", quantity]
         assert row.conclusion == "better"
         assert row.ratio_high is not None
-        assert row.ratio_high < 0.45
+        assert row.ratio_high < 0.5
         assert rows["fitted", quantity].conclusion == "inconclusive"
         assert rows["fitted", quantity].segments == 1
     assert rows["judged-mean", "force"].ratio == pytest.approx(0.30, abs=0.02)

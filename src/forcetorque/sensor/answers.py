@@ -88,7 +88,7 @@ def drift_answers(drift: Drift) -> Iterator[Answer]:
                 f"{len(row.sessions)} sessions, {len(row.changes)} comparisons{more}{least}",
             ),
             step="fit an offset per session" if drifts else "",
-            command=typed("calibrate", EXPERIMENT) if drifts else "",
+            command=typed("calibrate", EXPERIMENT, "-o", "calibrations") if drifts else "",
             written=(drift.figure_file,),
             concern=Concern.UNCERTAIN if drifts else Concern.NONE,
         )

@@ -124,7 +124,7 @@ def study_skin(
     seed: Annotated[int, Option("Seed of the first trial; the others follow.")] = 1,
     progress: Annotated["Progress", Option("Called with a line for people as work goes on.")] = lambda _: None,
 ) -> "SkinStudy":
-    """Repeat the weights on a leg with skin of thesis 7.3 in simulation, where the truth is known.
+    """Repeat the weights on a leg with skin of thesis 7.3 in simulation.
 
     Example: forcetorque study skin right_leg_lower.txt --figure skin.png
 

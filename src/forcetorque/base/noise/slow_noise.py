@@ -146,11 +146,6 @@ class Timeline(ArrayRecord):
         log_white = -float(np.log(self.share).sum())
         if noise.is_white or not len(self):
             return NoiseFactors(share=self.share, ratio=0.0, log_determinant=log_white)
-        if len(self) == 1:  # LAPACK wants a side diagonal
-            total = 1.0 + noise.ratio * self.share
-            return NoiseFactors(
-                share=self.share / total, ratio=0.0, log_determinant=log_white + float(np.log(total[0]))
-            )
         pivots, multipliers, log_inverse = self._factors(noise)
         return NoiseFactors(
             share=self.share,
