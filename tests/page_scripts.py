@@ -24,9 +24,9 @@ def printed(code: str, name: str) -> str:
 
     Args:
         code: Its text.
-        name: What tracebacks call it.
+        name: What tracebacks call it, and its own `__file__`.
     """
     written = io.StringIO()
     with redirect_stdout(written):
-        exec(compile(code, name, "exec"), {"__name__": "__main__"})
+        exec(compile(code, name, "exec"), {"__name__": "__main__", "__file__": name})
     return written.getvalue()
