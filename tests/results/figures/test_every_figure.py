@@ -129,7 +129,7 @@ def test_the_legend_is_beside_the_data(name: str) -> None:
     """Legends of figures, and of panels, lie outside all panels."""
     _, figure = _drawn(name)
     legends = figure.legends + [panel.get_legend() for panel in panels(figure) if panel.get_legend() is not None]
-    assert len(legends) == (name != "difference")
+    assert len(legends) == {"difference": 0, "choice": 2}.get(name, 1)
     for legend in legends:
         box = legend.get_window_extent()
         assert not any(Bbox.intersection(box, panel.get_window_extent()) for panel in panels(figure))
