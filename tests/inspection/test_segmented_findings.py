@@ -38,6 +38,25 @@ def test_what_goes_on_across_segments_is_one_finding(recorded: Path, monkeypatch
     assert still.message.startswith(f"still (in 1 of {len(spans)} segments")
 
 
+def test_outliers_of_every_segment_are_named(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where the largest of a segment lies beyond its end, where the next one counts it too."""
+    largest: list[int] = []
+
+    def found(experiment: Experiment, **_: object) -> tuple[Finding, ...]:
+        stamps = experiment.recording.stream(SENSOR).stamp_ns
+        at = int(stamps[-1] if not largest else stamps[len(stamps) // 2])
+        largest.append(at)
+        text = f"{len(largest)} outlier(s), the largest here"
+        return (Finding(stream=SENSOR, kind="outlier", message=text, count=1, start_ns=at, end_ns=at),)
+
+    monkeypatch.setattr("forcetorque.inspection.segmented_findings.inspect_experiment", found)
+    with short_segments():
+        rows = inspected(load_experiment(recorded / CALIBRATION[0])).findings
+    named = [row.message for row in rows if row.kind == "outlier"]
+    assert len(named) == len(largest) > 2
+    assert all("in one segment of" in message for message in named)
+
+
 def test_contents_are_those_of_the_recording(recorded: Path) -> None:
     """Streams, their lengths and the duration do not depend on segments."""
     whole = inspect_log(recorded / CALIBRATION[0])

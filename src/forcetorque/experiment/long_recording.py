@@ -111,7 +111,7 @@ def joined_findings(segments: Sequence[Segment], findings: Sequence[Iterable[Fin
     Returns:
         Every finding once, in the order of time. One at a border is that of the segment that has all of it; where none
         has, it says so, with its length and the number of samples in all. One without a time is that of the first
-        segment with it.
+        segment with it. Outliers are counted by segment, those near a border in both.
     """
     timed: list[Finding] = []
     untimed: dict[tuple[object, ...], list[Finding]] = {}
@@ -124,6 +124,10 @@ def joined_findings(segments: Sequence[Segment], findings: Sequence[Iterable[Fin
             if one.start_ns is None or one.end_ns is None:
                 untimed.setdefault((*key, numbers[key]), []).append(one)
                 numbers[key] += 1
+            elif one.kind == "outlier":  # a count for the segment and the samples around it, at the largest
+                counted = replace(one, message=f"{one.message}, in one segment of {SEGMENT_S / 60.0:g} min")
+                if all((own.start_ns, own.message) != (one.start_ns, counted.message) for own in timed):
+                    timed.append(counted)
             elif (one.start_ns < segment.end_ns or segment is segments[-1]) and (
                 one.end_ns >= segment.start_ns or segment is segments[0]
             ):

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import Timeline
-from forcetorque.sensor.sessions.session_regression import SessionMeans, fit_sessions, holm
+from forcetorque.sensor.sessions.session_regression import Change, SessionMeans, fit_sessions, holm
 
 UNIT = np.repeat([1.0, 0.05], 3)
 """Deviations of noise and drifts of moments beside those of forces."""
@@ -63,6 +63,13 @@ def test_a_changed_offset_and_gain_are_found_and_nothing_else() -> None:
     offsets, gains = np.zeros((3, 6)), np.ones((3, 6))
     offsets[1:, 2], gains[2, 1] = 1.0, 1.05
     assert changes_beyond_noise(sessions(np.random.default_rng(2), offsets, gains)) == {(2, 0, False), (1, 1, True)}
+
+
+@pytest.mark.parametrize(("step_N", "p_value"), [(1.0, 0.0), (0.0, 1.0)])
+def test_without_noise_a_change_is_certain(step_N: float, p_value: float) -> None:
+    """And none is none."""
+    change = Change(size=step_N, standard_error=0.0, degrees_of_freedom=100.0)
+    assert change.p_value == p_value
 
 
 def test_a_load_that_stays_determines_no_gain() -> None:

@@ -219,7 +219,8 @@ def _session_means(
     if len(sessions) < 2:
         raise ExperimentError(
             f"sensor {campaign.sensor.name!r}: expected calibration or validation intervals of two sessions or more, "
-            f"got {'one' if sessions else 'none'}; name several files, or state session of every [[interval]]"
+            f"got {f'{sessions[0]!r} alone' if sessions else 'none'}; name files of several sessions, or state another "
+            "session in the [[interval]] of each"
         )
     joined = {
         key: (np.concatenate([time for time, _ in each]), np.concatenate([columns for _, columns in each]))

@@ -22,6 +22,8 @@ _STANDS_STILL = 1e-4
 """Part of the largest load about its mean below which a load counts as constant."""
 _CROSS_SHARE = 0.02
 """Part of the largest motion of other loads below which their cross-talk is left out."""
+_ROUNDING = 1e-9
+"""Change of readings without noise that is no more than rounding; N, N m, or of a gain."""
 _LEVER_M = 0.1
 """Lever by which moments are compared with forces, to choose directions of cross-talk; m."""
 
@@ -114,8 +116,10 @@ class Change:
         """Probability of a change at least as large where there is none."""
         from scipy.special import stdtr  # here because importing it takes longer than most commands
 
-        if not self.degrees_of_freedom > 0.0 or not 0.0 < self.standard_error < np.inf:
+        if not self.degrees_of_freedom > 0.0 or not self.standard_error < np.inf:
             return 1.0
+        if self.standard_error == 0.0:  # readings without noise
+            return float(abs(self.size) <= _ROUNDING)
         return float(2.0 * stdtr(self.degrees_of_freedom, -abs(self.size) / self.standard_error))
 
 
