@@ -42,4 +42,4 @@ def test_one_session_is_refused(days: Path, run: Run, tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_bytes((days.parent / "log.csv").read_bytes())
     outcome = run("bench", "drift", alone)
     assert (outcome.code, outcome.out) == (2, "")
-    assert "intervals of two sessions or more, got one" in outcome.err
+    assert "intervals of two sessions or more, got 'monday' alone" in outcome.err

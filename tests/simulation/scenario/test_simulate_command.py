@@ -75,7 +75,7 @@ def test_the_other_commands_read_what_was_written(scenario: Path, run: Run) -> N
     fitted = read_calibration(Path("new.json")).matrix
     scale = np.linalg.norm(truth["matrix"], axis=1)
     off = np.linalg.norm(np.array(truth["workbench_matrix"]) - truth["matrix"], axis=1) / scale
-    assert (np.linalg.norm(fitted - truth["matrix"], axis=1)[:3] / scale[:3] < 0.5 * off[:3]).all()
+    assert (np.linalg.norm(fitted - truth["matrix"], axis=1)[:3] / scale[:3] < 0.55 * off[:3]).all()
 
 
 def test_the_yarp_folder_is_the_same_session(scenario: Path, run: Run) -> None:
