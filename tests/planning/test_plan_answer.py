@@ -6,52 +6,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.planning.planning import Plan
-from forcetorque.planning.result import PlannedRecording, helps
+from forcetorque.planning.result import helps
 from forcetorque.results.answer import Concern
-
-
-def _recording(number: int, force_after: float, moment_after: float, **allowed: float) -> PlannedRecording:
-    return PlannedRecording(
-        recording=number,
-        support="base",
-        tool="none",
-        temperature_start_degC=None,
-        temperature_end_degC=None,
-        postures=5,
-        seconds=20.0,
-        force_before_N=4.0,
-        force_before_at_most_N=6.0,
-        force_after_N=force_after,
-        force_after_at_most_N=1.5 * force_after,
-        force_allowed_N=allowed.get("force", 1.0),
-        moment_before_Nm=0.2,
-        moment_before_at_most_Nm=0.3,
-        moment_after_Nm=moment_after,
-        moment_after_at_most_Nm=1.5 * moment_after,
-        moment_allowed_Nm=allowed.get("moment", 0.1),
-        within_allowed=0.5,
-    )
-
-
-def _plan(*recordings: PlannedRecording, folder: str | None = None) -> Plan:
-    return Plan(
-        sensor="arm_ft",
-        serial="SIM001",
-        load_case="push",
-        loads="pushes",
-        start="prior",
-        advice="nothing within these limits helps",
-        recordings=recordings,
-        postures=(),
-        limits=(),
-        folder=folder,
-    )
+from tests.planning.plans import plan_of, planned_recording
 
 
 def test_errors_before_and_after_are_the_reason() -> None:
     """With the bound of what they fall to, and what all recordings come to."""
-    (answer,) = _plan(_recording(1, 2.0, 0.1), _recording(2, 1.0, 0.05), folder="next").answers()
+    (answer,) = plan_of(planned_recording(1, 2.0, 0.1), planned_recording(2, 1.0, 0.05), folder="next").answers()
     assert (answer.subject, answer.verdict) == ("arm_ft (SIM001), push", "RECORD 5 POSTURES IN 20 s")
     assert answer.why == (
         "predicted force error falls from 4 N to 2 N (95 %: 3 N), moment error from 0.2 N m to 0.1 N m "
@@ -64,14 +26,14 @@ def test_errors_before_and_after_are_the_reason() -> None:
 @pytest.mark.parametrize(("force", "moment"), [(1.1, 0.05), (0.9, 0.11)])
 def test_recordings_that_leave_more_than_allowed_are_not_enough(force: float, moment: float) -> None:
     """Force or moment; what else to do is said."""
-    (answer,) = _plan(_recording(1, 2.0, 0.1), _recording(2, force, moment)).answers()
+    (answer,) = plan_of(planned_recording(1, 2.0, 0.1), planned_recording(2, force, moment)).answers()
     assert (answer.verdict, answer.concern) == ("RECORD 5 POSTURES IN 20 s, NOT ENOUGH", Concern.UNCERTAIN)
     assert "motion alone does not do it: hang a load on it" in answer.why[1]
 
 
 def test_that_nothing_helps_is_the_verdict() -> None:
     """No step follows."""
-    plan = _plan(_recording(1, 3.999, 0.1999))
+    plan = plan_of(planned_recording(1, 3.999, 0.1999))
     (answer,) = plan.answers()
     assert (answer.verdict, answer.concern) == ("NOTHING HELPS", Concern.BAD)
     assert (answer.why, answer.step, answer.command) == ((plan.advice,), "", "")
@@ -80,12 +42,14 @@ def test_that_nothing_helps_is_the_verdict() -> None:
 @pytest.mark.parametrize(("limits", "expected"), [({}, True), ({"moment": np.inf}, False)])
 def test_what_is_not_limited_does_not_help(limits: dict[str, float], expected: bool) -> None:
     """A moment error that falls, where only the force is limited."""
-    assert helps(_recording(1, 3.999, 0.1, **limits)) == expected
+    assert helps(planned_recording(1, 3.999, 0.1, **limits)) == expected
 
 
 def test_the_figure_has_typical_errors_what_they_are_at_most_and_what_is_allowed() -> None:
     """Before, and after each recording; no limit where none is stated, and on paper what the message says."""
-    figure = _plan(_recording(1, 2.0, 0.1, moment=np.inf), _recording(2, 1.0, 0.05, moment=np.inf)).figure()
+    figure = plan_of(
+        planned_recording(1, 2.0, 0.1, moment=np.inf), planned_recording(2, 1.0, 0.05, moment=np.inf)
+    ).figure()
     force, moment = figure.axes
     assert [list(line.get_ydata()) for line in force.lines] == [[4.0, 2.0, 1.0], [1.0, 1.0]]
     assert [list(line.get_ydata()) for line in moment.lines] == [[0.2, 0.1, 0.05]]
