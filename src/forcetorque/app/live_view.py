@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial, wraps
+from functools import partial, update_wrapper
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import Annotated, Any, Final, get_type_hints
@@ -15,27 +15,6 @@ from forcetorque.base.errors import ForceTorqueError
 
 COMMAND: Final = "live"
 _WINDOW_S: Final = 30.0
-_OPTIONS: Final = (
-    ("view", Annotated[bool, typer.Option("--view", help="Show it in the browser, on a page of this machine.")], False),
-    (
-        "view_s",
-        Annotated[float | None, typer.Option("--view-s", help="Time that the page shows, s. Default: 30.")],
-        None,
-    ),
-    (
-        "port",
-        Annotated[
-            int | None, typer.Option("--port", help="Port of 127.0.0.1 for the page. Default: any that is free.")
-        ],
-        None,
-    ),
-    ("no_browser", Annotated[bool, typer.Option("--no-browser", help="Print its address and open nothing.")], False),
-    (
-        "mesh_dir",
-        Annotated[list[Path] | None, typer.Option("--mesh-dir", help="Folder that holds the packages of meshes.")],
-        None,
-    ),
-)
 
 
 def with_live_view(name: str, command: Callable[..., Any]) -> Callable[..., Any]:
@@ -50,22 +29,21 @@ def with_live_view(name: str, command: Callable[..., Any]) -> Callable[..., Any]
     """
     if name != COMMAND:
         return command
-    hints = get_type_hints(command, include_extras=True)
-    typed = [
-        one.replace(annotation=hints[one.name]) for one in signature(command).parameters.values() if one.name != "page"
-    ]
-    typed += [
-        Parameter(option, Parameter.POSITIONAL_OR_KEYWORD, default=default, annotation=annotation)
-        for option, annotation, default in _OPTIONS
-    ]
 
-    @wraps(command)
     def run(
-        view: bool = False,
-        view_s: float | None = None,
-        port: int | None = None,
-        no_browser: bool = False,
-        mesh_dir: list[Path] | None = None,
+        view: Annotated[
+            bool, typer.Option("--view", help="Show it in the browser, on a page of this machine.")
+        ] = False,
+        view_s: Annotated[
+            float | None, typer.Option("--view-s", help="Time that the page shows, s. Default: 30.")
+        ] = None,
+        port: Annotated[
+            int | None, typer.Option("--port", help="Port of 127.0.0.1 for the page. Default: any that is free.")
+        ] = None,
+        no_browser: Annotated[bool, typer.Option("--no-browser", help="Print its address and open nothing.")] = False,
+        mesh_dir: Annotated[
+            list[Path] | None, typer.Option("--mesh-dir", help="Folder that holds the packages of meshes.")
+        ] = None,
         **given: Any,
     ) -> Any:
         stated = {"--view-s": view_s, "--port": port, "--no-browser": no_browser or None, "--mesh-dir": mesh_dir}
@@ -84,9 +62,17 @@ def with_live_view(name: str, command: Callable[..., Any]) -> Callable[..., Any]
             raise ForceTorqueError(f"{useless[0]} is of the page that --view shows; expected --view too, got none")
         return command(**given)
 
+    typed = [one for one in _typed_parameters(command) if one.name != "page"]
+    typed += [one for one in _typed_parameters(run) if one.kind is not Parameter.VAR_KEYWORD]
+    update_wrapper(run, command)
     run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
     run.__annotations__ = {one.name: one.annotation for one in typed}
     return run
+
+
+def _typed_parameters(function: Callable[..., Any]) -> list[Parameter]:
+    hints = get_type_hints(function, include_extras=True)
+    return [one.replace(annotation=hints[one.name]) for one in signature(function).parameters.values()]
 
 
 def _show_address(url: str, *, open_browser: bool) -> None:
