@@ -28,7 +28,7 @@ from forcetorque.live.bias_tracking import Tracking
 from forcetorque.live.choices import OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.outputs import parquet_file
-from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketAccount, PacketCounts
 from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.tool import Tool
@@ -169,6 +169,7 @@ class _Simulated:
     def __init__(self, count: int) -> None:
         self.counts, self._count, self.lost = PacketCounts(), count, 0
         self.rate_hz: float | None = None
+        self.numbers = NUMBERS
 
     def packets(self) -> Iterator[Packet | None]:
         rng = np.random.default_rng(0)

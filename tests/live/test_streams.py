@@ -43,6 +43,7 @@ TABLE: dict[str, Any] = {
     "stamp": "t:s",
     "sequence": "n",
 }
+YARP: dict[str, Any] = {"form": Input.YARP, "quantity": HeldQuantity.RAW}
 
 
 class Kept:
@@ -218,6 +219,28 @@ def test_numbers_wrap_around_and_begin_again() -> None:
     assert account.counts == PacketCounts(received=5, late=1, repeated=1, countable=True)
     assert add(100_000, 1) == [0, 0]
     assert (account.counts.lost, account.counts.restarts) == (99_998, 1)
+
+
+@pytest.mark.parametrize(
+    ("stated", "heading", "mark", "last"),
+    [
+        (YARP | {"envelope": True}, "", " ", (1 << 15) - 1),
+        (TABLE | {"sequence": "n:65536"}, "n,t," + CHANNELS + "\n", ",", (1 << 16) - 1),
+        (TABLE, "n,t," + CHANNELS + "\n", ",", (1 << 32) - 1),
+    ],
+)
+@pytest.mark.parametrize("lower", [0, 100])
+def test_numbers_go_on_behind_the_last_one(
+    stated: dict[str, Any], heading: str, mark: str, last: int, lower: int
+) -> None:
+    """Losses are counted there, and a tare goes on; where another number is the last, the sender began again."""
+    numbers = [last - lower - 8 + k for k in range(9)] + [1, *range(4, 20)]
+    lines = [mark.join([str(n), str(0.1 * k), *map(str, RAW[0] + k % 2)]) + "\n" for k, n in enumerate(numbers)]
+    result, rows = _run("".join([heading, *lines]), Settings(offset=OffsetSource.TARE, **stated))
+    assert (result.packets.restarts, result.packets.lost) == (0, 3 + lower)
+    assert [row.status for row in rows].count(int(Status.TARING)) == 11
+    if last == (1 << 16) - 1:
+        assert _run("".join([heading, *lines]), Settings(**stated | {"sequence": "n"}))[0].packets.restarts == 1
 
 
 @pytest.mark.parametrize("stated", [TABLE, TABLE | {"sequence": None, "rate_hz": 100.0}, TABLE | {"stamp": None}])
@@ -469,6 +492,7 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0"}, "3 numbers"),
         ({"form": Input.YARP}, "--channels: not of"),
         ({"form": Input.ROS2_CSV}, "--quantity wrench"),
+        ({"sequence": "n:1"}, "--sequence: expected COLUMN"),
         ({"form": Input.YARP_MEASURES, "channels": (), "stamp": None, "sequence": None}, "expected --index"),
     ],
 )

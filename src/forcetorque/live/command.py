@@ -62,7 +62,13 @@ def live(
         str | None,
         typer.Option("--stamp", help="Column with the time, COLUMN:UNIT in s, ms, us or ns. Default: arrival."),
     ] = None,
-    sequence: Annotated[str | None, typer.Option("--sequence", help="Column with the number of the packet.")] = None,
+    sequence: Annotated[
+        str | None,
+        typer.Option(
+            "--sequence",
+            help="Column with the number of the packet; COLUMN:65536 where 0 follows 65535. Default: 0 follows 2^32 - 1.",
+        ),
+    ] = None,
     gravity: Annotated[
         str | None,
         typer.Option("--gravity", help="Three columns with gravity in the frame of the reading, m/s2, for a tool."),

@@ -19,7 +19,7 @@ import numpy as np
 from forcetorque.base.errors import FormatError, RecordingError, UnitError, known_names
 from forcetorque.base.input_file import xml_of_text
 from forcetorque.base.units import si_factor
-from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sample_status import Status
 from forcetorque.live.sources import WAIT_S
 
@@ -169,6 +169,7 @@ class NetFtSource:
         """
         self.counts = PacketCounts(countable=True)
         self.rate_hz: float | None = None
+        self.numbers = NUMBERS
         self._last, self._asked_again = 0, False
         try:
             self._address = (socket.gethostbyname(host), port)

@@ -26,7 +26,7 @@ from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import encoder_of, read_positions, read_wrench
 from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.outputs import CorrectedRow
-from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sample_status import FAULTS, Status
 from forcetorque.live.sources import WAIT_S
 
@@ -177,6 +177,7 @@ class RosSource:
         """
         self.counts = PacketCounts(countable=True)
         self.rate_hz: float | None = None
+        self.numbers = NUMBERS
         self.frames = {sensor: frame or sensor for sensor in topics}
         """Frame of the last message, by sensor."""
         self.positions = positions

@@ -16,6 +16,7 @@ from forcetorque.live.choices import HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.net_ft import CountUnits, NetFtSource, fetch_units
+from forcetorque.live.packets import NUMBERS
 from forcetorque.live.replay import ReplayedGroup, ReplaySource, replayed_groups
 from forcetorque.live.ros_topics import RosSession, RosSource, require_topic
 from forcetorque.live.settings import Settings, by_sensor, corrector_options, numbers_of, refuse
@@ -330,8 +331,9 @@ def _lines(
             if len(gravity) not in (0, 3):
                 raise RecordingError(f"--gravity: expected three columns between commas, got {settings.gravity!r}")
             _require_stamps(settings, settings.stamp is not None, "--stamp")
+            sequence, numbers = _sequence(settings.sequence)
             reader = CsvLines(
-                sensors=sensors, stamp=_stamp(settings.stamp), sequence=settings.sequence, gravity=gravity
+                sensors=sensors, stamp=_stamp(settings.stamp), sequence=sequence, gravity=gravity, numbers=numbers
             )
         else:
             refuse(settings, "channels", "status", "stamp", "sequence", "gravity", "frame")
@@ -339,6 +341,15 @@ def _lines(
             _require_stamps(settings, settings.envelope, "--envelope")
             reader = MeasuresLines(sensors=sensors, envelope=settings.envelope)
     return LineSource(descriptor, reader, rate_hz=settings.rate_hz, warn=warn), (corrector,)
+
+
+def _sequence(text: str | None) -> tuple[str | None, int]:
+    column, colon, count = (text or "").rpartition(":")
+    if not colon:
+        return text, NUMBERS
+    if not _is_index(count) or int(count) < 2:
+        raise RecordingError(f"--sequence: expected COLUMN or COLUMN:COUNT, how many numbers there are, got {text!r}")
+    return column, int(count)
 
 
 def _stamp(text: str | None) -> tuple[str, str] | None:

@@ -14,15 +14,21 @@ from forcetorque.base.errors import FormatError, RecordingError, known_names, qu
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.yarp.measures import MeasuresList
 from forcetorque.formats.yarp.message import Bottle, BottleValue, parse_bottle
-from forcetorque.live.packets import Packet
+from forcetorque.live.packets import NUMBERS, Packet
 from forcetorque.live.sample_status import Status, status_of_device
 
 STAMP_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
 """Nanoseconds of the units that stamps may have."""
+_ENVELOPE_NUMBERS = 1 << 15
+"""Numbers of an envelope, `yarp::os::Stamp::getMaxCount`."""
 
 
 class LineForm(Protocol):
     """Makes samples of lines."""
+
+    @property
+    def numbers(self) -> int:
+        """Numbers of the packets, as of `PacketAccount`."""
 
     def packet(self, line: str) -> Packet | None:
         """Read a line.
@@ -111,6 +117,8 @@ class CsvLines:
     """Column with the number of the packet; None without."""
     gravity: tuple[str, ...] = ()
     """Columns with gravity in the frame of the reading, m/s2; none without."""
+    numbers: int = NUMBERS
+    """Numbers of the packets, as of `PacketAccount`."""
     _places: Mapping[str, int] = field(default_factory=dict)
     _count: int = 0
     _separator: str | None = ","
@@ -187,6 +195,8 @@ class YarpLines:
     """Channels of the sensor."""
     envelope: bool
     """Whether number and time (s) of the sender stand in front, as `yarp read PORT REMOTE envelope` writes them."""
+    numbers: int = _ENVELOPE_NUMBERS
+    """As of `CsvLines`."""
 
     def packet(self, line: str) -> Packet | None:
         """Read a line, as of `LineForm`.
@@ -222,6 +232,8 @@ class MeasuresLines:
     """Indices of the sensors in the lists of force-torque sensors and of temperatures."""
     envelope: bool
     """As of `YarpLines`."""
+    numbers: int = _ENVELOPE_NUMBERS
+    """As of `CsvLines`."""
     _board_stamps: dict[str, float] = field(default_factory=dict)
 
     def packet(self, line: str) -> Packet | None:
@@ -289,6 +301,8 @@ class RosCsvLines:
 
     frame: str | None = None
     """Frame that all messages must be in; None for any."""
+    numbers: int = NUMBERS
+    """As of `CsvLines`; these lines have none."""
 
     def packet(self, line: str) -> Packet | None:
         """Read a line, as of `LineForm`.
