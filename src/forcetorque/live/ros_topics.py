@@ -154,7 +154,7 @@ class RosSource:
         *,
         domain: int,
         clock: Callable[[], float],
-        frame: str | None = None,
+        frames: Mapping[str, str],
         gravity: JointGravity | None = None,
         positions: JointPositions | None = None,
         joints_topic: str | None = None,
@@ -168,7 +168,7 @@ class RosSource:
             topics: Topic by sensor.
             domain: `ROS_DOMAIN_ID`.
             clock: Gives seconds.
-            frame: Frame that all wrenches must be in; None for any.
+            frames: Frame that its wrenches must be in, by sensor.
             gravity: Gives gravity by joint positions; None without.
             positions: Takes joint positions, for who looks at the robot; None for nobody.
             joints_topic: Topic of the joint positions.
@@ -178,12 +178,10 @@ class RosSource:
         self.counts = PacketCounts(countable=True)
         self.rate_hz: float | None = None
         self.numbers = NUMBERS
-        self.frames = {sensor: frame or sensor for sensor in topics}
-        """Frame of the last message, by sensor."""
         self.positions = positions
         """Joint positions that came last."""
-        self._frame, self._gravity, self._clock, self._warn = frame, gravity, clock, warn
-        self._sensors, self._left = tuple(topics), messages
+        self._gravity, self._clock, self._warn = gravity, clock, warn
+        self._frames, self._left = [frames[sensor] for sensor in topics], messages
         self._heard: list[bytes | None] = [None] * len(topics)
         self._last_s = [0.0] * len(topics)
         self._queue: queue.Queue[tuple[int | None, bytes, bytes | None]] = queue.Queue(_WAITING)
@@ -237,14 +235,13 @@ class RosSource:
     def _packet(self, group: int, data: bytes, attached: bytes | None) -> Packet | None:
         number, identifier = read_attachment(attached)
         stamp_ns, frame, values = read_wrench(data)
-        if self._frame is not None and frame != self._frame:
-            raise FormatError(f"frame: expected {self._frame!r}, got {frame[:100]!r}")
+        if frame != self._frames[group]:
+            raise FormatError(f"frame: expected {self._frames[group]!r}, as --frame states, got {frame[:100]!r}")
         now, heard = self._clock(), self._heard[group]
         if identifier != heard and heard is not None and now - self._last_s[group] < _REPLACED_S:
             self.counts.foreign += 1
             return None
         self._heard[group], self._last_s[group] = identifier, now
-        self.frames[self._sensors[group]] = frame
         gravity, faults = None, None
         if self._gravity is not None:
             gravity = self._gravity.vector
@@ -280,7 +277,7 @@ class RosOutput:
         Args:
             session: What carries messages.
             topics: Topic by sensor.
-            frames: Frame of the header by sensor, as it is when a message is sent.
+            frames: Frame of the header by sensor.
             domain: `ROS_DOMAIN_ID`.
             with_faults: Whether samples with a fault have a message too.
             clock_ns: Gives nanoseconds since 1970.
