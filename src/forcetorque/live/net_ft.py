@@ -87,10 +87,18 @@ class CountUnits:
 
         Raises:
             FormatError: If it lacks counts per unit, or its units are not known.
+            RecordingError: If the box turns or moves its wrenches by a tool transformation.
         """
         root = xml_of_text(text, where="netftapi2.xml")
         if root is None:
             raise FormatError("netftapi2.xml: expected XML, got nothing")
+        transformation = root.findtext("cfgtfx", "")
+        if transformation.strip(" \n0.;-"):  # six zeros without one
+            raise RecordingError(
+                f"netftapi2.xml: cfgtfx: expected no tool transformation, which gives wrenches in another frame, got "
+                f"{transformation[:80]!r}; take it off in the configuration of the box, or, where the calibration was "
+                "fitted with it, state --ati-force and --ati-torque"
+            )
         factors = []
         for counts, unit, known in (("cfgcpf", "scfgfu", _FORCE_UNITS), ("cfgcpt", "scfgtu", _TORQUE_UNITS)):
             per_unit, name = (root.findtext(key, "").strip() for key in (counts, unit))

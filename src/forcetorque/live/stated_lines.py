@@ -258,7 +258,7 @@ def _is_index(text: str) -> bool:
 
 
 def _variables(entries: Sequence[str], calibrations: Sequence[Calibration]) -> Mapping[str, tuple[str, ...]]:
-    units = {variable.name: variable.unit for one in calibrations for variable in one.variables}
+    units = {(one.sensor.name, variable.name): variable.unit for one in calibrations for variable in one.variables}
     wanted = {(one.sensor.name, variable.name): "" for one in calibrations for variable in one.variables}
     for entry in entries:
         name, _, column = entry.partition("=")
@@ -273,7 +273,7 @@ def _variables(entries: Sequence[str], calibrations: Sequence[Calibration]) -> M
             raise RecordingError(
                 f"sensor {sensor!r}: its calibration needs {variable!r}; expected --variable {variable}=COLUMN"
             )
-        _require_unit("--variable", column, units[variable])
+        _require_unit("--variable", column, units[sensor, variable])
     return {
         one.sensor.name: tuple(wanted[one.sensor.name, variable.name] for variable in one.variables)
         for one in calibrations
