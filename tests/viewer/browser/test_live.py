@@ -138,6 +138,10 @@ def test_the_page_follows_a_run(visit: Visit) -> None:
     last = _live(page)
     assert last["update"]["ended_by"] == "end of input"
     assert page.get_by_role("button", name="Follow").is_disabled()
+    shown = page.evaluate("window.ft.sample()")
+    page.keyboard.press(" ")
+    assert page.get_by_role("button", name="Follow").is_disabled()
+    assert page.evaluate("window.ft.sample()") == shown > 0
 
     sample = last["samples"] - 1
     model = read_urdf(ARM_URDF)
