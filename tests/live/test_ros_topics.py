@@ -158,6 +158,26 @@ def test_a_publisher_that_begins_again_is_heard() -> None:
     assert calibration.sensor.name == "leg_ft"
 
 
+def test_messages_that_wait_at_an_interrupt_are_counted() -> None:
+    """As lost, those of joints aside."""
+    session = Loopback()
+    source = RosSource(
+        session,
+        {"leg_ft": "/ft/wrench"},
+        frames={"leg_ft": "ft_link"},
+        domain=0,
+        clock=time.monotonic,
+        joints_topic="/j",
+    )
+    for number in range(1, 6):
+        session.send("/ft/wrench", _wrench(10**9 + number), attachment(number, 0, PUBLISHER))
+        session.send("/j", b"", None, JOINT_TYPE)
+    packets = source.packets()
+    assert next(packets) is not None
+    packets.close()
+    assert source.counts.lost == 4
+
+
 def _joints(names: list[str], positions: list[float]) -> bytes:
     rosbags = pytest.importorskip("rosbags.typesys")
     types = rosbags.get_typestore(rosbags.Stores.ROS2_JAZZY)

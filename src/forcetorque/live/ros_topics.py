@@ -198,11 +198,19 @@ class RosSource:
         return take
 
     def packets(self) -> Iterator[Packet | None]:
-        """Give packets, as of `Source`.
+        """Give packets, as of `Source`. Wrenches that still wait when it is interrupted count as lost.
 
         Yields:
             Packets; None while it waits.
         """
+        try:
+            yield from self._taken()
+        finally:
+            with suppress(queue.Empty):
+                while self._left != 0:
+                    self.counts.lost += self._queue.get_nowait()[0] is not None
+
+    def _taken(self) -> Iterator[Packet | None]:
         while self._left is None or self._left > 0:
             try:
                 group, data, attached = self._queue.get(timeout=WAIT_S)
