@@ -184,6 +184,8 @@ class RosSource:
         self._frames, self._left = [frames[sensor] for sensor in topics], messages
         self._heard: list[bytes | None] = [None] * len(topics)
         self._last_s = [0.0] * len(topics)
+        self._given = [0] * len(topics)  # number of the last wrench of each topic
+        self._arrived: list[bytes | None] = [None] * len(topics)  # attachment of the last one, taken or not
         self._queue: queue.Queue[tuple[int | None, bytes, bytes | None]] = queue.Queue(_WAITING)
         for group, topic in enumerate(topics.values()):
             session.subscribe(topic_key(domain, topic, WRENCH_TYPE), self._taker(group))
@@ -192,6 +194,8 @@ class RosSource:
 
     def _taker(self, group: int | None) -> Callable[[bytes, bytes | None], None]:
         def take(data: bytes, attached: bytes | None) -> None:
+            if group is not None:
+                self._arrived[group] = attached
             with suppress(queue.Full):  # the gap of the numbers counts it
                 self._queue.put_nowait((group, data, attached))
 
@@ -206,9 +210,14 @@ class RosSource:
         try:
             yield from self._taken()
         finally:
-            with suppress(queue.Empty):
-                while self._left != 0:
-                    self.counts.lost += self._queue.get_nowait()[0] is not None
+            if self._left != 0:
+                self._count_waiting()
+
+    def _count_waiting(self) -> None:
+        for given, heard, attached in zip(self._given, self._heard, self._arrived, strict=True):
+            with suppress(FormatError):
+                number, identifier = read_attachment(attached)
+                self.counts.lost += max(0, number - given) if identifier == heard else 0
 
     def _taken(self) -> Iterator[Packet | None]:
         while self._left is None or self._left > 0:
@@ -249,7 +258,7 @@ class RosSource:
         if identifier != heard and heard is not None and now - self._last_s[group] < _REPLACED_S:
             self.counts.foreign += 1
             return None
-        self._heard[group], self._last_s[group] = identifier, now
+        self._heard[group], self._last_s[group], self._given[group] = identifier, now, number
         gravity, faults = None, None
         if self._gravity is not None:
             gravity = self._gravity.vector
