@@ -75,11 +75,11 @@ def test_the_bar_shows_the_time_without_events() -> None:
 
 @pytest.mark.parametrize("kind", [*get_args(FaultKind), "implausible"])
 def test_a_fault_comes_first(kind: str) -> None:
-    """Before contacts, with the command to see whether it is mended, quoted where a shell needs it."""
+    """Before contacts, with the command that tries its correction, or shows it again; quoted for a shell."""
     answer = inspection_answer(_inspection(_row("contact", 1.0, 2.0), _row(kind), source="my walk.toml"))
     assert (answer.verdict, answer.concern) == ("1 FAULT", Concern.BAD)
     assert answer.why == (f"leg: this is {kind}",)
-    assert answer.command == "inspect 'my walk.toml'"
+    assert answer.command == f"{'inspect' if kind == 'implausible' else 'init --resume'} 'my walk.toml'"
 
 
 @pytest.mark.parametrize(

@@ -142,10 +142,23 @@ def _step(use: LoadCaseVerdict) -> tuple[str, str]:
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     if remedy is None:
         return to_export(use.calibration, use.sensor)
-    if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
+    if is_for_inspect(use):
         return remedy, typed("inspect", FIRST_EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
     return remedy, to_plan(use.calibration) if records else ""
+
+
+def is_for_inspect(use: LoadCaseVerdict) -> bool:
+    """Find out whether `inspect` shows what is to be corrected.
+
+    Args:
+        use: The verdict.
+
+    Returns:
+        Whether the first remedy of its reasons is the cause of an error, not a further recording.
+    """
+    remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
+    return remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA)
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:

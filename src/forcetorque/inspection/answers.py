@@ -154,6 +154,18 @@ def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
     return tuple(row for row in findings if row.kind in _FAULTS)
 
 
+def has_proposal(wrong: Iterable[FindingRow]) -> bool:
+    """Find out whether `init --resume` names a change of the experiment file.
+
+    Args:
+        wrong: Faults, as `faults` selects them.
+
+    Returns:
+        Whether one of them explains the measurements, so that its correction is tried.
+    """
+    return any(row.kind in get_args(FaultKind) for row in wrong)
+
+
 def events(findings: Iterable[FindingRow], duration_s: float) -> tuple[Event, ...]:
     """Group findings.
 
@@ -277,6 +289,8 @@ def inspection_answer(inspection: Inspection) -> Answer:
     spoiling = [event for event in grouped if event.spoils(in_use)]
     if wrong := faults(inspection.findings):
         touched = [event for event in spoiling if event.explains(wrong, in_use)] if is_experiment else []
+        resumes = bool(touched) or (is_experiment and has_proposal(wrong))
+        correct = "accept the change that corrects it" if resumes else "correct it, and inspect again"
         return Answer(
             subject=subject,
             verdict=f"{len(wrong)} FAULT{'S' * (len(wrong) > 1)}",
@@ -284,8 +298,8 @@ def inspection_answer(inspection: Inspection) -> Answer:
                 *(f"{row.stream}: {row.message}" for row in wrong[: 1 if touched else 2]),
                 *(f"in an interval that is used: {event.text}" for event in _most_harmful(touched, in_use)[:1]),
             ),
-            step="leave the contact out of every [[interval]]" if touched else "correct it, and inspect again",
-            command=typed("init", "--resume", source) if touched else typed("inspect", source),
+            step="leave the contact out of every [[interval]]" if touched else correct,
+            command=typed("init", "--resume", source) if resumes else typed("inspect", source),
             concern=Concern.BAD,
         )
     more = (f"{len(notes)} remark(s) on the whole log: {notes[0]}",) if notes else ()

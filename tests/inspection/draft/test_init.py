@@ -624,4 +624,4 @@ def test_a_log_with_neither_sensor_nor_robot_is_not_called_complete(tmp_path: Pa
     assert (alone.verdict, alone.command) == ("NO SENSOR AND NO ROBOT", "")
     (beside,) = draft_experiment([log], urdf=ARM_URDF).answers()
     assert "NO SENSOR" not in beside.verdict
-    assert beside.command.startswith("inspect ")
+    assert beside.command.startswith("init --resume ")

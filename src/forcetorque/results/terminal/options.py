@@ -32,6 +32,13 @@ ColumnNamesOption = Annotated[
         help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz.",
     ),
 ]
+LoadsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--loads",
+        help="Weights of a bench: a table of them, thesis-6.1, or the log itself if its columns have the loads.",
+    ),
+]
 CalibrationsOption = Annotated[
     list[Path] | None,
     typer.Option(
