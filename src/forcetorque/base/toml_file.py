@@ -214,13 +214,13 @@ def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) ->
 def _require_schema(content: dict[str, Any], form: type[BaseModel], file: Path) -> None:
     """Name the form of a file of another kind, in place of its first key that this form does not have."""
     field = form.model_fields.get("schema_name")
-    expected = () if field is None else get_args(field.annotation)
-    got = content.get("schema")
-    if isinstance(got, str) and expected and got.partition("/")[0] == "forcetorque" and got not in expected:
-        kind = got.split("/")[1] if "/" in got else got
+    expected = "" if field is None else str(get_args(field.annotation)[0])
+    got = str(content.get("schema", ""))
+    kinds = [name.split("/")[1] for name in (expected, got) if name.count("/") == 2]
+    if len(set(kinds)) == 2:
         raise FormatError(
-            f'{file}: schema: expected "{expected[0]}", got "{got}": a file of another kind; `forcetorque schema '
-            f"{kind}` has its keys"
+            f'{file}: schema: expected "{expected}", got "{got}": a file of another kind; `forcetorque schema '
+            f"{kinds[1]}` has its keys"
         )
 
 
