@@ -333,11 +333,12 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
             except ForceTorqueError as error:
                 unchecked.append(f"{name}: {error}")
     if contradicted:
+        reasons = list(dict.fromkeys(contradicted))
         if proposed is None:
-            remedy, command = "correct what the file states", ("inspect", str(way.files[0]))
+            way.stop("check", reasons, "correct what the file states", "inspect", str(way.files[0]))
         else:
-            remedy, command = "accept the change of the line, which is tried first", ("init", "--resume", str(proposed))
-        way.stop("check", list(dict.fromkeys(contradicted)), remedy, *command)
+            remedy = "accept the change of the line, which is tried first"
+            way.stop("check", reasons, remedy, "init", "--resume", str(proposed))
     else:
         way.end("check", f"{len(campaigns)} sensor(s): nothing contradicts the file{_not_checked(unchecked)}")
 
