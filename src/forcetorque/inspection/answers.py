@@ -29,7 +29,7 @@ _MOST = 4
 """Events that are listed; the others are counted."""
 _NEXT: Final = {
     True: "calibrate the sensors, or identify their load, and evaluate",
-    False: "begin an experiment file for it",
+    False: "begin an experiment file for it; of a robot add --urdf FILE",
 }
 """What follows, by whether it is an experiment file."""
 _MOST_COLUMNS = 6
@@ -255,7 +255,7 @@ def _columns_answer(inspection: Inspection) -> Answer:
             f"by their names, {alike}" if alike else "no name is that of a known quantity",
             sketch_text(inspection.unread),
         ),
-        step="begin an experiment file, with a question for each value that the log does not have",
+        step="begin an experiment file, which asks what the log does not state; of a robot add --urdf FILE",
         command=typed("init", inspection.source, "-o", "experiment.toml"),
         concern=Concern.UNCERTAIN,
     )

@@ -34,7 +34,7 @@ from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements
 from forcetorque.recording.recording import Use
-from forcetorque.report.report import report
+from forcetorque.report.report import report, require_writable
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result, created_now
 from forcetorque.workbench.calibrate import workbench
@@ -501,6 +501,7 @@ def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCali
     page, numbers = way.output / _PAGE, way.output / _NUMBERS
     shown = [(str(path), experiment) for path, experiment in experiments.items()]
     try:
+        require_writable([page])
         written = report(
             shown,
             [{name: own for name, own in groups.items() if name in _names(one)} for _, one in shown],
