@@ -143,10 +143,12 @@ def test_a_foot_of_which_the_gain_is_doubted_is_not_called_faulty(run: Run, data
 
 
 def test_without_a_sensor_nothing_is_to_be_calibrated() -> None:
-    """A file of joints alone is looked at; one with a sensor goes its whole way."""
+    """A file of joints alone has no next command; one of soles is for balance, one with a sensor for `run`."""
     inspection = _inspection()
     alone = inspection_answer(inspection.model_copy(update={"to_calibrate": None}))
-    assert (alone.step, alone.command) == ("look at it, or state a [[sensor]] to calibrate", "view walk.toml")
+    assert (alone.step.split(",")[0], alone.command) == ("state a [[sensor]] to calibrate", "")
+    standing = inspection_answer(inspection.model_copy(update={"to_calibrate": "standing"}))
+    assert standing.command == "robot balance walk.toml"
     skin = inspection_answer(inspection.model_copy(update={"to_calibrate": "skin"}))
     assert (skin.command or "").startswith("skin calibrate walk.toml ")
     with_sensor = inspection_answer(inspection)

@@ -281,7 +281,9 @@ def inspection_answer(inspection: Inspection) -> Answer:
     begin, go_on = typed("init", source, "-o", "experiment.toml"), typed("run", source, "-o", "results")
     step = _NEXT[is_experiment]
     if inspection.to_calibrate is None:
-        step, go_on = "look at it, or state a [[sensor]] to calibrate", typed("view", source)
+        step, go_on = "state a [[sensor]] to calibrate, or an [[interval]] for the calibration of skin", ""
+    elif inspection.to_calibrate == "standing":
+        step, go_on = "find which feet bear the robot", typed("robot", "balance", source)
     elif inspection.to_calibrate == "skin":
         step, go_on = "calibrate its taxels", typed("skin", "calibrate", source, "-o", "skin.json")
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"

@@ -288,7 +288,7 @@ def test_nothing_to_fit_is_said_before_anything_is_computed(folder: Path, run: R
     outcome = run("run", PARQUET, "-o", "results")
     assert outcome.code == 2
     assert 'expected an [[interval]] with use = "calibration"' in outcome.err
-    assert f"forcetorque init --resume {PARQUET} proposes intervals" in outcome.err
+    assert f"forcetorque inspect {PARQUET} shows when something touches it" in outcome.err
     assert "INFO: inspect" not in outcome.log
 
 

@@ -214,10 +214,10 @@ def _of_experiments(
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
     if all(interval.use is not Use.CALIBRATION for one in experiments.values() for interval in one.recording.intervals):
-        proposes = typed("init", "--resume", str(way.files[0]))
+        inspects = typed("inspect", str(way.files[0]))
         raise ExperimentError(
             f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
-            f"not state touches the limb; got none; forcetorque {proposes} proposes intervals"
+            f"not state touches the limb; got none; forcetorque {inspects} shows when something touches it"
         )
     _refuse_outputs(way, experiments, names)
     wrong, proposed = _inspect(way, experiments, names)
