@@ -126,7 +126,7 @@ def _begun(
     urdf: Path | None,
     sensors: Sequence[str],
     matrices: Path | None,
-    column_names: Sequence[str],
+    column_names: Sequence[Sequence[str]],
     loads: str | None,
     *,
     force: bool,

@@ -325,15 +325,17 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
         proposed: File of which `init --resume` proposes a change; None for none.
     """
     way.begin("check")
-    contradicted, unchecked = list(wrong), []
+    contradicted: list[str] = []
+    unchecked: list[str] = []
     for name, campaign in campaigns.items():
         for one in campaign.runs:
             try:
                 contradicted += [f"{name}: {words}" for words in contradicted_statements(one, cautions=False)]
             except ForceTorqueError as error:
                 unchecked.append(f"{name}: {error}")
-    if contradicted:
-        reasons = list(dict.fromkeys(contradicted))
+    if contradicted or wrong:
+        # a fault of which a change is proposed comes first, a refusal that explains nothing last
+        reasons = list(dict.fromkeys([*wrong, *contradicted] if proposed else [*contradicted, *wrong]))
         if proposed is None:
             way.stop("check", reasons, "correct what the file states", "inspect", str(way.files[0]))
         else:

@@ -29,7 +29,7 @@ from forcetorque.inspection.draft.intervals import (
     whole_log,
 )
 from forcetorque.inspection.draft.joints import standing_lines
-from forcetorque.inspection.draft.log import draft_log, recording_lines, without_streams
+from forcetorque.inspection.draft.log import ColumnNames, draft_log, recording_lines, without_streams
 from forcetorque.inspection.draft.logged_robot import difference, logged_robot, model_of, with_fixed_frame
 from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
 from forcetorque.inspection.draft.sensors_and_supports import (
@@ -220,7 +220,7 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
-    column_names: Sequence[str] = (),
+    column_names: ColumnNames = (),
     sensors: Sequence[str] = (),
     matrices: Path | str | None = None,
     loads: Path | str | None = None,
@@ -238,7 +238,8 @@ def draft_experiment(
         urdf: The robot; None for that which the log itself describes, which is written beside the file unless another
             one is there, or for a wrist sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
-        column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
+        column_names: Names of all columns, of tables whose first lines do not name them: a list for all tables, or one
+            for each; none for those of the files.
         sensors: Names or streams of the sensors to draft; all if empty. Without a robot an experiment has one sensor:
             others that are named, and other force plates, have a file each beside it, NAME.SENSOR.toml.
         matrices: Folder of the calibrations that the sensors came with; None for none.
