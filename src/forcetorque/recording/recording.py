@@ -156,6 +156,8 @@ class Finding:
     """How large it is, in `unit`."""
     unit: str | None = None
     """Unit of the size."""
+    sensor: str | None = None
+    """Sensor whose reading was compared; None for what is of the stream itself."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
