@@ -16,7 +16,7 @@ from forcetorque.base.toml_file import Table
 from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import LoggedWrist
 from forcetorque.formats.namespaces import namespace_depth
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream
 
 
@@ -38,6 +38,8 @@ class StreamReading(NamedTuple):
     """The stream."""
     findings: tuple[Finding, ...] = ()
     """What is wrong with it; empty if nothing is."""
+    files: tuple[FileRows, ...] = ()
+    """Files that it was put together of; empty where its format does not say."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +52,8 @@ class LogReading:
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
     """What the log itself specifies about its origin; None if nothing."""
+    files: Mapping[str, tuple[FileRows, ...]] = field(default_factory=dict)
+    """Files that streams were put together of, by the name of the stream."""
 
     @classmethod
     def of(
@@ -74,6 +78,7 @@ class LogReading:
             streams=tuple(reading.stream for reading in streams),
             findings=(*unread, *(finding for reading in streams for finding in reading.findings)),
             origin=origin,
+            files={reading.stream.name: reading.files for reading in streams if reading.files},
         )
 
 

@@ -60,7 +60,7 @@ from forcetorque.formats.tabular.table_layout import (
     quote_of,
 )
 from forcetorque.recording.alignment import joined_stream
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream
 
 
@@ -407,7 +407,8 @@ def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamRe
         skipped = Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
         findings.insert(0, skipped)
     findings += [finding for reading in readings for finding in reading.findings]
-    return StreamReading(joined, tuple(findings))
+    files = tuple(FileRows(name=name, rows=len(one)) for name, one in zip(names, segments, strict=True))
+    return StreamReading(joined, tuple(findings), files)
 
 
 def _matching(file: str, entry: TabularStream, specified: TabularLog, context: LogContext) -> list[str]:
