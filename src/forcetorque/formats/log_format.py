@@ -38,8 +38,6 @@ class StreamReading(NamedTuple):
     """The stream."""
     findings: tuple[Finding, ...] = ()
     """What is wrong with it; empty if nothing is."""
-    files: tuple[FileRows, ...] = ()
-    """Files that it was put together of; empty where its format does not say."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,6 +60,7 @@ class LogReading:
         *,
         unread: Iterable[Finding] = (),
         origin: Mapping[str, str] | None = None,
+        files: Mapping[str, tuple[FileRows, ...]] | None = None,
     ) -> Self:
         """Collect the streams of a log.
 
@@ -69,6 +68,7 @@ class LogReading:
             readings: The streams, each with its findings.
             unread: Findings on what was not read; they come first.
             origin: As of the class.
+            files: As of the class.
 
         Returns:
             All of them.
@@ -78,7 +78,7 @@ class LogReading:
             streams=tuple(reading.stream for reading in streams),
             findings=(*unread, *(finding for reading in streams for finding in reading.findings)),
             origin=origin,
-            files={reading.stream.name: reading.files for reading in streams if reading.files},
+            files={} if files is None else files,
         )
 
 

@@ -123,16 +123,16 @@ def response_answer(response: Response) -> Answer:
 def _channels(channels: Sequence[ChannelResponse]) -> Iterator[str]:
     if len(channels) < 2:
         return
-    gains = [f"{row.channel} {_gain(row)}" for row in channels if row.strongest_gain is not None]
+    gains = [f"{row.channel} {_gain(row, row.strongest_gain)}" for row in channels if row.strongest_gain is not None]
     lost = [row.channel for row in channels if row.strongest_gain is None]
     unknown = [f"not explained by its measured force: {', '.join(lost)}"] if lost else []
     yield f"gain by channel: {'; '.join((*gains, *unknown))}"
 
 
-def _gain(row: ChannelResponse) -> str:
+def _gain(row: ChannelResponse, strongest: float) -> str:
     if row.gain is not None:
         return plus_minus(row.gain, row.gain_half_width_95, "")
-    return f"{plus_minus(row.strongest_gain, row.strongest_half_width_95, '')} at {row.strongest_hz:.3g} Hz"
+    return f"{plus_minus(strongest, row.strongest_half_width_95, '')} at {row.strongest_hz:.3g} Hz"
 
 
 def _number(row: ResponseNumber) -> str:

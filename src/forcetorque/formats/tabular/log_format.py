@@ -387,10 +387,14 @@ class TabularFormat:
     def read(self, specified: TabularLog, context: LogContext) -> LogReading:
         """Read every file that is specified."""
         context.folder(specified.path)
-        return LogReading.of([_read_stream(k, specified, context) for k in range(len(specified.stream))])
+        read = [_read_stream(k, specified, context) for k in range(len(specified.stream))]
+        return LogReading.of(
+            [reading for reading, _ in read], files={reading.stream.name: files for reading, files in read}
+        )
 
 
-def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamReading:
+def _read_stream(k: int, specified: TabularLog, context: LogContext) -> tuple[StreamReading, tuple[FileRows, ...]]:
+    """The stream, and the files that it was put together of."""
     entry = specified.stream[k]
     names = [name for file in entry.files for name in _matching(file, entry, specified, context)]
     paths = [context.file(specified.path / name) for name in names]
@@ -408,7 +412,7 @@ def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamRe
         findings.insert(0, skipped)
     findings += [finding for reading in readings for finding in reading.findings]
     files = tuple(FileRows(name=name, rows=len(one)) for name, one in zip(names, segments, strict=True))
-    return StreamReading(joined, tuple(findings), files)
+    return StreamReading(joined, tuple(findings)), files
 
 
 def _matching(file: str, entry: TabularStream, specified: TabularLog, context: LogContext) -> list[str]:

@@ -25,7 +25,7 @@ from forcetorque.sensor.bandwidth.frequency_response import (
     overlapping,
     require_coherence,
 )
-from forcetorque.sensor.bandwidth.second_order import SecondOrder, jackknifed
+from forcetorque.sensor.bandwidth.second_order import MISFIT, SecondOrder, jackknifed
 
 BEFORE_S = 0.05
 """Quiet before an event that belongs to its segment; s."""
@@ -130,6 +130,12 @@ def channel_responses(
             require_coherence(transfer, name=name)
             coherent = True
             fit = _fit(records, transfer, force, reading, events=events)
+            if fit.misfit is not None and fit.misfit > MISFIT:
+                undetermined = (
+                    f"{name}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; no "
+                    "natural frequency and no gain at rest are given"
+                )
+                fit = None
         except FitError as error:
             undetermined = str(error)
         half = None if fit is None else fit.half_width
