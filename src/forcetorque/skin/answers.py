@@ -111,7 +111,7 @@ def _weight(weight: KnownWeight) -> str:
     words = {
         "agrees": "it agrees",
         "too much": "TOO MUCH: the cover is softer under an object than in the chamber, or its curves do not hold",
-        "too little": "TOO LITTLE: load is lost at the edge, along the skin, on dead taxels, or the curves do not hold",
+        "too little": "TOO LITTLE: load is lost at the edge, on a slope or on dead taxels, or the curves do not hold",
         "inconclusive": "inconclusive: put it on again, three times or more, each time anew",
     }[weight.agreement]
     settled = max(row.settled_s for row in weight.placements)

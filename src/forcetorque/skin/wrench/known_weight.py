@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A known weight on a patch, put on anew several times: what calibration under an even pressure cannot show.
 
-A cover whose material keeps its volume is softer under an object than in a chamber, and reads too much; one that pulls
-along its pads, or loses load at its edge, reads too little. Neither shows in counts, and a weight shows both.
+A cover whose material keeps its volume is softer under an object than in a chamber, and reads too much; one that loses
+load at its edge reads too little. Neither shows in counts, and a weight shows both. It does not show shear, which
+changes the size of a force by a few percent and its moment by far more.
 """
 
 from __future__ import annotations
