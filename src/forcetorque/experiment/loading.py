@@ -34,6 +34,7 @@ from forcetorque.experiment.file import ExperimentFile, Robot, experiment_file, 
 from forcetorque.experiment.file import Support as SupportTable
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.kept_experiments import keep_experiment
 from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
@@ -271,6 +272,7 @@ def _load(parsed: ExperimentFile, file: Path, inputs: Inputs) -> Experiment:
     before = inputs.names()
     streams = read_streams(parsed, file, robot, inputs)
     logs = inputs.names() - before
+    parsed = with_intervals_of_files(parsed, file, streams)
     loading = Loading(parsed=parsed, file=file, inputs=inputs, recording=streams, model=robot or NO_ROBOT, supports={})
     if robot is None:
         stand_in = _stand_in(loading)

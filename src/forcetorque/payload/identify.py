@@ -165,6 +165,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         experiment=", ".join(campaign.experiments),
         sensor=first.sensor.name,
         serial=first.sensor.serial,
+        frame=None if table is None else table.frame,
         log_format=str(first.experiment.recording.origin.get("format", "")),
         observations=len(solution.residual),
         left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),
