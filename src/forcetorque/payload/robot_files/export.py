@@ -15,6 +15,7 @@ from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_b
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.logged_wrist import FLANGE
 from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
@@ -252,4 +253,9 @@ def export_load(
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
     if form not in ARMS:
         return form.convention
-    return "; ".join([form.convention, *not_held(flange_load(load, form, body_H_sensor), form, load.bias)])
+    lacks = list(not_held(flange_load(load, form, body_H_sensor), form, load.bias))
+    if load.frame != FLANGE:
+        lacks.append(
+            "it holds what is beyond the sensor: each 0.1 kg of a sensor that is mounted on the flange makes 0.98 N"
+        )
+    return "; ".join([form.convention, *lacks])
