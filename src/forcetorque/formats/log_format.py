@@ -100,6 +100,8 @@ class LogDescription:
     """Where such a wrench is not in the log of an arm: what is known of its joint torques; None without."""
     sensors_apart: bool = False
     """Whether its sensors are those of no robot, each with a load of its own, as force plates are."""
+    unread_wrenches: tuple[str, ...] = ()
+    """Streams that hold a wrench once `undetermined` is answered, and are not in `reading` before."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

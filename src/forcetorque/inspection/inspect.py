@@ -316,7 +316,14 @@ def _recorded(
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
     log_format = recognised_format(source) if name is None else format_named(name)
     if log_format is not None:
-        reading = log_format.describe(source).reading
+        description = log_format.describe(source)
+        reading = description.reading
+        if not any(map(len, reading.streams)):
+            for key, words in description.undetermined.items():
+                raise FormatError(
+                    f"{source}: {key}: expected {words}; got none, without which no sample is read; `forcetorque init "
+                    f"{source}` begins an experiment file that asks for it"
+                )
         recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
         findings = inspect_recording(recording)
         if isinstance(log_format, RobotLoggingFormat):

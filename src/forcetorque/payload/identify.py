@@ -49,7 +49,8 @@ def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
     if hanging is None:
         raise ExperimentError(
             "expected [[load]], what hangs on the sensor, got [robot] alone; add [[load]] with link, the link of the "
-            "URDF that it is fastened to, or give [load] in place of [robot]"
+            "URDF that it is fastened to, or give [load] in place of [robot]; of the tool of the URDF itself "
+            "`forcetorque tare --to` writes a file for a robot"
         )
     return hanging
 
