@@ -232,6 +232,13 @@ def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytes
     stopped = run("run", swapped, "-o", "other")
     assert stopped.code == 3
     assert not Path("other").exists()
+    swapped, _ = write_bench(bad, faults=BenchFaults(swapped=(3, 8)))
+    went_on = run("run", swapped, "-o", "other", "--override", "the swap is known", "--format", "json")
+    warnings = read_calibration(Path(json.loads(went_on.out)["files"][0])).warnings
+    assert any("the swap is known" in warning for warning in warnings)
+    assert not any(
+        "override" in warning for warning in read_calibration(Path(json.loads(good.out)["files"][0])).warnings
+    )
 
 
 @pytest.mark.long
