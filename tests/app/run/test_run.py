@@ -310,7 +310,7 @@ def test_the_robot_s_file_is_written_only_of_a_sensor_that_may_be_used(folder: P
         written = (folder / output / "matrix_SIM001.txt").is_file()
         assert (outcome.code, written) == (code, code == 0)
         exported = json.loads(outcome.out)["stages"][-1]["text"]
-        assert ("matrix_SIM001.txt is not written" in exported) is not written
+        assert ("for the sensor may not be used yet: matrix_SIM001.txt; forcetorque export" in exported) is not written
         assert (folder / output / "calibrations.csv").is_file()
 
 
