@@ -69,7 +69,10 @@ class LoggedReadings:
 
 def _logged(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> FloatArray:
     stream = experiment.recording.stream(sensor.stream)
-    return stream.signal(sensor.quantity).values[interval.holds(stream.stamp_ns)]
+    values, inside = stream.signal(sensor.quantity).values, interval.holds(stream.stamp_ns)
+    first, count = int(inside.argmax()) if len(inside) else 0, int(np.count_nonzero(inside))
+    # a slice is no copy; stamps may step back
+    return values[first : first + count] if inside[first : first + count].all() else values[inside]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
