@@ -142,9 +142,10 @@ def _behind_each_other(rows: NDArray[Any], slices: Sequence[slice]) -> NDArray[A
 
 
 def _without_samples(samples: SensorSamples) -> dict[str, Any]:
-    """Fields of samples of which none is left."""
-    arrays = {name: getattr(samples, name)[:0] for name in ("stamp_ns", "reference", "variables")}
-    return {**arrays, "reading": replace(samples.reading, values=samples.reading.values[:0]), "flattening": None}
+    """Fields of samples of which none is left, nor the memory that they took."""
+    arrays = {name: getattr(samples, name)[:0].copy() for name in ("stamp_ns", "reference", "variables")}
+    reading = replace(samples.reading, values=samples.reading.values[:0].copy())
+    return {**arrays, "reading": reading, "flattening": None}
 
 
 class IntervalParts:
