@@ -74,11 +74,12 @@ def test_much_work_in_all_intervals_together_is_compiled(run: SensorRun, monkeyp
         if one.support is not None
     ]
     assert max(counts) < sum(counts)
-    monkeypatch.setattr(module, "_FEW_EXPECTED", sum(counts))
+    monkeypatch.setattr(module, "_FEW", sum(counts))
+    monkeypatch.setattr(module, "_is_compiled", lambda: True)
     monkeypatch.setattr(module, "_run_readable", None)
     (compiled,) = SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
     assert len(compiled.samples) == readable
-    monkeypatch.setattr(module, "_FEW_EXPECTED", sum(counts) + 1)  # negative control
+    monkeypatch.setattr(module, "_FEW", sum(counts) + 1)  # negative control
     with pytest.raises(TypeError):
         SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
 

@@ -17,9 +17,11 @@ from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.mechanics.readable_evaluator import Block, BlockEvaluation
 from forcetorque.robot.motion import JointMotion, RootMotion
 
-_FEW, _FEW_EXPECTED = 100_000, 400_000
-"""Fewer samples than this take the readable evaluator up to 6 s: 50 us each for contacts and torques, 15 us for
-expected wrenches alone. On a new machine compiling takes 33 s; after that, loading the copy takes 1 s."""
+_FEW = 20000
+"""Fewer samples than this take the readable evaluator no longer than loading the compiled one."""
+_FEW_TO_COMPILE, _FEW_EXPECTED_TO_COMPILE = 100_000, 400_000
+"""Fewer samples than this take the readable evaluator up to 6 s, 50 us each for contacts and torques and 15 us for
+expected wrenches alone: where nothing is compiled yet, that is sooner than the 33 s of compiling."""
 
 _BLOCK = 4096
 """Samples per pass of the readable evaluator: its working arrays stay in the processor's cache."""
@@ -42,10 +44,18 @@ def evaluator_of_samples(samples: int, *, expected_only: bool = False) -> Evalua
         expected_only: Whether nothing but expected wrenches is wanted.
 
     Returns:
-        The readable evaluator for few.
+        The readable evaluator for few, and for more on a machine that has nothing compiled yet.
     """
-    few = _FEW_EXPECTED if expected_only else _FEW
-    return Evaluator.READABLE if samples < few else Evaluator.COMPILED
+    if samples < _FEW:
+        return Evaluator.READABLE
+    enough = samples >= (_FEW_EXPECTED_TO_COMPILE if expected_only else _FEW_TO_COMPILE)
+    return Evaluator.COMPILED if enough or _is_compiled() else Evaluator.READABLE
+
+
+def _is_compiled() -> bool:
+    from forcetorque.robot.compiled.run import has_copy  # here: it loads the compiler
+
+    return has_copy()
 
 
 def estimate(
