@@ -95,7 +95,7 @@ class LiveLoop:
             recent: Keeps the last samples for who looks at them; None for nobody.
         """
         self.correctors = tuple(correctors)
-        self.accounts = [PacketAccount(source.rate_hz) for _ in correctors]
+        self.accounts = [PacketAccount(source.rate_hz, source.numbers) for _ in correctors]
         self.states = [
             [SensorState(name=one.sensor.name, serial=one.sensor.serial) for one in corrector.calibrations]
             for corrector in correctors
@@ -198,6 +198,7 @@ class LiveLoop:
             bias=corrector.bias[k].copy() if has_bias else None,
             bias_half_width_95=NORMAL_95 * np.sqrt(corrector.bias_variance[k]) if has_bias else None,
             drift=tracked,
+            power_cycle=corrector.power_cycles[k],
             taring=bool(corrector.taring[k]),
             tare_moved_N=float(corrector.tare_moved_N[k]),
         )

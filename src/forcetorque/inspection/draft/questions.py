@@ -15,6 +15,7 @@ from forcetorque.base.toml_file import (
     unanswered_keys,
     with_answer,
 )
+from forcetorque.inspection.draft.bench import is_bench, logs_of_bench
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, toml_value, write_text_of
 
@@ -52,7 +53,10 @@ def logs_of(file: Path) -> set[Path]:
         Folder or file of the recording, and the files of its streams; absolute.
     """
     with files_of_one_run():  # the answers are written to the file
-        recording = toml_content(file)[1].get("recording", {})
+        content = toml_content(file)[1]
+    if is_bench(content):
+        return {(file.parent / name).resolve() for name in logs_of_bench(content)}
+    recording = content.get("recording", {})
     folder = file.parent / recording.get("path", "")
     return {(folder / stream.get("file", "")).resolve() for stream in ({}, *recording.get("stream", ()))}
 

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
+from forcetorque.inspection.draft.bench import is_bench
 from forcetorque.inspection.draft.draft import Draft, ProposalRow, QuestionRow
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.questions import answer_questions, open_questions
+from forcetorque.inspection.draft.toml_lines import text_of
 
 
 def resume_experiment(
@@ -29,7 +32,8 @@ def resume_experiment(
     if ask is not None:
         answer_questions(path, ask)
     questions = open_questions(path)
-    left = () if questions else proposals(path) if accepts is None else settle(path, accepts)
+    is_whole = bool(questions) or is_bench(tomllib.loads(text_of(path)))  # nothing is proposed of a bench
+    left = () if is_whole else proposals(path) if accepts is None else settle(path, accepts)
     return Draft(
         file=str(path),
         format="toml",
