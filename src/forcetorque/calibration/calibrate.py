@@ -17,7 +17,7 @@ from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.mount import with_estimated_mount
-from forcetorque.calibration.reduced_recordings import is_long, recording_moments, reduced_in_segments
+from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
     InformationGain,
     calibration_answer,
@@ -35,6 +35,7 @@ from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
+from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use

@@ -23,7 +23,8 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
-from forcetorque.experiment.long_recording import IntervalParts, share_of_segments
+from forcetorque.experiment.long_recording import share_of_segments
+from forcetorque.experiment.segmented_samples import IntervalParts
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.inspection.plausibility.checks import examine

@@ -33,7 +33,8 @@ from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import PRIOR, EvaluatedWrenches
+from forcetorque.experiment.calibrations_under_test import PRIOR
+from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, require_unseen, sentences
@@ -164,7 +165,7 @@ def assess(
         torques = tried.attempt("joint torques", partial(joint_torques, run, unseen))
     clouds = tried.attempt("spheres", partial(spheres, run, calibrations))
     if evaluation:
-        judged = run.judged(unseen)
+        judged = evaluated_wrenches(run, unseen)
         counts = tried.attempt("independence", partial(independence, judged))
     static, criteria = _checked(run, calibrations, others or {}, demands or Demands(), tried)
     assessment = Assessment(

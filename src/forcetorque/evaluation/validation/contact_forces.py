@@ -359,7 +359,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             moment_mean_Nm=errors.moment_mean,
             mean_absolute=errors.mean_absolute,
             bias=errors.bias,
-            independent=fewest_independent(wrenches, contacts.time_s[index, offset]),
+            independent=fewest_independent(wrenches.T, contacts.time_s[index, offset]),
             excitation_N=moved_N,
             excitation_Nm=moved_Nm,
         )
