@@ -10,13 +10,12 @@ from typing import Annotated, Any, Final
 import typer
 
 from forcetorque.app.dataset_input import with_datasets
-from forcetorque.app.live_view import with_live_view
-from forcetorque.app.view_output import with_view
+from forcetorque.app.view_output import with_live_view, with_view
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
 from forcetorque.results.terminal.command import command_function
-from forcetorque.results.terminal.help import WholeSentences
+from forcetorque.results.terminal.options import WholeSentences
 from forcetorque.results.terminal.output import print_messages, report_error, spell_missing_letters
 
 _NAME = "forcetorque"

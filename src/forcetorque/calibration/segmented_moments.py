@@ -13,8 +13,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, RecordingError
 from forcetorque.base.rows_on_disk import RowsOnDisk
+from forcetorque.calibration.doubts import mount_doubts
 from forcetorque.calibration.moments import agreeing_moments, moments_of
-from forcetorque.calibration.mount import mount_doubts
 from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled

@@ -35,11 +35,10 @@ from forcetorque.experiment.file import Support as SupportTable
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.kept_experiments import keep_experiment
-from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensors import full_scale_of, read_prior, read_sensors
-from forcetorque.experiment.streams import read_streams
+from forcetorque.experiment.streams import read_robot, read_streams
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support, Use
 from forcetorque.robot.mechanics.samples import Processing

@@ -8,7 +8,7 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.inspection.draft.draft import draft_experiment
-    from forcetorque.inspection.draft.resume import resume_experiment
+    from forcetorque.inspection.draft.questions import resume_experiment
     from forcetorque.inspection.inspect import inspect_log, inspected
 
 CAPABILITY = Capability(
@@ -33,6 +33,6 @@ __getattr__, __dir__ = lazy_names(
         "draft_experiment": "forcetorque.inspection.draft.draft",
         "inspect_log": "forcetorque.inspection.inspect",
         "inspected": "forcetorque.inspection.inspect",
-        "resume_experiment": "forcetorque.inspection.draft.resume",
+        "resume_experiment": "forcetorque.inspection.draft.questions",
     },
 )

@@ -325,7 +325,7 @@ class StudiedSensor(Row):
 class Studies(Result):
     """Studies of sensors over the same recordings."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.study.answers:study_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.study.command:study_answers"
 
     interval_uses = ()
 

@@ -14,9 +14,13 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.torque_control.balancing import Balance, Phase, standing
 from forcetorque.locomotion.torque_control.closed_loop import LoopSetting, drawn_matrices
-from forcetorque.locomotion.torque_control.elastic_joints import massless_drives, with_springs
 from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
-from forcetorque.locomotion.torque_control.linear_robot import linear_robot, require_stable
+from forcetorque.locomotion.torque_control.linear_robot import (
+    linear_robot,
+    massless_drives,
+    require_stable,
+    with_springs,
+)
 from forcetorque.locomotion.torque_control.stability import Stability
 from forcetorque.locomotion.torque_control.study import share_interval
 from forcetorque.locomotion.torque_control.walking_loop import WalkingController, zmp_sensitivity

@@ -14,8 +14,8 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import rotation_from_rpy
 from forcetorque.base.units import DECIMAL_NUMBER
-from forcetorque.payload.robot_files.flange_load import FlangeLoad
 from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.robot_files.robot_load import FlangeLoad
 
 _SYMMETRIC = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
 """Places of xx, yy, zz, xy, xz, yz in a tensor."""

@@ -25,8 +25,8 @@ from forcetorque.base.pose import rpy_from_rotation
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.logged_wrist import FLANGE
 from forcetorque.payload.identification.parameter_vector import six_of
-from forcetorque.payload.robot_files.flange_load import FlangeLoad
 from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.robot_files.robot_load import FlangeLoad
 from forcetorque.payload.robot_files.yaml_parameters import number
 from forcetorque.results.number_text import amount
 

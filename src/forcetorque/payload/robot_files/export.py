@@ -21,10 +21,9 @@ from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wris
 from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
 from forcetorque.payload.result import WeighedLoad
 from forcetorque.payload.robot_files.arms import ARMS, arm_text, not_held
-from forcetorque.payload.robot_files.flange_load import flange_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
-from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.payload.robot_files.robot_load import RobotLoad, flange_load
 from forcetorque.payload.robot_files.ros import (
     broadcaster_text,
     force_torque_tools_text,

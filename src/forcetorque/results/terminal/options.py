@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, ClassVar
 
 import typer
+from typer.core import TyperGroup
 
 from forcetorque.results.terminal.output import Format
 
@@ -57,3 +59,31 @@ PopulationOption = Annotated[
 def between_commas(text: str | None) -> list[str]:
     """Give the parts of an option's text between commas; none where the option is not given."""
     return [] if text is None else [part.strip() for part in text.split(",")]
+
+
+_WHOLE = 1000
+"""Characters of a sentence that are shown: all."""
+
+
+class WholeSentences(TyperGroup):
+    """A group whose help cuts nothing off."""
+
+    panels: ClassVar[Mapping[str, tuple[str, ...]] | None] = None
+    """Titles, and commands in their order, the last with all others; None for one panel of all."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write a section for every panel.
+
+        Args:
+            ctx: The context.
+            formatter: What the help is written to.
+        """
+        panels = {title: list(names) for title, names in (self.panels or {"Commands": ()}).items()}
+        shown = {name for names in panels.values() for name in names}
+        panels[list(panels)[-1]] += [name for name in self.list_commands(ctx) if name not in shown]
+        for title, names in panels.items():
+            known = {name: command for name in names if (command := self.get_command(ctx, name)) is not None}
+            with formatter.section(title):
+                formatter.write_dl(
+                    [(name, command.get_short_help_str(limit=_WHOLE)) for name, command in known.items()]
+                )
