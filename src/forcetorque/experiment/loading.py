@@ -30,8 +30,14 @@ from forcetorque.experiment.core_tables import (
     processing_of,
 )
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, Role, SensorVariable
-from forcetorque.experiment.file import ExperimentFile, Robot, experiment_file, parse_experiment, section_fields
-from forcetorque.experiment.file import Support as SupportTable
+from forcetorque.experiment.file import (
+    ExperimentFile,
+    Robot,
+    Support as SupportTable,
+    experiment_file,
+    parse_experiment,
+    section_fields,
+)
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.kept_experiments import keep_experiment
