@@ -9,8 +9,7 @@ from typing import Annotated, Any, Final
 
 import typer
 
-from forcetorque.app.dataset_input import with_datasets
-from forcetorque.app.view_output import with_live_view, with_view
+from forcetorque.app.wrapped_commands import with_datasets, with_live_view, with_view
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
@@ -148,11 +147,7 @@ def _program(first: list[str]) -> typer.Typer:
 
 
 def whole_program() -> typer.Typer:
-    """Make the program with all commands.
-
-    Returns:
-        The program.
-    """
+    """Make the program with all commands."""
     program = typer.Typer(
         name=_NAME,
         cls=_ByPanels,

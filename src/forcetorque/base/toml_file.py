@@ -133,14 +133,7 @@ class UnansweredKey:
 
 
 def word_or_table(value: Any) -> str:
-    """Name the form of a key that takes a text, such as a path, or a table: the tag of a union of both.
-
-    Args:
-        value: Its value.
-
-    Returns:
-        `word` or `table`.
-    """
+    """Name the form of a key that takes a text, such as a path, or a table: the tag of a union of both."""
     return "word" if isinstance(value, str | Path) else "table"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What makes any fit on the calibration intervals of a recording doubtful, in a recording or in its segments."""
+"""What makes a fit on intervals of a recording doubtful, and the mount of a sensor before the fit."""
 
 from __future__ import annotations
 
@@ -117,9 +117,6 @@ class SegmentedDoubts:
 
     def warnings(self, segments: Sequence[Segment]) -> tuple[str, ...]:
         """Put together what was found.
-
-        Args:
-            segments: The segments.
 
         Returns:
             The sentences of `data_doubts`.

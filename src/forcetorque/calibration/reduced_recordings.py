@@ -9,8 +9,7 @@ from urllib.parse import quote
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.calibration.doubts import SegmentedDoubts, mount_doubts
-from forcetorque.calibration.moments import agreeing_moments, load_error_of, moments_of
-from forcetorque.calibration.segmented_moments import SegmentedMoments
+from forcetorque.calibration.moments import SegmentedMoments, agreeing_moments, load_error_of, moments_of
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
@@ -75,9 +74,6 @@ class ReducedRecording:
 
 def is_long(run: SensorRun) -> bool:
     """Tell whether a recording is reduced segment by segment.
-
-    Args:
-        run: The sensor.
 
     Returns:
         Whether it is.

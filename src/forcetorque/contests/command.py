@@ -50,14 +50,7 @@ _NAMED = 5
 
 
 def contest_answer(contest: "Contest") -> Answer:
-    """Give the answer.
-
-    Args:
-        contest: The contest.
-
-    Returns:
-        The answer.
-    """
+    """Give the answer."""
     rows = contest.contestants
     errors = ", ".join(f"{row.contestant} {row.error_percent:.2g} %" for row in rows[:_NAMED])
     more = f" and {len(rows) - _NAMED} more" if len(rows) > _NAMED else ""

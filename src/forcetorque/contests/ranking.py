@@ -194,9 +194,6 @@ def load_rows(name: str, loads: dict[float, tuple[Trial, ...]], squares: FloatAr
 def score_rows(rows: tuple[ContestantRow, ...]) -> list[ContestScoreRow]:
     """Put the scores of six components below each other.
 
-    Args:
-        rows: The contestants.
-
     Returns:
         A row per contestant and score that is known.
     """

@@ -235,14 +235,7 @@ def _trajectory(file: DeviceFile) -> DeviceTrajectory:
 
 
 def device_answer(design: DeviceDesign) -> Answer:
-    """Give the answer.
-
-    Args:
-        design: The device.
-
-    Returns:
-        The answer.
-    """
+    """Give the answer."""
     rows = design.demands.requirements
     met = [row for row in rows if row.verdict is Verdict.MET]
     failed = [row for row in rows if row.verdict is Verdict.NOT_MET]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The streams of an experiment from any log format, and what was recorded without robot or sensors.
+"""The robot of an experiment, its streams from any log format, and what was recorded without either.
 
 For `inspect`, a delay that the log does not determine is no error.
 """

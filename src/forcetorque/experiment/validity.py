@@ -233,9 +233,6 @@ def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedRe
 def sentences(rows: Iterable[SamplesOutside]) -> tuple[str, ...]:
     """Say which readings lie outside what was fitted.
 
-    Args:
-        rows: The rows.
-
     Returns:
         The sentences of all rows.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inspection of a log or the recording of an experiment: contents, and findings with their time and size."""
+"""Inspection of a log or the recording of an experiment: contents, and findings, of a long one by segments."""
 
 from __future__ import annotations
 

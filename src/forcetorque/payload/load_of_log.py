@@ -47,9 +47,6 @@ class LogAlone:
 def is_experiment_file(path: Path) -> bool:
     """Check whether a file is an experiment file and no log.
 
-    Args:
-        path: A path.
-
     Returns:
         Whether its name ends in .toml, or there is no log there.
     """

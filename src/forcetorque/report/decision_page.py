@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page to decide by: whether the sensor may be used, how large its errors will be, and why."""
+"""Page one of a report: whether a sensor may be used, its errors, and why; several sensors in one table."""
 
 from __future__ import annotations
 

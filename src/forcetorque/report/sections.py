@@ -218,9 +218,6 @@ def report_document(
 def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
     """Draw the results of other commands whose JSON holds all that is drawn.
 
-    Args:
-        content: The result.
-
     Yields:
         Figures; none for most commands.
     """

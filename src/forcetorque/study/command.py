@@ -74,9 +74,9 @@ def study(
     from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, estimation_type
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
-    from forcetorque.study.candidate import SWEEP_LAMBDAS
     from forcetorque.study.folder import write_study_folder
     from forcetorque.study.result import Studies, studied_sensor, study_warnings
+    from forcetorque.study.selection import SWEEP_LAMBDAS
     from forcetorque.study.study import study_sensor
     from forcetorque.study.study_data import read_study_data
 
@@ -197,9 +197,6 @@ _TWO_SIGMA = 1.96
 
 def study_answers(studies: "Studies") -> Iterator[Answer]:
     """Give the answer for every sensor.
-
-    Args:
-        studies: Their studies.
 
     Yields:
         One answer each.

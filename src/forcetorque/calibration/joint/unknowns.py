@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Unknowns of a joint fit: their units, their places in the vector, and their most probable values."""
+"""Unknowns of a joint fit: units, places in the vector, most probable values, how far sensors are from priors."""
 
 from __future__ import annotations
 
@@ -64,9 +64,6 @@ class Places:
     def changes(self, sensor: str) -> slice:
         """Give the places of the changes of a sensor, row by row.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             36 places.
         """
@@ -75,10 +72,6 @@ class Places:
 
     def offset(self, sensor: str, session: str) -> slice:
         """Give the places of an offset.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
 
         Returns:
             Six places.
@@ -126,9 +119,6 @@ class JointFit:
     def change(self, sensor: str) -> FloatArray:
         """Give what the wrenches by the prior matrix of a sensor are to be multiplied by.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             1 + D; shape (6, 6); N, N m.
         """
@@ -137,10 +127,6 @@ class JointFit:
 
     def offset(self, sensor: str, session: str) -> FloatArray:
         """Give what is to be added to the wrenches of a sensor.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
 
         Returns:
             Offset; shape (6,); N, N m.
@@ -201,9 +187,6 @@ class JointFit:
 
     def prior_covariance(self, sensor: str) -> FloatArray:
         """Give the covariance of the changes of a sensor before any data.
-
-        Args:
-            sensor: The sensor.
 
         Returns:
             Covariance, row by row; shape (36, 36); in `UNITS`.

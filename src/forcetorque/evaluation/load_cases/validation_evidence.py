@@ -343,9 +343,6 @@ class ErrorComparison(Row):
 def known_interval(ratio: ErrorRatio) -> tuple[float, float] | tuple[None, None]:
     """Give the 95 % interval of a ratio.
 
-    Args:
-        ratio: The ratio.
-
     Returns:
         Its ends; None twice where too few stretches give no upper end.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The robot that a log itself describes: its URDF, beside that of the user, and the fixed frames of its sensors."""
+"""The robot that a log itself describes, fixed frames of its sensors, and the load at the wrist of an arm."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Questions of an experiment file that was begun from a log, asked one by one in a terminal."""
+"""Questions of an experiment file that was begun from a log, asked in a terminal now or later."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All checks of the gate, in the order in which one explains the next."""
+"""All checks of the gate, in the order in which one explains the next; here also those of clocks and delays."""
 
 from __future__ import annotations
 

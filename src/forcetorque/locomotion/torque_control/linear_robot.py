@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The balancing robot made linear about a posture: what duty cycles do to joint torques, and to what sensors read.
+"""The balancing robot made linear about a posture, its joints stiff or elastic: duty cycles to torques and readings.
 
 The feet that bear are bolted to the ground. States are the ways z that this leaves, their rates, and the torques of the
 drives. Accelerations a and sensor wrenches w follow from positions, velocities, drive torques and contact wrenches by

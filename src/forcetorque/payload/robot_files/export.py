@@ -214,9 +214,6 @@ def robot_load(
 def require_agreeing_logs(weighed: WeighedLoad) -> None:
     """Refuse a load of logs whose other fields contradict its frame.
 
-    Args:
-        weighed: The load.
-
     Raises:
         ExperimentError: If one of them does.
     """

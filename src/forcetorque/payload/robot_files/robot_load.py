@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a robot has to know of a load and of the sensor that carries it, whatever the form of its file."""
+"""What a robot has to know of a load and of the sensor that carries it, also in the frame of a flange."""
 
 from __future__ import annotations
 

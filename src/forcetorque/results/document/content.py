@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Content of a document: text, tables, figures with their pictures, and messages for pictures that cannot be drawn."""
+"""Content of a document: text, tables, figures, messages for pictures that cannot be drawn; and it as HTML."""
 
 from __future__ import annotations
 
@@ -209,9 +209,6 @@ class Document:
 def without_undrawn(document: Document) -> Document:
     """Draw every picture, and say of those that cannot be drawn why.
 
-    Args:
-        document: The document.
-
     Returns:
         It with a sentence in the place of every figure that its data do not make.
     """
@@ -236,9 +233,6 @@ _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure
 
 def html_bytes(document: Document) -> bytes:
     """Write a document as HTML.
-
-    Args:
-        document: The document.
 
     Returns:
         The file, UTF-8. A page inside it runs its own scripts and cannot reach the document.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments and options that several commands share."""
+"""Arguments and options that several commands share, and the help of the program in whole sentences."""
 
 from __future__ import annotations
 

@@ -37,9 +37,6 @@ def has_piped_lines() -> bool:
 def ask(question: str) -> str:
     """Ask for a value.
 
-    Args:
-        question: The question.
-
     Returns:
         The answer; empty to leave it open.
     """
@@ -49,9 +46,6 @@ def ask(question: str) -> str:
 
 def accepts(proposal: str) -> bool:
     """Ask whether a proposal is accepted.
-
-    Args:
-        proposal: The proposal.
 
     Returns:
         Whether it is; no if the answer is empty.

@@ -326,9 +326,6 @@ def build_scenario(content: ScenarioFile, *, folder: Path | str = ".") -> Scenar
 def trace_recordings(scenario: Scenario) -> dict[str, Trace]:
     """Find the loads on all sensors in all recordings, to read any number of sensors under them.
 
-    Args:
-        scenario: The scenario.
-
     Returns:
         Traces by the names of the recordings; eight bytes per sample of every joint and component of a load.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One trial of the experiment of thesis 7.3: forces and torques estimated from its files, and the truth."""
+"""One trial of the experiment of thesis 7.3, from its files, and the same loads as Tables 7.1 to 7.3 print them."""
 
 from __future__ import annotations
 
@@ -208,9 +208,6 @@ _ROUNDING_NM: Final = 0.002
 
 def printed_load(load: Load) -> PrintedLoad:
     """Give what the thesis prints of a load.
-
-    Args:
-        load: The load.
 
     Returns:
         Its numbers of all three tables.
