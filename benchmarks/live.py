@@ -6,6 +6,7 @@ The peer is a plain loop of `matrix @ x + b` over six sensors in the same run; i
 
 from __future__ import annotations
 
+import gc
 import resource
 import threading
 import time
@@ -28,7 +29,7 @@ from forcetorque.live.bias_tracking import Tracking
 from forcetorque.live.choices import OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.outputs import parquet_file
-from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketAccount, PacketCounts
 from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.tool import Tool
@@ -168,6 +169,7 @@ class _Simulated:
     def __init__(self, count: int) -> None:
         self.counts, self._count, self.lost = PacketCounts(), count, 0
         self.rate_hz: float | None = None
+        self.numbers = NUMBERS
 
     def packets(self) -> Iterator[Packet | None]:
         rng = np.random.default_rng(0)
@@ -306,18 +308,26 @@ def cost_of_being_shown(count: int, rounds: int) -> dict[str, float]:
 def humanoid_by_sample(count: int) -> dict[str, float]:
     """Time seven contact wrenches and the torques of 32 joints of an iCub with six sensors, a sample per call.
 
+    After each call a loop of plain arithmetic runs, which takes as long: what delays it is not of the library. A call
+    of which the kernel took the processor away, or in which garbage was collected, is known as such.
+
     Args:
         count: Samples.
 
     Returns:
-        Median and 99.9th percentile of a call; us.
+        By name: percentiles of a call by the clock and by the processor, and of the loop by the clock, us; of calls and
+        loops that took more than five medians how many there were, and of how many calls the processor was taken away
+        or garbage was collected.
     """
     from benchmarks.dynamics.problem import icub_problem  # needs the extra icub, which tests of the rest do not
 
-    problem = icub_problem(count + 10)
+    warm = 10
+    problem = icub_problem(count + warm)
     question, root = problem.contact_question(), problem.root
-    out, seconds = Estimates.empty(question.layout, 1), []
-    for k in range(count + 10):
+    out, turns = Estimates.empty(question.layout, 1), 1
+    calls: list[tuple[float, float, int, int]] = []
+    loops: list[float] = []
+    for k in range(count + warm):
         at = slice(k, k + 1)
         motion = RootMotion(
             proper_acceleration=root.proper_acceleration[at],
@@ -326,11 +336,41 @@ def humanoid_by_sample(count: int) -> dict[str, float]:
         )
         joints = problem.joints.samples(at)
         measured = Wrenches(names=problem.readings.names, values=problem.readings.values[at])
-        begun = time.perf_counter()
+        before, begun = _interruptions(), (time.perf_counter(), time.thread_time())
         estimate(question, joints, motion, measured=measured, out=out, evaluator=Evaluator.COMPILED, threads=1)
-        seconds.append(time.perf_counter() - begun)
-    median, rare = np.percentile(np.array(seconds[10:]) * 1e6, (50.0, 99.9))
-    return {"humanoid_median_us": float(median), "humanoid_percentile_99_9_us": float(rare)}
+        ended, after = (time.perf_counter(), time.thread_time()), _interruptions()
+        calls.append((ended[0] - begun[0], ended[1] - begun[1], after[0] - before[0], after[1] - before[1]))
+        if k == warm - 1:  # as many turns as take as long as a call
+            undisturbed = min(_seconds_of_turns(1000) for _ in range(20))
+            turns = round(float(np.median([call[0] for call in calls[2:]])) / undisturbed * 1000)
+        loops.append(_seconds_of_turns(turns))
+    clock, processor, taken, collected = np.array(calls[warm:]).T
+    plain = np.array(loops[warm:])
+    slow = clock > 5.0 * np.median(clock)
+    figures = {
+        f"humanoid_{name}_{label}_us": float(np.percentile(values * 1e6, percent))
+        for name, values in (("clock", clock), ("processor", processor), ("plain_loop", plain))
+        for label, percent in (("median", 50.0), ("percentile_99_9", 99.9), ("largest", 100.0))
+    }
+    return figures | {
+        "humanoid_slow_calls": float(slow.sum()),
+        "humanoid_slow_calls_without_processor": float((slow & (taken > 0)).sum()),
+        "humanoid_slow_calls_with_garbage_collected": float((slow & (collected > 0)).sum()),
+        "humanoid_slow_plain_loops": float((plain > 5.0 * np.median(plain)).sum()),
+    }
+
+
+def _interruptions() -> tuple[int, int]:
+    """How often the kernel took the processor away from the process, and garbage was collected."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_nivcsw, sum(one["collections"] for one in gc.get_stats())
+
+
+def _seconds_of_turns(turns: int) -> float:
+    begun, value = time.perf_counter(), 0.0
+    for _ in range(turns):
+        value += 1.5 * value + 0.5
+        value -= value
+    return time.perf_counter() - begun
 
 
 def _read_all(recent: RecentSamples, ended: threading.Event) -> None:

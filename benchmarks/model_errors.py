@@ -21,10 +21,12 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -34,6 +36,8 @@ from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts, fit_doubts
+from forcetorque.experiment.calibration import assumptions
+from forcetorque.experiment.calibration.assumptions import Scale
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
@@ -51,8 +55,9 @@ from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
-UNCERTAIN, EXACT = "tolerance = {}\n", 'tolerance = "exact"\n'
-"""Lines of the experiment file that state the default tolerances of the robot model, and none."""
+UNCERTAIN, EXACT, INFORMED = "tolerance = {}\n", 'tolerance = "exact"\n', "informed"
+"""Lines of the experiment file that state the default tolerances of the robot model, and none; and a word for those of
+a fit that knows which errors the family has, and their sizes."""
 RANDOM, VALIDATION = "random", "validation"
 """Recordings beside those of the motions: one of another power-up, and one that is not fitted."""
 RATE_HZ, HOUR_NS = 100.0, 3_600_000_000_000
@@ -260,6 +265,27 @@ def _written(folder: Path, name: str, limb: str, recording: Recording, duration_
     return file
 
 
+@contextmanager
+def expected_errors(family: str, robot: str) -> Iterator[str]:
+    """Give the line of the experiment file; by `INFORMED` fits expect the errors of the family, and no other."""
+    if robot != INFORMED:
+        yield robot
+        return
+    kind, per_axis = FAMILIES[family], 1.0 / np.sqrt(3.0)
+    expected = kind.coefficients, kind.gains, per_axis * np.deg2rad(kind.turn_deg), per_axis * kind.shift_m
+    coefficients, gain, *mount = (Scale(expected=max(size, 1e-6), weight=np.inf) for size in expected)
+    changed = {
+        "COEFFICIENTS": coefficients,
+        "GAIN": gain,
+        "MODEL": Scale(expected=1.0, weight=np.inf),
+        "mount_scales": lambda _: tuple(mount),
+    }
+    tilt = kind.robot.tilt_deg or 1e-3  # without any term the fit would be that of an exact model
+    of_model = f"mass_relative = {kind.robot.mass}, joint_zero_deg = {kind.robot.zero_deg}, tilt_deg = {tilt}"
+    with patch.multiple(assumptions, **changed):
+        yield f"tolerance = {{ {of_model}, delay_s = {kind.delay_s}, centre_m = 0 }}\n"
+
+
 def sensor_runs(
     folder: Path, seed: int, family: str, limb: str, one: Specimen, known: Sequence[Trace], robot: str = UNCERTAIN
 ) -> list[SensorRun]:
@@ -278,8 +304,8 @@ def measured(seed: int, family: str, limb: str, motion: str, known: dict[str, Tr
     """Calibrate one sensor, and compare with the truth."""
     one = specimen(seed, family, limb)
     case = Case(seed=seed, family=family, limb=limb, motion=motion)
-    with tempfile.TemporaryDirectory() as name:
-        runs = sensor_runs(Path(name), seed, family, limb, one, [known[part] for part in MOTIONS[motion]], robot)
+    with tempfile.TemporaryDirectory() as name, expected_errors(family, robot) as line:
+        runs = sensor_runs(Path(name), seed, family, limb, one, [known[part] for part in MOTIONS[motion]], line)
         start = time.process_time()
         try:
             calibration = calibrate_sensor(runs if len(runs) > 1 else runs[0], code_version="benchmark", created="now")
@@ -373,10 +399,29 @@ def case_arguments(description: str) -> argparse.ArgumentParser:
     return parser
 
 
+def add_informed(parser: argparse.ArgumentParser) -> None:
+    """Add the choice of a fit that knows the errors; `robot` of the options is `UNCERTAIN` without it."""
+    parser.add_argument(
+        "--informed",
+        dest="robot",
+        action="store_const",
+        const=INFORMED,
+        default=UNCERTAIN,
+        help="let the fit know which errors there are and their sizes, as no fit of a real sensor does: a bound",
+    )
+
+
 def main() -> None:
     """Measure all cases, print the table and write every case."""
     parser = case_arguments(__doc__ or "")
-    parser.add_argument("--exact", action="store_true", help="state no tolerance: the robot model is taken as exact")
+    add_informed(parser)
+    parser.add_argument(
+        "--exact",
+        dest="robot",
+        action="store_const",
+        const=EXACT,
+        help="state no tolerance: the robot model is taken as exact",
+    )
     parser.add_argument("--quick", action="store_true", help="one seed, one limb, the motion grid")
     parser.add_argument("--json", type=Path, help="file for every case")
     options = parser.parse_args()
@@ -386,9 +431,7 @@ def main() -> None:
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     tasks = [(seed, robot, limb) for seed in seeds for robot in robots for limb in options.limbs]
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
-        work = partial(
-            _of_limb, families=options.families, motions=options.motions, table=EXACT if options.exact else UNCERTAIN
-        )
+        work = partial(_of_limb, families=options.families, motions=options.motions, table=options.robot)
         cases = [case for some in pool.map(work, tasks) for case in some]
     print("\n".join(table(cases)))
     write_cases(options.json, cases)

@@ -39,7 +39,9 @@ from benchmarks.model_errors import (
     FAMILIES,
     MOTIONS,
     Robot,
+    add_informed,
     case_arguments,
+    expected_errors,
     powered_up,
     sensor_runs,
     specimen,
@@ -162,7 +164,9 @@ def _outcome(
     )
 
 
-def _of_limb(task: tuple[int, Robot, str], families: Sequence[str], motions: Sequence[str]) -> list[Outcome]:
+def _of_limb(
+    task: tuple[int, Robot, str], families: Sequence[str], motions: Sequence[str], *, table: str
+) -> list[Outcome]:
     seed, robot, limb = task
     known = [*traces(seed, robot, limb).values(), validation_trace(seed, robot, limb)]
     found: list[Outcome] = []
@@ -170,8 +174,8 @@ def _of_limb(task: tuple[int, Robot, str], families: Sequence[str], motions: Seq
         if FAMILIES[family].robot != robot:
             continue
         one = specimen(seed, family, limb)
-        with tempfile.TemporaryDirectory() as folder:
-            runs = sensor_runs(Path(folder), seed, family, limb, one, known)
+        with tempfile.TemporaryDirectory() as folder, expected_errors(family, table) as line:
+            runs = sensor_runs(Path(folder), seed, family, limb, one, known, line)
             named = {trace.movement.name: run for trace, run in zip(known, runs, strict=True)}
             for motion in motions:
                 fitted = [named[part] for part in MOTIONS[motion]]
@@ -274,13 +278,14 @@ def bootstrap_interval(found: Sequence[Outcome], figure: Figure) -> FloatArray:
 def main() -> None:
     """Measure all verdicts, print the table and write every verdict."""
     parser = case_arguments(__doc__ or "")
+    add_informed(parser)
     parser.add_argument("--json", type=Path, help="file for every verdict")
     options = parser.parse_args()
     robots = dict.fromkeys(FAMILIES[family].robot for family in options.families)
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     tasks = [(seed, robot, limb) for seed in seeds for robot in robots for limb in options.limbs]
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
-        work = partial(_of_limb, families=options.families, motions=options.motions)
+        work = partial(_of_limb, families=options.families, motions=options.motions, table=options.robot)
         found = [one for some in pool.map(work, tasks) for one in some]
     print("\n".join(table(found)))
     write_cases(options.json, found)

@@ -183,7 +183,7 @@ def test_inspect_says_what_it_cannot_test(axis: Path) -> None:
     axis.write_text(text.replace("components", "limit_counts = 800.0\ncomponents"), encoding="utf-8")
     experiment, _ = _run(axis)
     kinds = {one.kind: one.message for one in inspect_experiment(experiment)}
-    assert "runs against the reference" in kinds["implausible"]
+    assert "is opposite to the expected force" in kinds["implausible"]
 
 
 @pytest.mark.parametrize(

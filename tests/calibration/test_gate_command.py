@@ -69,7 +69,7 @@ REFUSED: dict[str, tuple[Damage, str]] = {
     "joints that stand still": (_joints_times(0.0), r"as of a limb that stands still"),
     "gravity reversed": (
         lambda arm: edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]"),
-        r"runs against the reference, .*gravity_direction of \[\[support\]\]",
+        r"is opposite to the expected force, .*gravity_direction of \[\[support\]\]",
     ),
     "gravity sideways": (
         lambda arm: edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [1.0, 0.0, 0.0]"),
@@ -77,7 +77,7 @@ REFUSED: dict[str, tuple[Damage, str]] = {
     ),
     "direction reversed": (
         lambda arm: edit(arm / "arm.urdf", "child_to_parent", "parent_to_child"),
-        r"runs against the reference, .*measure_direction of .* the URDF's sensor tag",
+        r"is opposite to the expected force, .*measure_direction of .* the URDF's sensor tag",
     ),
 }
 

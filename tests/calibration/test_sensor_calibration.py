@@ -92,7 +92,7 @@ def test_what_is_doubtful_is_said_by_the_library(arm: Path) -> None:
     warnings = _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01).warnings
     assert any("tz come(s) out with the sign of the prior reversed" in sentence for sentence in warnings)
     edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
-    with pytest.raises(FitError, match="runs against the reference"):
+    with pytest.raises(FitError, match="is opposite to the expected force"):
         _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01)
 
 

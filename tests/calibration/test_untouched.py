@@ -5,13 +5,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
+from forcetorque.calibration import contact_windows
 from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
-from forcetorque.calibration.generative.fit import fit_generative
+from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.study.candidate_errors import push_error
@@ -80,6 +83,24 @@ def test_a_contact_of_three_seconds_leaves_with_its_neighbours() -> None:
     before, after, best = (push_error(_fitted(data), MOUNTED).force_N for data in (touched, touched.kept(marks), clean))
     assert after < 1.2 * best
     assert before > 1.5 * best
+
+
+@pytest.mark.parametrize("contact", [CONTACT, None], ids=["touched", "untouched"])
+def test_a_contact_leaves_where_the_fit_to_it_is_refused(
+    contact: FloatArray | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A contact may turn the first matrix until a direction is lost; then the prior matrix tells what to suspect."""
+    fits = iter([FitError("a direction is lost")])
+
+    def refused_once(*arguments: Any, **options: Any) -> GenerativeFit:
+        for error in fits:
+            raise error
+        return fit_generative(*arguments, **options)
+
+    monkeypatch.setattr(contact_windows, "fit_generative", refused_once)
+    seconds, spans = _left_out(_data(_limb(), contact=contact))
+    assert next(fits, None) is None
+    assert (seconds, len(spans)) == ((0.0, 0) if contact is None else (pytest.approx(5.0, abs=1.0), 1))
 
 
 def _burst(counts: float) -> FloatArray:

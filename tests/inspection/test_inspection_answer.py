@@ -75,11 +75,11 @@ def test_the_bar_shows_the_time_without_events() -> None:
 
 @pytest.mark.parametrize("kind", [*get_args(FaultKind), "implausible"])
 def test_a_fault_comes_first(kind: str) -> None:
-    """Before contacts, with the command to see whether it is mended, quoted where a shell needs it."""
+    """Before contacts, with the command that tries its correction, or shows it again; quoted for a shell."""
     answer = inspection_answer(_inspection(_row("contact", 1.0, 2.0), _row(kind), source="my walk.toml"))
     assert (answer.verdict, answer.concern) == ("1 FAULT", Concern.BAD)
     assert answer.why == (f"leg: this is {kind}",)
-    assert answer.command == "inspect 'my walk.toml'"
+    assert answer.command == f"{'inspect' if kind == 'implausible' else 'init --resume'} 'my walk.toml'"
 
 
 @pytest.mark.parametrize(
@@ -143,10 +143,12 @@ def test_a_foot_of_which_the_gain_is_doubted_is_not_called_faulty(run: Run, data
 
 
 def test_without_a_sensor_nothing_is_to_be_calibrated() -> None:
-    """A file of joints alone is looked at; one with a sensor goes its whole way."""
+    """A file of joints alone has no next command; one of soles is for balance, one with a sensor for `run`."""
     inspection = _inspection()
     alone = inspection_answer(inspection.model_copy(update={"to_calibrate": None}))
-    assert (alone.step, alone.command) == ("look at it, or state a [[sensor]] to calibrate", "view walk.toml")
+    assert (alone.step.split(",")[0], alone.command) == ("state a [[sensor]] to calibrate", "")
+    standing = inspection_answer(inspection.model_copy(update={"to_calibrate": "standing"}))
+    assert standing.command == "robot balance walk.toml"
     skin = inspection_answer(inspection.model_copy(update={"to_calibrate": "skin"}))
     assert (skin.command or "").startswith("skin calibrate walk.toml ")
     with_sensor = inspection_answer(inspection)

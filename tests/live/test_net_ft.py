@@ -93,6 +93,18 @@ def test_units_are_stated_or_published() -> None:
             CountUnits.of_configuration(text.encode())
 
 
+@pytest.mark.parametrize("transformation", ["0;0;132.710;0;0;0", "0;0;0;0;0;-90", "0.000;0;0;0;0;-0.0"])
+def test_a_box_that_turns_or_moves_its_wrenches_is_refused(transformation: str) -> None:
+    """Six zeros do neither."""
+    text = XML.format(cpf=1000, unit="N").replace("</netft>", f"<cfgtfx>{transformation}</cfgtfx></netft>").encode()
+    assert transformation.encode() in text
+    if transformation.startswith("0.000"):
+        assert CountUnits.of_configuration(text).newton == pytest.approx(1e-3)
+        return
+    with pytest.raises(RecordingError, match="cfgtfx: expected no tool transformation"):
+        CountUnits.of_configuration(text)
+
+
 @pytest.mark.parametrize("host", ["no box", "a" * 70, "x:y"])
 def test_a_box_without_address_is_named(host: str) -> None:
     """Whether its units are stated or asked for."""

@@ -74,13 +74,13 @@ def _run(
     """What becomes of messages, of which the function gives how many are wrenches that are corrected."""
     session, now = Loopback(), iter(np.arange(1e6) * 1e-3)
     calibration = calibration or make_calibration()
-    settings = Settings(ros2=("/ft/wrench",), publish=("/ft/corrected",), **stated)
+    settings = Settings(ros2=("/ft/wrench",), publish=("/ft/corrected",), **{"frame": ("ft_link",)} | stated)
     source, correctors = make_run(
         settings, [calibration], descriptor=0, warn=lambda _: None, clock=lambda: float(next(now)), ros=session
     )
     assert isinstance(source, RosSource)
     topics = {calibration.sensor.name: "/ft/corrected"}
-    output = RosOutput(session, topics, source.frames, domain=0, with_faults=False)
+    output = RosOutput(session, topics, {calibration.sensor.name: "ft_link"}, domain=0, with_faults=False)
     source._left = messages(session)
     loop = LiveLoop(source, correctors, [output], clock=lambda: float(next(now)))
     return loop.result(loop.run()), session
@@ -117,12 +117,13 @@ def test_wrenches_are_corrected_and_sent_on() -> None:
         session.send("/ft/wrench", _wrench(10**9 + 9), attachment(1, 0, OTHER))
         session.send("/ft/wrench", _wrench(10**9 + 9), None)
         session.send("/ft/wrench", _wrench(10**9 + 9)[:-8], attachment(6, 0, PUBLISHER))
+        session.send("/ft/wrench", _wrench(10**9 + 9, frame="base"), attachment(6, 0, PUBLISHER))
         session.send("/ft/wrench", _wrench(10**9 + 6, values=[np.nan] * 6), attachment(6, 0, PUBLISHER))
         return 6
 
     result, session = _run(send)
     packets = result.packets
-    assert (packets.received, packets.lost, packets.repeated, packets.foreign, packets.unreadable) == (6, 1, 1, 1, 2)
+    assert (packets.received, packets.lost, packets.repeated, packets.foreign, packets.unreadable) == (6, 1, 1, 1, 3)
     assert len(session.sent) == 4
     expected = make_calibration().apply(RAW, serial="SN001")
     for place, (key, message, attached) in enumerate(session.sent):
@@ -143,7 +144,9 @@ def test_a_publisher_that_begins_again_is_heard() -> None:
         return 30
 
     session, calibration, now = Loopback(), make_calibration(), [0.0]
-    source = RosSource(session, {"leg_ft": "/ft/wrench"}, domain=0, clock=lambda: now[0], messages=31)
+    source = RosSource(
+        session, {"leg_ft": "/ft/wrench"}, frames={"leg_ft": "ft_link"}, domain=0, clock=lambda: now[0], messages=31
+    )
     send(session)
     packets = (packet for packet in source.packets() if packet is not None)
     first = [next(packets) for _ in range(29)]
@@ -153,6 +156,27 @@ def test_a_publisher_that_begins_again_is_heard() -> None:
     assert [packet.begins for packet in (*first, *packets)] == [False] * 29 + [True, False]
     assert source.counts.foreign == 0
     assert calibration.sensor.name == "leg_ft"
+
+
+def test_messages_that_wait_at_an_interrupt_are_counted() -> None:
+    """As lost, with those between them that never came and those that found no room; not those of joints."""
+    session = Loopback()
+    source = RosSource(
+        session,
+        {"leg_ft": "/ft/wrench"},
+        frames={"leg_ft": "ft_link"},
+        domain=0,
+        clock=time.monotonic,
+        joints_topic="/j",
+    )
+    source._queue.maxsize = 6
+    for number in (1, 2, 5, 6, 7):
+        session.send("/ft/wrench", _wrench(10**9 + number), attachment(number, 0, PUBLISHER))
+        session.send("/j", b"", None, JOINT_TYPE)
+    packets = source.packets()
+    assert next(packets) is not None
+    packets.close()
+    assert source.counts.lost == 6
 
 
 def _joints(names: list[str], positions: list[float]) -> bytes:
@@ -178,7 +202,7 @@ def _tool(folder: Path) -> dict[str, Any]:
         <limit lower="-3" upper="3" effort="9" velocity="9"/></joint></robot>"""
     )
     return {
-        "robot": urdf, "joints": "/joint_states", "base_gravity": "0,0,-9.81", "frame": "ft_link",
+        "robot": urdf, "joints": "/joint_states", "base_gravity": "0,0,-9.81", "frame": ("ft_link",),
         "tool_mass_kg": 2.0, "tool_centre_m": "0,0,0", "take_tool_off": True,
     }  # fmt: skip
 
@@ -208,7 +232,7 @@ def test_the_weight_of_a_tool_follows_from_joints(tmp_path: Path) -> None:
 
 
 _IN_G: dict[str, Any] = {
-    "robot": ARM_URDF, "joints": "/joint_states", "base_gravity": "0,0,-1", "frame": "tool", "tool_mass_kg": 1.0,
+    "robot": ARM_URDF, "joints": "/joint_states", "base_gravity": "0,0,-1", "frame": ("tool",), "tool_mass_kg": 1.0,
     "tool_centre_m": "0,0,0", "take_tool_off": True,
 }  # fmt: skip
 
@@ -264,14 +288,15 @@ def test_stamps_that_begin_again_are_heard() -> None:
         ({"sequence": "n"}, "--sequence: not of --ros2"),
         ({"rate_hz": 10.0}, "--rate: not of --ros2"),
         ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "take_tool_off": True}, "got none of --robot, --joints"),
-        ({"joints": "/joint_states"}, "got none of --robot, --base-gravity, --frame, --tool-mass"),
+        ({"joints": "/joint_states"}, "got none of --robot, --base-gravity, --tool-mass"),
+        ({"frame": ()}, "expected --frame, the frame_id .* child frame of its calibration, child_to_parent; got none"),
         (_IN_G, "free fall of 9.7 to 9.9 m/s2, got one of 1"),
         ({"ros2": ()}, "expected one of --input"),
     ],
 )
 def test_nothing_is_guessed(changed: dict[str, Any], message: str) -> None:
     """What is needed and not stated, or stated and not of topics, is refused by name."""
-    settings = Settings(**({"ros2": ("/ft/wrench",), "publish": ("/ft/corrected",)} | changed))
+    settings = Settings(**({"ros2": ("/ft/wrench",), "publish": ("/ft/corrected",), "frame": ("ft_link",)} | changed))
     with pytest.raises(RecordingError, match=message.replace("[", "[[]")):
         make_run(settings, [make_calibration()], descriptor=0, warn=lambda _: None, ros=Loopback())
 
@@ -279,7 +304,7 @@ def test_nothing_is_guessed(changed: dict[str, Any], message: str) -> None:
 def test_a_frame_must_be_a_link() -> None:
     """It is refused before anything is heard."""
     settings = Settings(
-        ros2=("/ft/wrench",), robot=ARM_URDF, joints="/joint_states", base_gravity="0,0,-9.81", frame="nowhere",
+        ros2=("/ft/wrench",), robot=ARM_URDF, joints="/joint_states", base_gravity="0,0,-9.81", frame=("nowhere",),
         tool_mass_kg=1.0, tool_centre_m="0,0,0", take_tool_off=True,
     )  # fmt: skip
     with pytest.raises(RecordingError, match="--frame nowhere: expected a link"):
@@ -304,7 +329,18 @@ def test_two_peers_on_this_machine(tmp_path: Path) -> None:
     config = zenoh.Config()
     config.insert_json5("listen/endpoints", json.dumps([endpoint]))
     config.insert_json5("scouting/multicast/enabled", "false")
-    words = ("live", "leg.json", "--ros2", "/ft/wrench", "--publish", "/ft/corrected", "--router", endpoint)
+    words = (
+        "live",
+        "leg.json",
+        "--ros2",
+        "/ft/wrench",
+        "--publish",
+        "/ft/corrected",
+        "--router",
+        endpoint,
+        "--frame",
+        "ft_link",
+    )
     received: list[tuple[bytes, bytes]] = []
     with (
         zenoh.open(config) as driver,

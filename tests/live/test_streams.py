@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import socket
 from collections.abc import Iterator, Sequence
@@ -43,6 +44,8 @@ TABLE: dict[str, Any] = {
     "stamp": "t:s",
     "sequence": "n",
 }
+NO_TABLE: dict[str, Any] = {"channels": (), "stamp": None, "sequence": None}
+YARP: dict[str, Any] = {"form": Input.YARP, "quantity": HeldQuantity.RAW}
 
 
 class Kept:
@@ -218,6 +221,28 @@ def test_numbers_wrap_around_and_begin_again() -> None:
     assert account.counts == PacketCounts(received=5, late=1, repeated=1, countable=True)
     assert add(100_000, 1) == [0, 0]
     assert (account.counts.lost, account.counts.restarts) == (99_998, 1)
+
+
+@pytest.mark.parametrize(
+    ("stated", "heading", "mark", "last"),
+    [
+        (YARP | {"envelope": True}, "", " ", (1 << 15) - 1),
+        (TABLE | {"sequence": "n:65536"}, "n,t," + CHANNELS + "\n", ",", (1 << 16) - 1),
+        (TABLE, "n,t," + CHANNELS + "\n", ",", (1 << 32) - 1),
+    ],
+)
+@pytest.mark.parametrize("lower", [0, 100])
+def test_numbers_go_on_behind_the_last_one(
+    stated: dict[str, Any], heading: str, mark: str, last: int, lower: int
+) -> None:
+    """Losses are counted there, and a tare goes on; where another number is the last, the sender began again."""
+    numbers = [last - lower - 8 + k for k in range(9)] + [1, *range(4, 20)]
+    lines = [mark.join([str(n), str(0.1 * k), *map(str, RAW[0] + k % 2)]) + "\n" for k, n in enumerate(numbers)]
+    result, rows = _run("".join([heading, *lines]), Settings(offset=OffsetSource.TARE, **stated))
+    assert (result.packets.restarts, result.packets.lost) == (0, 3 + lower)
+    assert [row.status for row in rows].count(int(Status.TARING)) == 11
+    if last == (1 << 16) - 1:
+        assert _run("".join([heading, *lines]), Settings(**stated | {"sequence": "n"}))[0].packets.restarts == 1
 
 
 @pytest.mark.parametrize("stated", [TABLE, TABLE | {"sequence": None, "rate_hz": 100.0}, TABLE | {"stamp": None}])
@@ -461,7 +486,13 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"rate_hz": 0.0}, "--rate: expected a number above 0"),
         ({"ati_port": 70_000}, "--ati-port: expected a port"),
         ({"stamp": None, "rate_hz": 100.0}, "expected --stamp too"),
-        ({"frame": "tool"}, "--frame: not of --input csv"),
+        ({"frame": ("child",)}, "--frame: not of --quantity raw"),
+        ({"quantity": HeldQuantity.WRENCH}, "expected --frame child, .* child_to_parent, .* got none"),
+        ({"quantity": HeldQuantity.WRENCH, "frame": ("base",)}, "expected --frame child, .* got base"),
+        ({"form": Input.ROS2_CSV, "quantity": HeldQuantity.WRENCH, **NO_TABLE}, "expected --frame, the frame_id"),
+        ({"channels": ("c1,c2,c3,c4,c5,c1",)}, "expected every column once, got 'c1' 2 times"),
+        ({"channels": ("fx [N],c2,c3,c4,c5,c6",)}, "--channels fx .N.: expected counts, got .* unit N"),
+        ({"stamp": "t_ms:s"}, "--stamp t_ms: expected s, got a heading with the unit ms"),
         ({"form": None, "ati": "127.0.0.1"}, "--channels: not of --ati"),
         ({"variables": ("temperature=T",)}, "SENSOR.]NAME=COLUMN"),
         ({"tool_mass_kg": 1.0}, "both --tool-mass and --tool-centre"),
@@ -469,6 +500,7 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0"}, "3 numbers"),
         ({"form": Input.YARP}, "--channels: not of"),
         ({"form": Input.ROS2_CSV}, "--quantity wrench"),
+        ({"sequence": "n:1"}, "--sequence: expected COLUMN"),
         ({"form": Input.YARP_MEASURES, "channels": (), "stamp": None, "sequence": None}, "expected --index"),
     ],
 )
@@ -477,6 +509,19 @@ def test_nothing_is_guessed(changed: dict[str, Any], message: str) -> None:
     settings = Settings(**(TABLE | changed))
     with pytest.raises(RecordingError, match=message.replace("[", "[[]")):
         make_run(settings, [make_calibration()], descriptor=0, warn=lambda _: None)
+
+
+def test_units_of_headings_and_gravity_are_those_of_the_options() -> None:
+    """Of wrenches N and N m; free fall in g, and none at all, make lines unreadable."""
+    own = {"quantity": HeldQuantity.WRENCH, "frame": ("child",), "channels": ("fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz [N mm]",)}
+    with pytest.raises(RecordingError, match=r"--channels tz \[N mm\]: expected N m, got .* unit N mm"):
+        _run("", Settings(**TABLE | own))
+    own |= {"channels": ("fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz",), "gravity": "gx,gy,gz"}
+    lines = [_line(k, k, [1.0] * 6)[:-1] + f",0,0,{g}\n" for k, g in enumerate((-9.81, -1.0, 0.0, 9700, math.nan))]
+    heading = "n,t,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz,gx,gy,gz\n"
+    tool = {"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "take_tool_off": True}
+    result, rows = _run(heading + "".join(lines), Settings(**TABLE | own | tool))
+    assert (result.packets.unreadable, [row.status for row in rows]) == (3, [0, Status.NOT_FINITE])
 
 
 def test_a_heading_must_have_the_columns() -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -51,6 +52,17 @@ def test_a_plan_is_shown_and_written(run: Run, arm: Path, limited: str) -> None:
     assert (result["schema"], result["start"], len(result["recordings"])) == ("forcetorque/plan/1", "calibration", 1)
     rows = run(*words, "--format", "csv").rows()
     assert [row["recording"] for row in rows] == ["1"]
+
+
+def test_a_folder_of_calibrations_stands_for_the_only_one(run: Run, arm: Path, limited: str) -> None:
+    """As `calibrate` and `run` write it; of several, the one of the sensor; none and two are refused."""
+    (arm / "folder").mkdir()
+    shutil.copy(arm / "fitted.json", arm / "folder/arm.json")
+    words = ("plan", limited, "--recordings", "1", "--seconds", "20", "--format", "json", "-c")
+    assert run(*words, "folder").result()["recordings"] == run(*words, "fitted.json").result()["recordings"]
+    assert "expected one calibration of 'leg_ft', got none" in run(*words, "folder", "--sensor", "leg_ft").error()
+    shutil.copy(arm / "fitted.json", arm / "folder/again.json")
+    assert "expected one calibration, got folder/again.json, folder/arm.json" in run(*words, "folder").error()
 
 
 def test_the_clearance_may_be_typed_and_must_be_somewhere(run: Run, arm: Path) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from forcetorque.report.sources import sort_sources
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.browser import Visit
@@ -332,12 +333,20 @@ def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Ru
     assert not any("For “push”" in step for step in steps(USE.format(allowed=5.0, clearance=12)))
 
 
+def test_a_folder_stands_for_the_calibrations_in_it(arm: Path) -> None:
+    """As `calibrate` and `run` write it for several sensors."""
+    (arm / "folder").mkdir()
+    shutil.copy(arm / "fitted.json", arm / "folder/arm.json")
+    sources = sort_sources([arm / PARQUET, arm / "folder"])
+    assert list(sources.calibrations) == [str(arm / "folder/arm.json")]
+
+
 REFUSED = {
     "no experiment": (["fitted.json"], r"expected an experiment file among the files, its samples are drawn; got none"),
     "missing file": ([PARQUET, "none.json"], r"none.json: expected a file to report on, there is none"),
     "folder": (
         [PARQUET, "recording"],
-        r"recording: expected an experiment file, .* got a folder; name the files in it",
+        r"recording: expected a folder of calibrations, .json; it holds none",
     ),
     "not JSON": ([PARQUET, "broken.json"], r"broken.json: expected an experiment file, .*: Expecting "),
     "no suffix": ([PARQUET, "prior"], r"prior: expected .*, whose names end in .toml or .json"),

@@ -127,7 +127,7 @@ def test_a_page_that_stops_to_read_does_not_hold_the_run_up(arm: Path) -> None:
 def test_a_robot_of_ros_moves_with_its_joints() -> None:
     """Positions are those that came last, in the order of the robot; before they came there are none."""
     session = Loopback()
-    settings = Settings(ros2=("/ft/wrench",), robot=Path(ARM_URDF), joints="/joint_states", frame="hand", shown=True)
+    settings = Settings(ros2=("/ft/wrench",), robot=Path(ARM_URDF), joints="/joint_states", frame=("hand",), shown=True)
     calibration = make_calibration()
     source, correctors = make_run(settings, [calibration], descriptor=0, warn=print, ros=session)
     assert isinstance(source, RosSource)
@@ -154,7 +154,7 @@ def test_a_robot_of_ros_moves_with_its_joints() -> None:
 
 def test_sensors_without_a_robot_stand_side_by_side() -> None:
     """With a note."""
-    settings = Settings(ros2=("leg_ft=/a", "arm_ft=/b"), shown=True)
+    settings = Settings(ros2=("leg_ft=/a", "arm_ft=/b"), frame=("leg_ft=foot", "arm_ft=hand"), shown=True)
     calibrations = [make_calibration(), make_calibration(name="arm_ft")]
     source, correctors = make_run(settings, calibrations, descriptor=0, warn=print, ros=Loopback())
     block = Block()
@@ -168,17 +168,17 @@ def test_sensors_without_a_robot_stand_side_by_side() -> None:
 @pytest.mark.parametrize(
     ("changed", "message"),
     [
-        ({"joints": None}, "--joints and --frame too"),
+        ({"joints": None}, "--joints too"),
         ({"robot": None}, "--joints: .* expected --robot too"),
-        ({"frame": None}, "--joints and --frame too"),
-        ({"frame": "nowhere"}, "expected a link"),
+        ({"frame": ()}, "expected --frame, the frame_id"),
+        ({"frame": ("nowhere",)}, "expected a link"),
         ({"shown": False}, "got none of --base-gravity, --tool-mass"),
     ],
 )
 def test_a_robot_is_stated_whole(changed: dict[str, Any], message: str) -> None:
     """Without a page a robot is for a tool."""
     stated: dict[str, Any] = {
-        "ros2": ("/ft/wrench",), "robot": Path(ARM_URDF), "joints": "/joint_states", "frame": "hand", "shown": True,
+        "ros2": ("/ft/wrench",), "robot": Path(ARM_URDF), "joints": "/joint_states", "frame": ("hand",), "shown": True,
     }  # fmt: skip
     with pytest.raises(RecordingError, match=message):
         make_run(Settings(**stated | changed), [make_calibration()], descriptor=0, warn=print, ros=Loopback())

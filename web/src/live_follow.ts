@@ -51,6 +51,7 @@ export function follow(data: LiveData, store: Store, show: (state: Following) =>
     }
     show(state);
     if (state.ended !== null) {
+      data.isOver = true;
       store.set({ playing: false });
       return;
     }

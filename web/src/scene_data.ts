@@ -23,6 +23,8 @@ export class SceneData {
   private readonly packed = new Map<number, PackedArray>();
   /** Quantities over time. */
   readonly columns = new Columns(this);
+  /** Whether these are of a stream that has ended. */
+  isOver = false;
 
   constructor(
     readonly scene: Scene,

@@ -99,8 +99,9 @@ export function goesOn(data: SceneData, store: Store): boolean {
   return data.scene.live !== null && store.state.playing;
 }
 
-/** Play or pause; from the start again if it is at its end. */
+/** Play or pause; from the start again if it is at its end. A stream that ended is not followed again. */
 export function togglePlay(data: SceneData, store: Store): void {
+  if (data.isOver) return;
   const { playing, sample } = store.state;
   if (!playing && sample >= data.samples - 1) store.set({ sample: 0 });
   store.set({ playing: !playing && (data.scene.live !== null || data.samples > 1) });

@@ -252,7 +252,21 @@ def checked_tables(content: dict[str, Any], form: type[_Content], file: Path) ->
     try:
         return form.model_validate(content)
     except ValidationError as error:
+        _require_schema(content, form, file)
         raise FormatError(_validation_message(file, content, form, error)) from error
+
+
+def _require_schema(content: dict[str, Any], form: type[BaseModel], file: Path) -> None:
+    """Name the form of a file of another kind, in place of its first key that this form does not have."""
+    field = form.model_fields.get("schema_name")
+    expected = "" if field is None else str(get_args(field.annotation)[0])
+    got = str(content.get("schema", ""))
+    kinds = [name.split("/")[1] for name in (expected, got) if name.count("/") == 2]
+    if len(set(kinds)) == 2:
+        raise FormatError(
+            f'{file}: schema: expected "{expected}", got "{got}": a file of another kind; `forcetorque schema '
+            f"{kinds[1]}` has its keys"
+        )
 
 
 def _require_no_unanswered_key(file: Path, text: str) -> None:

@@ -137,11 +137,14 @@ def agreeing_samples(
     marks, left = np.zeros(ends[-1], dtype=bool), np.zeros((ends[-1], 6))
     for far in (_SUSPECT, *(FAR,) * (_ROUNDS - 1)):
         kept = [one.kept(~own) for one, own in zip(means, np.split(marks, ends[:-1]), strict=True) if not own.all()]
+        fit = None
         try:
             fit = fit_generative(kept, prior, exact, variables=variables, drift=drift, shapes=(_NOISE,))
-        except FitError:  # the fit of all says why, if it fails too
-            return every, ()
-        residuals = [_residual(data, one, fit) for data, one in zip(data_sets, means, strict=True)]
+        except FitError:
+            if prior is None or marks.any():  # the fit of all says why, if it fails too
+                return every, ()
+            # a contact may turn the matrix so far that the fit is refused: the prior matrix tells what to suspect
+        residuals = [_residual(data, one, fit, prior) for data, one in zip(data_sets, means, strict=True)]
         left = np.concatenate([one[0] for one in residuals])
         alone = disagreeing(left, np.concatenate([one[1] for one in residuals]), far=far)
         found = minority(np.concatenate([with_neighbours(own, 1) for own in np.split(alone, ends[:-1])]))
@@ -157,22 +160,27 @@ def agreeing_samples(
     return agree, tuple(spans)
 
 
-def _residual(data: DataSet, means: WindowMeans, fit: GenerativeFit) -> tuple[FloatArray, FloatArray]:
-    """What the fit leaves of every window about its surroundings, and its smallest deviation; shape (n, 6) each."""
-    session = fit.posterior.sessions.index(data.session) if data.session in fit.posterior.sessions else -1
-    model = replace(fit.model, offset=fit.offsets[session])
-    with_variables = data.variables.shape[1] > 0
+def _residual(
+    data: DataSet, means: WindowMeans, fit: GenerativeFit | None, prior: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """What the fit, or the prior matrix without one, leaves of every window about its surroundings, and its smallest
+    deviation; shape (n, 6) each."""
     reference = data.reference if data.flattening is None else data.reference + FLATTENED * data.flattening
-    error = model.wrench(data.raw, data.variables if with_variables else None) - model.expected_reading(reference)
+    if fit is None:
+        error, undetermined = data.raw @ np.asarray(prior).T - reference, np.zeros((len(means), 6))
+    else:
+        session = fit.posterior.sessions.index(data.session) if data.session in fit.posterior.sessions else -1
+        model, with_variables = replace(fit.model, offset=fit.offsets[session]), data.variables.shape[1] > 0
+        error = model.wrench(data.raw, data.variables if with_variables else None) - model.expected_reading(reference)
+        moved = means.variables - fit.model.reference_values if with_variables else None
+        covariance = fit.posterior.error_covariance(
+            means.reference, variables=moved, session=fit.posterior.sessions[session]
+        )
+        undetermined = np.einsum("kii->ki", covariance)
     window = data.window
     starts = np.flatnonzero(np.diff(window, prepend=-1))
     counts = np.diff(starts, append=len(window))
     left: FloatArray = np.add.reduceat(error, starts, axis=0) / counts[:, None]
-    moved = means.variables - fit.model.reference_values if with_variables else None
-    undetermined = np.einsum(
-        "kii->ki",
-        fit.posterior.error_covariance(means.reference, variables=moved, session=fit.posterior.sessions[session]),
-    )
     force, moment = (np.linalg.norm(means.reference[:, part], axis=1) for part in (slice(3), slice(3, 6)))
     of_model = np.repeat(np.stack([_TURNED * force, _TURNED * moment + _SHIFTED_M * force], axis=1), 3, axis=1)
     least = np.sqrt(undetermined + of_model**2 + _mean_variance(data, error, window))

@@ -16,7 +16,6 @@ from forcetorque.evaluation.load_cases.verdict import (
     LOOK_FOR_CAUSE,
     RECORDED,
     Decision,
-    LoadCaseError,
     LoadCaseVerdict,
 )
 from forcetorque.experiment.calibrations_under_test import PRIOR
@@ -86,7 +85,7 @@ def _of_uses(
     agree = len({use.decision for use in uses}) == 1
     decision = worst.decision.upper()
     reason = worst.reasons[0]
-    predicted = "; ".join(_predicted(error) for error in worst.errors)
+    predicted = "; ".join(error.text for error in worst.errors)
     # what was measured speaks in the second line; other reasons, such as warnings, are said here
     first = (
         f"{worst.loads}: {predicted or worst.message}" if worst.load_case != RECORDED else predicted or worst.message
@@ -105,14 +104,7 @@ def _of_uses(
 
 def _is_predicted(use: LoadCaseVerdict) -> bool:
     """Whether the prediction is the reason, which the numbers state."""
-    return bool(use.errors) and use.reasons[0].text.startswith("it errs")
-
-
-def _predicted(error: LoadCaseError) -> str:
-    allowed = "" if error.allowed is None else f", allowed {amount(error.allowed, error.unit)}"
-    prior = "" if error.before is None else f", prior {amount(error.before, error.unit)}"
-    after, most = amount(error.after, error.unit), amount(error.after_at_most, error.unit)
-    return f"{error.quantity} error {after} (95 %: {most}{allowed}{prior})"
+    return bool(use.errors) and use.reasons[0].text.startswith(use.errors[0].text)
 
 
 def _measured(row: CalibrationErrors, compared: Sequence[PriorComparison]) -> Iterator[str]:
@@ -142,10 +134,23 @@ def _step(use: LoadCaseVerdict) -> tuple[str, str]:
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     if remedy is None:
         return to_export(use.calibration, use.sensor)
-    if remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA):
+    if is_for_inspect(use):
         return remedy, typed("inspect", FIRST_EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
     return remedy, to_plan(use.calibration) if records else ""
+
+
+def is_for_inspect(use: LoadCaseVerdict) -> bool:
+    """Find out whether `inspect` shows what is to be corrected.
+
+    Args:
+        use: The verdict.
+
+    Returns:
+        Whether the first remedy of its reasons is the cause of an error, not a further recording.
+    """
+    remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
+    return remedy in (LOOK_FOR_CAUSE, KEEP_PRIOR, CORRECT_DATA)
 
 
 def _mean(value: float, half_width: float | None, unit: str) -> str:

@@ -29,7 +29,7 @@ _MOST = 4
 """Events that are listed; the others are counted."""
 _NEXT: Final = {
     True: "calibrate the sensors, or identify their load, and evaluate",
-    False: "begin an experiment file for it",
+    False: "begin an experiment file for it; of a robot add --urdf FILE",
 }
 """What follows, by whether it is an experiment file."""
 _MOST_COLUMNS = 6
@@ -151,6 +151,18 @@ def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
     return tuple(row for row in findings if row.kind in _FAULTS)
 
 
+def has_proposal(wrong: Iterable[FindingRow]) -> bool:
+    """Find out whether `init --resume` names a change of the experiment file.
+
+    Args:
+        wrong: Faults, as `faults` selects them.
+
+    Returns:
+        Whether one of them explains the measurements, so that its correction is tried.
+    """
+    return any(row.kind in get_args(FaultKind) for row in wrong)
+
+
 def events(findings: Iterable[FindingRow], duration_s: float) -> tuple[Event, ...]:
     """Group findings.
 
@@ -237,7 +249,7 @@ def _columns_answer(inspection: Inspection) -> Answer:
             f"by their names, {alike}" if alike else "no name is that of a known quantity",
             sketch_text(inspection.unread),
         ),
-        step="begin an experiment file, with a question for each value that the log does not have",
+        step="begin an experiment file, which asks what the log does not state; of a robot add --urdf FILE",
         command=typed("init", inspection.source, "-o", "experiment.toml"),
         concern=Concern.UNCERTAIN,
     )
@@ -263,7 +275,9 @@ def inspection_answer(inspection: Inspection) -> Answer:
     begin, go_on = typed("init", source, "-o", "experiment.toml"), typed("run", source, "-o", "results")
     step = _NEXT[is_experiment]
     if inspection.to_calibrate is None:
-        step, go_on = "look at it, or state a [[sensor]] to calibrate", typed("view", source)
+        step, go_on = "state a [[sensor]] to calibrate, or an [[interval]] for the calibration of skin", ""
+    elif inspection.to_calibrate == "standing":
+        step, go_on = "find which feet bear the robot", typed("robot", "balance", source)
     elif inspection.to_calibrate == "skin":
         step, go_on = "calibrate its taxels", typed("skin", "calibrate", source, "-o", "skin.json")
     subject = f"{source}: {inspection.duration_s:.1f} s, {len(inspection.streams)} stream(s)"
@@ -271,6 +285,8 @@ def inspection_answer(inspection: Inspection) -> Answer:
     spoiling = [event for event in grouped if event.spoils(in_use)]
     if wrong := faults(inspection.findings):
         touched = [event for event in spoiling if event.explains(wrong, in_use)] if is_experiment else []
+        resumes = bool(touched) or (is_experiment and has_proposal(wrong))
+        correct = "accept the change that corrects it" if resumes else "correct it, and inspect again"
         return Answer(
             subject=subject,
             verdict=f"{len(wrong)} FAULT{'S' * (len(wrong) > 1)}",
@@ -278,8 +294,8 @@ def inspection_answer(inspection: Inspection) -> Answer:
                 *(f"{row.stream}: {row.message}" for row in wrong[: 1 if touched else 2]),
                 *(f"in an interval that is used: {event.text}" for event in _most_harmful(touched, in_use)[:1]),
             ),
-            step="leave the contact out of every [[interval]]" if touched else "correct it, and inspect again",
-            command=typed("init", "--resume", source) if touched else typed("inspect", source),
+            step="leave the contact out of every [[interval]]" if touched else correct,
+            command=typed("init", "--resume", source) if resumes else typed("inspect", source),
             concern=Concern.BAD,
         )
     more = (f"{len(notes)} remark(s) on the whole log: {notes[0]}",) if notes else ()

@@ -15,6 +15,7 @@ from forcetorque.results.terminal.options import (
     DetailsOption,
     ForceOption,
     FormatOption,
+    LoadsOption,
     between_commas,
 )
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
@@ -53,6 +54,7 @@ def init(
     matrices: Annotated[
         Path | None, typer.Option("--matrices", help="Folder of the matrix files that the sensors came with.")
     ] = None,
+    loads: LoadsOption = None,
     resume: Annotated[
         Path | None,
         typer.Option("--resume", help="Experiment file whose questions are asked, and of which changes are proposed."),
@@ -84,6 +86,7 @@ def init(
             "--column-names": column_names,
             "--sensor": sensor,
             "--matrices": matrices,
+            "--loads": loads,
             "--force": force,
         }
         _refuse_beside(resume, [name for name, value in of_log.items() if value])
@@ -103,6 +106,7 @@ def init(
         column_names=between_commas(column_names),
         sensors=sensor or (),
         matrices=matrices,
+        loads=loads,
         force=force,
     )
     if output != STANDARD_OUTPUT:  # else the file itself went there

@@ -115,8 +115,8 @@ class FindingRow(Row):
         return self.stream, self.kind, self.channel or ""
 
 
-ToCalibrate = Literal["sensor", "skin"] | None
-"""What an experiment file states to be calibrated."""
+ToCalibrate = Literal["sensor", "skin", "standing"] | None
+"""What an experiment file states to be calibrated, or `standing` for vertical forces of soles alone."""
 
 
 class Inspection(Result):
@@ -153,7 +153,7 @@ class Inspection(Result):
     in_use_s: tuple[tuple[float, float], ...] = ()
     """Begin and end of the intervals for calibration and validation; s from the earliest stamp; none of a log."""
     to_calibrate: ToCalibrate = Field(default="sensor", exclude=True, repr=False)
-    """What the experiment file states to be calibrated; a sensor of a log; None for nothing."""
+    """What the experiment file is for; a sensor of a log; None where it states nothing to calibrate."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
@@ -351,7 +351,8 @@ def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recor
         return patches.recording, inspect_patches(patches), "skin" if fitted else None
     if patches is None and not parsed.sensor:
         recording = load_experiment(source, Purpose.DISPLAY).recording
-        return recording, inspect_recording(recording), None
+        stands = any("vertical_force" in stream.signals for stream in recording.streams.values())
+        return recording, inspect_recording(recording), "standing" if stands else None
     try:
         experiment = load_experiment(source)
     except RecordingError:

@@ -62,7 +62,13 @@ def live(
         str | None,
         typer.Option("--stamp", help="Column with the time, COLUMN:UNIT in s, ms, us or ns. Default: arrival."),
     ] = None,
-    sequence: Annotated[str | None, typer.Option("--sequence", help="Column with the number of the packet.")] = None,
+    sequence: Annotated[
+        str | None,
+        typer.Option(
+            "--sequence",
+            help="Column with the number of the packet; COLUMN:65536 where 0 follows 65535. Default: 2^32.",
+        ),
+    ] = None,
     gravity: Annotated[
         str | None,
         typer.Option("--gravity", help="Three columns with gravity in the frame of the reading, m/s2, for a tool."),
@@ -70,7 +76,14 @@ def live(
     envelope: Annotated[
         bool, typer.Option("--envelope", help="Lines of yarp begin with number and time of the sender.")
     ] = False,
-    frame: Annotated[str | None, typer.Option("--frame", help="Frame that messages of ROS 2 must be in.")] = None,
+    frame: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--frame",
+            help="[SENSOR=]FRAME: frame_id of messages of ROS 2; of wrenches of csv child, parent or sensor, as the "
+            "calibration has it.",
+        ),
+    ] = None,
     rate: Annotated[
         float | None, typer.Option("--rate", help="Rate of the sender, Hz, so that gaps in time count as losses.")
     ] = None,
@@ -201,9 +214,9 @@ def live(
         refuse_other_names,
     )
     from forcetorque.live.program_check import program_checks
-    from forcetorque.live.ros_topics import RosOutput, RosSource
+    from forcetorque.live.ros_topics import RosOutput
     from forcetorque.live.run import LiveLoop
-    from forcetorque.live.settings import read_settings
+    from forcetorque.live.settings import by_sensor, read_settings
     from forcetorque.live.stated_source import make_run, ros_topics
     from forcetorque.live.watch import Watch
     from forcetorque.live.zenoh_session import zenoh_session
@@ -231,9 +244,13 @@ def live(
         source, correctors = make_run(
             settings, tuple(read.values()), descriptor=_STANDARD_INPUT, warn=log.warning, ros=ros
         )
-        checks = program_checks(check or [], correctors, sensor_pose=sensor_pose, frame=frame, warn=log.warning)
         names = [one.sensor.name for one in read.values()]
-        frames = source.frames if isinstance(source, RosSource) else {name: frame or name for name in names}
+        # a table has no names of frames
+        named = by_sensor("--frame", settings.frame, names) if ros or form is Input.ROS2_CSV else {}
+        frames = {name: named.get(name, name) for name in names}
+        checks = program_checks(
+            check or [], correctors, sensor_pose=sensor_pose, frame=next(iter(named.values()), None), warn=log.warning
+        )
         outputs: list[Output] = []
         if ros is not None:
             sent = ros_topics(settings, names)[1]

@@ -27,7 +27,7 @@ class McapOutput:
         Args:
             writer: Writer of rosbags.
             types: Types of messages of ROS 2.
-            frames: Frame of the header by sensor, as it is when a sample is written.
+            frames: Frame of the header by sensor.
             with_faults: Whether samples with a fault have a wrench too.
         """
         self._writer, self._types, self._with_faults = writer, types, with_faults
@@ -68,7 +68,7 @@ def mcap_file(path: Path, frames: Mapping[str, str], *, with_faults: bool) -> It
 
     Args:
         path: File to write or to replace.
-        frames: Frame of the header by sensor, as it is when a sample is written.
+        frames: Frame of the header by sensor.
         with_faults: Whether samples with a fault have a wrench too.
 
     Yields:

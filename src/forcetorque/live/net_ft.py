@@ -19,7 +19,7 @@ import numpy as np
 from forcetorque.base.errors import FormatError, RecordingError, UnitError, known_names
 from forcetorque.base.input_file import xml_of_text
 from forcetorque.base.units import si_factor
-from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sample_status import Status
 from forcetorque.live.sources import WAIT_S
 
@@ -87,10 +87,18 @@ class CountUnits:
 
         Raises:
             FormatError: If it lacks counts per unit, or its units are not known.
+            RecordingError: If the box turns or moves its wrenches by a tool transformation.
         """
         root = xml_of_text(text, where="netftapi2.xml")
         if root is None:
             raise FormatError("netftapi2.xml: expected XML, got nothing")
+        transformation = root.findtext("cfgtfx", "")
+        if transformation.strip(" \n0.;-"):  # six zeros without one
+            raise RecordingError(
+                f"netftapi2.xml: cfgtfx: expected no tool transformation, which gives wrenches in another frame, got "
+                f"{transformation[:80]!r}; take it off in the configuration of the box, or, where the calibration was "
+                "fitted with it, state --ati-force and --ati-torque"
+            )
         factors = []
         for counts, unit, known in (("cfgcpf", "scfgfu", _FORCE_UNITS), ("cfgcpt", "scfgtu", _TORQUE_UNITS)):
             per_unit, name = (root.findtext(key, "").strip() for key in (counts, unit))
@@ -169,6 +177,7 @@ class NetFtSource:
         """
         self.counts = PacketCounts(countable=True)
         self.rate_hz: float | None = None
+        self.numbers = NUMBERS
         self._last, self._asked_again = 0, False
         try:
             self._address = (socket.gethostbyname(host), port)

@@ -12,6 +12,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.live.sample_status import Status
 
+NUMBERS: Final = 1 << 32
+"""Numbers of packets, from 0 on, where the sender has no other count of them."""
 _REMEMBERED: Final = 4096
 """Sequence numbers that may still come late; a packet that lies further back means that the sender began again."""
 _RESTARTED: Final = 8
@@ -129,17 +131,17 @@ class _OldOnes:
 class PacketAccount:
     """Decides of each packet whether it is new, repeated or late, and counts those that are lost."""
 
-    def __init__(self, rate_hz: float | None = None, modulus: int = 1 << 32) -> None:
+    def __init__(self, rate_hz: float | None = None, numbers: int = NUMBERS) -> None:
         """Begin.
 
         Args:
             rate_hz: Stated rate of the sender, by which gaps in time are lost samples where packets have no numbers;
                 the period is learnt from the stamps, up to a tenth off it; None for not known.
-            modulus: Number at which numbers of packets begin again at 0.
+            numbers: Numbers of packets, from 0 on; behind the last comes 0 again.
         """
         self.counts = PacketCounts()
         self._stated_ns = self._period_ns = None if rate_hz is None else 1e9 / rate_hz
-        self._modulus = modulus
+        self._numbers = numbers
         self._highest: int | None = None
         self._stamp_ns: int | None = None
         self._missing: OrderedDict[int, None] = OrderedDict()
@@ -189,16 +191,16 @@ class PacketAccount:
         if highest is None:
             self._highest = number
             return Status(0)
-        step = (number - highest) % self._modulus
+        step = (number - highest) % self._numbers
         if step == 0:
             self.counts.repeated += 1
             return Status.REPEATED
-        if step <= min(_FARTHEST, self._modulus // 2):
+        if step <= min(_FARTHEST, self._numbers // 2):
             self._skip(highest, step - 1)
             self._highest = number
             self._old_numbers.count = 0
             return Status(0)
-        if step < self._modulus // 2:
+        if step < self._numbers // 2:
             return self._begin(number)
         again = self._old_numbers.begin_again(number, number == self._old_numbers.last + 1)
         if number in self._missing:
@@ -206,7 +208,7 @@ class PacketAccount:
             self.counts.lost -= 1
             self.counts.late += 1
             return Status.LATE
-        if self._modulus - step < _REMEMBERED and not again:
+        if self._numbers - step < _REMEMBERED and not again:
             self.counts.repeated += 1
             return Status.REPEATED
         return self._begin(number)
@@ -234,7 +236,7 @@ class PacketAccount:
     def _skip(self, highest: int, count: int) -> None:
         self.counts.lost += count
         for number in range(highest + max(1, count - _REMEMBERED + 1), highest + count + 1):
-            self._missing[number % self._modulus] = None
+            self._missing[number % self._numbers] = None
         while len(self._missing) > _REMEMBERED:
             self._missing.popitem(last=False)
 

@@ -13,7 +13,7 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.live.choices import HeldQuantity
-from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sources import WAIT_S
 from forcetorque.recording.stream import Stream
 
@@ -127,7 +127,7 @@ class ReplaySource:
         if not speed > 0.0:
             raise RecordingError(f"speed: expected more than 0, got {speed}")
         self.counts, self.experiment = PacketCounts(), experiment
-        self.rate_hz = rate_hz
+        self.rate_hz, self.numbers = rate_hz, NUMBERS
         self._groups, self._speed, self._clock, self._sleep = tuple(groups), speed, clock, sleep
 
     def packets(self) -> Iterator[Packet | None]:

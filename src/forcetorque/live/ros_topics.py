@@ -26,7 +26,7 @@ from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import encoder_of, read_positions, read_wrench
 from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.outputs import CorrectedRow
-from forcetorque.live.packets import Packet, PacketCounts
+from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sample_status import FAULTS, Status
 from forcetorque.live.sources import WAIT_S
 
@@ -154,7 +154,7 @@ class RosSource:
         *,
         domain: int,
         clock: Callable[[], float],
-        frame: str | None = None,
+        frames: Mapping[str, str],
         gravity: JointGravity | None = None,
         positions: JointPositions | None = None,
         joints_topic: str | None = None,
@@ -168,7 +168,7 @@ class RosSource:
             topics: Topic by sensor.
             domain: `ROS_DOMAIN_ID`.
             clock: Gives seconds.
-            frame: Frame that all wrenches must be in; None for any.
+            frames: Frame that its wrenches must be in, by sensor.
             gravity: Gives gravity by joint positions; None without.
             positions: Takes joint positions, for who looks at the robot; None for nobody.
             joints_topic: Topic of the joint positions.
@@ -177,14 +177,15 @@ class RosSource:
         """
         self.counts = PacketCounts(countable=True)
         self.rate_hz: float | None = None
-        self.frames = {sensor: frame or sensor for sensor in topics}
-        """Frame of the last message, by sensor."""
+        self.numbers = NUMBERS
         self.positions = positions
         """Joint positions that came last."""
-        self._frame, self._gravity, self._clock, self._warn = frame, gravity, clock, warn
-        self._sensors, self._left = tuple(topics), messages
+        self._gravity, self._clock, self._warn = gravity, clock, warn
+        self._frames, self._left = [frames[sensor] for sensor in topics], messages
         self._heard: list[bytes | None] = [None] * len(topics)
         self._last_s = [0.0] * len(topics)
+        self._given = [0] * len(topics)  # number of the last wrench of each topic
+        self._arrived: list[bytes | None] = [None] * len(topics)  # attachment of the last one, taken or not
         self._queue: queue.Queue[tuple[int | None, bytes, bytes | None]] = queue.Queue(_WAITING)
         for group, topic in enumerate(topics.values()):
             session.subscribe(topic_key(domain, topic, WRENCH_TYPE), self._taker(group))
@@ -193,17 +194,32 @@ class RosSource:
 
     def _taker(self, group: int | None) -> Callable[[bytes, bytes | None], None]:
         def take(data: bytes, attached: bytes | None) -> None:
+            if group is not None:
+                self._arrived[group] = attached
             with suppress(queue.Full):  # the gap of the numbers counts it
                 self._queue.put_nowait((group, data, attached))
 
         return take
 
     def packets(self) -> Iterator[Packet | None]:
-        """Give packets, as of `Source`.
+        """Give packets, as of `Source`. Wrenches that still wait when it is interrupted count as lost.
 
         Yields:
             Packets; None while it waits.
         """
+        try:
+            yield from self._taken()
+        finally:
+            if self._left != 0:
+                self._count_waiting()
+
+    def _count_waiting(self) -> None:
+        for given, heard, attached in zip(self._given, self._heard, self._arrived, strict=True):
+            with suppress(FormatError):
+                number, identifier = read_attachment(attached)
+                self.counts.lost += max(0, number - given) if identifier == heard else 0
+
+    def _taken(self) -> Iterator[Packet | None]:
         while self._left is None or self._left > 0:
             try:
                 group, data, attached = self._queue.get(timeout=WAIT_S)
@@ -236,14 +252,13 @@ class RosSource:
     def _packet(self, group: int, data: bytes, attached: bytes | None) -> Packet | None:
         number, identifier = read_attachment(attached)
         stamp_ns, frame, values = read_wrench(data)
-        if self._frame is not None and frame != self._frame:
-            raise FormatError(f"frame: expected {self._frame!r}, got {frame[:100]!r}")
+        if frame != self._frames[group]:
+            raise FormatError(f"frame: expected {self._frames[group]!r}, as --frame states, got {frame[:100]!r}")
         now, heard = self._clock(), self._heard[group]
         if identifier != heard and heard is not None and now - self._last_s[group] < _REPLACED_S:
             self.counts.foreign += 1
             return None
-        self._heard[group], self._last_s[group] = identifier, now
-        self.frames[self._sensors[group]] = frame
+        self._heard[group], self._last_s[group], self._given[group] = identifier, now, number
         gravity, faults = None, None
         if self._gravity is not None:
             gravity = self._gravity.vector
@@ -279,7 +294,7 @@ class RosOutput:
         Args:
             session: What carries messages.
             topics: Topic by sensor.
-            frames: Frame of the header by sensor, as it is when a message is sent.
+            frames: Frame of the header by sensor.
             domain: `ROS_DOMAIN_ID`.
             with_faults: Whether samples with a fault have a message too.
             clock_ns: Gives nanoseconds since 1970.

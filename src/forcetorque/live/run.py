@@ -95,7 +95,7 @@ class LiveLoop:
             recent: Keeps the last samples for who looks at them; None for nobody.
         """
         self.correctors = tuple(correctors)
-        self.accounts = [PacketAccount(source.rate_hz) for _ in correctors]
+        self.accounts = [PacketAccount(source.rate_hz, source.numbers) for _ in correctors]
         self.states = [
             [SensorState(name=one.sensor.name, serial=one.sensor.serial) for one in corrector.calibrations]
             for corrector in correctors

@@ -44,8 +44,8 @@ class Settings:
     """Three columns."""
     envelope: bool = False
     """Whether lines of YARP begin with number and time."""
-    frame: str | None = None
-    """Frame of the messages of ROS 2."""
+    frame: Sequence[str] = ()
+    """`[SENSOR=]FRAME`: of messages of ROS 2 their frame, of wrenches of a table that of the calibration."""
     rate_hz: float | None = None
     """Rate of the sender; Hz."""
     replay: Path | None = None

@@ -26,6 +26,8 @@ class Source(Protocol):
     """What was no packet: unreadable and oversized lines, foreign datagrams."""
     rate_hz: float | None
     """Rate of the sender; None for not known."""
+    numbers: int
+    """Numbers of its packets, as of `PacketAccount`."""
 
     def packets(self) -> Iterator[Packet | None]:
         """Give packets.
@@ -54,7 +56,7 @@ class LineSource:
             rate_hz: Rate of the sender; Hz; None for not known.
             warn: Called with the reason for the first line that is no sample.
         """
-        self.counts, self.rate_hz = PacketCounts(), rate_hz
+        self.counts, self.rate_hz, self.numbers = PacketCounts(), rate_hz, form.numbers
         self._descriptor, self._form, self._warn = descriptor, form, warn
         self._number = 0
 

@@ -12,31 +12,19 @@ import numpy as np
 
 from forcetorque.base.errors import RecordingError, known_names
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.live.choices import HeldQuantity, Input, OffsetSource
-from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.choices import HeldQuantity, OffsetSource
+from forcetorque.live.corrector import Corrector
 from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.net_ft import CountUnits, NetFtSource, fetch_units
 from forcetorque.live.replay import ReplayedGroup, ReplaySource, replayed_groups
 from forcetorque.live.ros_topics import RosSession, RosSource, require_topic
 from forcetorque.live.settings import Settings, by_sensor, corrector_options, numbers_of, refuse
-from forcetorque.live.sources import LineSource, Source
-from forcetorque.live.text_lines import (
-    STAMP_UNITS,
-    CsvLines,
-    LineForm,
-    MeasuresLines,
-    RosCsvLines,
-    SensorColumns,
-    YarpLines,
-)
+from forcetorque.live.sources import Source
+from forcetorque.live.stated_lines import OF_LINES, line_source, message_frames, one_corrector, require_gravity
 from forcetorque.robot.urdf import read_urdf
 
-_OF_LINES = ("channels", "variables", "status", "index", "stamp", "sequence", "gravity", "envelope", "frame")
-"""What is stated of lines alone."""
 _OF_TOPICS = ("publish", "domain", "router", "robot", "joints", "base_gravity")
 """What is stated of topics alone."""
-_ALONG_BASE = ("actual_TCP_force", "O_F_ext_hat_K")
-"""Fields of Universal Robots and Franka whose wrench is along the axes of the base, whatever the arm does."""
 _ON_EARTH = (9.7, 9.9)
 """Range of the acceleration of free fall anywhere on earth, with a margin; m/s2."""
 
@@ -95,38 +83,21 @@ def make_run(
     if settings.offset is OffsetSource.FITTED:
         refuse(settings, "tare_s", of=f"--offset {settings.offset}")
     if settings.replay is not None:
-        refuse(settings, *_OF_LINES)
+        refuse(settings, *OF_LINES, "frame")
         return _replayed(settings, calibrations, clock)
     if settings.ros2:
         if ros is None:
             raise RecordingError("--ros2: expected a session that carries messages, got none")
-        refuse(settings, *(name for name in _OF_LINES if name != "frame"), "rate_hz")
+        refuse(settings, *OF_LINES, "rate_hz")
         return _topics(settings, calibrations, ros, clock, warn)
     if settings.ati is not None:
-        refuse(settings, *_OF_LINES, "rate_hz")
+        refuse(settings, *OF_LINES, "frame", "rate_hz")
         if settings.quantity is HeldQuantity.RAW:
             raise RecordingError("--quantity raw: a box sends wrenches")
-        corrector = _only(calibrations, "a box", corrector_options(settings, HeldQuantity.WRENCH))
-        _require_gravity(settings, None)
+        corrector = one_corrector(calibrations, "a box", corrector_options(settings, HeldQuantity.WRENCH))
+        require_gravity(settings, None)
         return _box(settings, clock), (corrector,)
-    return _lines(settings, calibrations, descriptor, warn)
-
-
-def _require_gravity(settings: Settings, gravity: str | None, sensors: int = 1) -> None:
-    if settings.tool_mass_kg is not None and sensors > 1:
-        raise RecordingError(f"--tool-mass: the tool is of one sensor: expected one calibration, got {sensors}")
-    if settings.tool_mass_kg is not None and gravity is None:
-        raise RecordingError(
-            "--tool-mass: a tool needs --gravity, three columns of a table (--input csv) with gravity in the frame of "
-            "the reading; got none"
-        )
-    if settings.offset is OffsetSource.FITTED and not settings.take_tool_off:
-        refuse(settings, "tool_mass_kg", of="--offset fitted without --take-tool-off")
-
-
-def _require_stamps(settings: Settings, there: bool, option: str) -> None:
-    if settings.rate_hz is not None and not there:
-        raise RecordingError(f"--rate: gaps in time need the time of the sender: expected {option} too, got none")
+    return line_source(settings, calibrations, descriptor, warn)
 
 
 def ros_topics(settings: Settings, names: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
@@ -166,6 +137,7 @@ def _topics(
     if not 0 <= settings.domain < 233:
         raise RecordingError(f"--domain: expected ROS_DOMAIN_ID, from 0 to 232, got {settings.domain}")
     heard, _ = ros_topics(settings, [one.sensor.name for one in calibrations])
+    frames = message_frames(settings, calibrations)
     correctors = tuple(Corrector(one, corrector_options(settings, HeldQuantity.WRENCH)) for one in calibrations)
     for corrector in correctors:
         if corrector.variables[0]:
@@ -173,15 +145,15 @@ def _topics(
                 f"--ros2: the calibration needs {', '.join(corrector.variables[0])}, which such messages lack; take "
                 "--input csv"
             )
-    gravity = None if is_robot_shown_alone(settings) else _joint_gravity(settings, len(calibrations))
+    gravity = None if is_robot_shown_alone(settings) else _joint_gravity(settings, frames)
     source = RosSource(
         ros,
         heard,
         domain=settings.domain,
         clock=clock,
-        frame=settings.frame,
+        frames=frames,
         gravity=gravity,
-        positions=_joint_positions(settings),
+        positions=_joint_positions(settings, frames),
         joints_topic=settings.joints and require_topic("--joints", settings.joints),
         warn=warn,
     )
@@ -200,34 +172,34 @@ def is_robot_shown_alone(settings: Settings) -> bool:
     return settings.shown and settings.tool_mass_kg is None and settings.base_gravity is None
 
 
-def _joint_positions(settings: Settings) -> JointPositions | None:
+def _joint_positions(settings: Settings, frames: Mapping[str, str]) -> JointPositions | None:
     if settings.robot is None and settings.joints is not None and is_robot_shown_alone(settings):
         raise RecordingError("--joints: a page needs the URDF that they are of: expected --robot too, got none")
     if not settings.shown or settings.robot is None:
         return None
-    if settings.joints is None or settings.frame is None:
-        raise RecordingError("--robot: a page needs --joints and --frame too, the link that the reading is in")
+    if settings.joints is None:
+        raise RecordingError("--robot: a page needs --joints too, the topic of JointState")
     model = read_urdf(settings.robot)
-    if settings.frame not in model.links:
-        raise RecordingError(
-            f"--frame {settings.frame}: expected a link of {model.name!r}; {known_names(settings.frame, model.links)}"
-        )
+    for frame in frames.values():
+        if frame not in model.links:
+            raise RecordingError(
+                f"--frame {frame}: expected a link of {model.name!r}; {known_names(frame, model.links)}"
+            )
     return JointPositions([name for name, joint in model.joints.items() if joint.type.moves and joint.mimic is None])
 
 
-def _joint_gravity(settings: Settings, sensors: int) -> JointGravity | None:
+def _joint_gravity(settings: Settings, frames: Mapping[str, str]) -> JointGravity | None:
     stated = {
         "--robot": settings.robot,
         "--joints": settings.joints,
         "--base-gravity": settings.base_gravity,
-        "--frame": settings.frame,
         "--tool-mass": settings.tool_mass_kg,
     }
-    if all(value is None for name, value in stated.items() if name != "--frame"):
+    if all(value is None for value in stated.values()):
         return None
     if lacking := [name for name, value in stated.items() if value is None]:
         raise RecordingError(f"a tool on a robot of ROS needs {', '.join(stated)}: got none of {', '.join(lacking)}")
-    _require_gravity(settings, settings.joints, sensors)
+    require_gravity(settings, settings.joints, len(frames))
     gravity = np.array(numbers_of("--base-gravity", settings.base_gravity or "", 3))
     low, high = _ON_EARTH
     if not low <= (magnitude := float(np.linalg.norm(gravity))) <= high:
@@ -235,13 +207,7 @@ def _joint_gravity(settings: Settings, sensors: int) -> JointGravity | None:
             f"--base-gravity {settings.base_gravity}: expected a free fall of {low} to {high} m/s2, "
             f"got one of {magnitude:g}"
         )
-    return JointGravity(read_urdf(settings.robot or ""), settings.frame or "", gravity)
-
-
-def _only(calibrations: Sequence[Calibration], what: str, options: CorrectorOptions) -> Corrector:
-    if len(calibrations) != 1:
-        raise RecordingError(f"{what} is one sensor: expected one calibration, got {len(calibrations)}")
-    return Corrector(calibrations, options)
+    return JointGravity(read_urdf(settings.robot or ""), next(iter(frames.values())), gravity)
 
 
 def _box(settings: Settings, clock: Callable[[], float]) -> NetFtSource:
@@ -269,7 +235,7 @@ def _replayed(
             f"--tool-mass: a tool needs gravity in the stream of its sensor, in the frame of the samples: "
             f"{settings.replay} has none there"
         )
-    _require_gravity(settings, "recorded", len(calibrations))
+    require_gravity(settings, "recorded", len(calibrations))
     for group in groups:
         if settings.quantity not in (None, group.quantity):
             raise RecordingError(f"--quantity {settings.quantity}: the recording holds {group.quantity}")
@@ -294,125 +260,3 @@ def _in_session_of(group: ReplayedGroup, names: Sequence[str], settings: Setting
     fitted = [{session.name for session in one.sessions} for one in group.calibrations]
     session = next((name for name in names if all(name in known for known in fitted)), None)
     return Corrector(group.calibrations, replace(corrector_options(settings, group.quantity), session=session))
-
-
-def _lines(
-    settings: Settings, calibrations: Sequence[Calibration], descriptor: int, warn: Callable[[str], None]
-) -> tuple[Source, tuple[Corrector, ...]]:
-    form = settings.form
-    if settings.quantity is None:
-        raise RecordingError("expected --quantity raw (counts) or wrench (by the prior matrix; N, N m), got none")
-    if form is Input.ROS2_CSV and settings.quantity is not HeldQuantity.WRENCH:
-        raise RecordingError("--input ros2-csv: expected --quantity wrench, which such messages hold")
-    options = corrector_options(settings, settings.quantity)
-    reader: LineForm
-    if form in (Input.YARP, Input.ROS2_CSV):
-        corrector = _only(calibrations, f"--input {form}", options)
-        refuse(settings, *_OF_LINES[:7], "envelope" if form is Input.ROS2_CSV else "frame")
-        _require_gravity(settings, None)
-        if corrector.variables[0]:
-            raise RecordingError(
-                f"--input {form}: the calibration needs {', '.join(corrector.variables[0])}, which such lines lack; "
-                "take --input csv or yarp-measures"
-            )
-        if form is Input.ROS2_CSV:
-            reader = RosCsvLines(frame=settings.frame)
-        else:
-            _require_stamps(settings, settings.envelope, "--envelope")
-            reader = YarpLines(channels=corrector.channels, envelope=settings.envelope)
-    else:
-        corrector = Corrector(calibrations, options)
-        sensors = _sensor_columns(settings, calibrations)
-        if form is Input.CSV:
-            refuse(settings, "index", "envelope", "frame")
-            _require_gravity(settings, settings.gravity, len(calibrations))
-            gravity = () if settings.gravity is None else tuple(settings.gravity.split(","))
-            if len(gravity) not in (0, 3):
-                raise RecordingError(f"--gravity: expected three columns between commas, got {settings.gravity!r}")
-            _require_stamps(settings, settings.stamp is not None, "--stamp")
-            reader = CsvLines(
-                sensors=sensors, stamp=_stamp(settings.stamp), sequence=settings.sequence, gravity=gravity
-            )
-        else:
-            refuse(settings, "channels", "status", "stamp", "sequence", "gravity", "frame")
-            _require_gravity(settings, None)
-            _require_stamps(settings, settings.envelope, "--envelope")
-            reader = MeasuresLines(sensors=sensors, envelope=settings.envelope)
-    return LineSource(descriptor, reader, rate_hz=settings.rate_hz, warn=warn), (corrector,)
-
-
-def _stamp(text: str | None) -> tuple[str, str] | None:
-    if text is None:
-        return None
-    column, colon, unit = text.rpartition(":")
-    if not colon or unit not in STAMP_UNITS:
-        raise RecordingError(f"--stamp: expected COLUMN:UNIT with one of {', '.join(STAMP_UNITS)}, got {text!r}")
-    return column, unit
-
-
-def _sensor_columns(settings: Settings, calibrations: Sequence[Calibration]) -> list[SensorColumns]:
-    names = [one.sensor.name for one in calibrations]
-    channels = by_sensor("--channels", settings.channels, names)
-    status = by_sensor("--status", settings.status, names)
-    index = by_sensor("--index", settings.index, names)
-    variables = _variables(settings.variables, calibrations)
-    sensors = []
-    for one in calibrations:
-        name, count = one.sensor.name, one.matrix.shape[1]
-        own = tuple(part.strip() for part in channels[name].split(",")) if name in channels else ()
-        if settings.form is Input.CSV and len(own) != count:
-            raise RecordingError(
-                f"sensor {name!r}: expected --channels with {count} columns, in the order of its calibration, got "
-                f"{len(own)}"
-            )
-        if turned := [column for column in own if any(field in column for field in _ALONG_BASE)]:
-            raise RecordingError(
-                f"--channels {turned[0]}: expected columns along the axes of sensor {name!r}, got a field of the "
-                "arm along the axes of the base; take --replay EXPERIMENT, which turns them to the flange "
-                "(`payload LOG --save-experiment EXPERIMENT` writes it)"
-            )
-        if settings.form is Input.YARP_MEASURES and not _is_index(index.get(name, "")):
-            raise RecordingError(
-                f"sensor {name!r}: expected --index, its index from 0 in the list of force-torque sensors: the order "
-                f"is of the configuration of the device; got {index.get(name)!r}"
-            )
-        if settings.form is Input.YARP_MEASURES and not all(map(_is_index, variables[name])):
-            raise RecordingError(
-                f"sensor {name!r}: expected --variable NAME=INDEX, an index from 0 in the list of temperatures, got "
-                f"{', '.join(variables[name])}"
-            )
-        sensors.append(
-            SensorColumns(
-                name=name,
-                channels=own,
-                variables=variables[name],
-                status=status.get(name),
-                index=int(index.get(name, 0)),
-            )
-        )
-    return sensors
-
-
-def _is_index(text: str) -> bool:
-    return text.isascii() and text.isdigit() and len(text) < 10
-
-
-def _variables(entries: Sequence[str], calibrations: Sequence[Calibration]) -> Mapping[str, tuple[str, ...]]:
-    wanted = {(one.sensor.name, variable.name): "" for one in calibrations for variable in one.variables}
-    for entry in entries:
-        name, _, column = entry.partition("=")
-        sensor, dot, variable = name.rpartition(".")
-        keys = [key for key in wanted if key[1] == variable and (not dot or key[0] == sensor)]
-        if not keys or not column:
-            known = known_names(name, [f"{one}.{other}" for one, other in wanted])
-            raise RecordingError(f"--variable {entry}: expected [SENSOR.]NAME=COLUMN; {known}")
-        wanted |= dict.fromkeys(keys, column)
-    for (sensor, variable), column in wanted.items():
-        if not column:
-            raise RecordingError(
-                f"sensor {sensor!r}: its calibration needs {variable!r}; expected --variable {variable}=COLUMN"
-            )
-    return {
-        one.sensor.name: tuple(wanted[one.sensor.name, variable.name] for variable in one.variables)
-        for one in calibrations
-    }

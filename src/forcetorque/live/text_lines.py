@@ -10,19 +10,29 @@ from typing import Protocol
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, known_names, quoted
+from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.yarp.measures import MeasuresList
 from forcetorque.formats.yarp.message import Bottle, BottleValue, parse_bottle
-from forcetorque.live.packets import Packet
+from forcetorque.live.packets import NUMBERS, Packet
 from forcetorque.live.sample_status import Status, status_of_device
 
+_GRAVITY = (0.5 * STANDARD_GRAVITY, 1.5 * STANDARD_GRAVITY)
+"""Least and largest free fall of a sample: a column in g, in mm/s2 or without a value lies outside; m/s2."""
 STAMP_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
 """Nanoseconds of the units that stamps may have."""
+_ENVELOPE_NUMBERS = 1 << 15
+"""Numbers of an envelope, `yarp::os::Stamp::getMaxCount`."""
 
 
 class LineForm(Protocol):
     """Makes samples of lines."""
+
+    @property
+    def numbers(self) -> int:
+        """Numbers of the packets, as of `PacketAccount`."""
 
     def packet(self, line: str) -> Packet | None:
         """Read a line.
@@ -111,6 +121,8 @@ class CsvLines:
     """Column with the number of the packet; None without."""
     gravity: tuple[str, ...] = ()
     """Columns with gravity in the frame of the reading, m/s2; none without."""
+    numbers: int = NUMBERS
+    """Numbers of the packets, as of `PacketAccount`."""
     _places: Mapping[str, int] = field(default_factory=dict)
     _count: int = 0
     _separator: str | None = ","
@@ -149,7 +161,7 @@ class CsvLines:
             if self.stamp is None
             else stamp_of(cells[self._places[self.stamp[0]]].strip(), self.stamp[1]),
             sequence=None if self.sequence is None else self._integer(cells, self.sequence),
-            gravity=np.array([self._value(cells, name) for name in self.gravity]) if self.gravity else None,
+            gravity=self._free_fall(cells) if self.gravity else None,
             faults=[
                 0 if one.status is None else int(status_of_device(self._integer(cells, one.status)))
                 for one in self.sensors
@@ -166,6 +178,14 @@ class CsvLines:
                 raise RecordingError(f"heading: expected one column {name!r}, got {got}; {known_names(name, names)}")
         self._places = {name: place for place, name in enumerate(names)}
         self._count = len(names)
+
+    def _free_fall(self, cells: list[str]) -> FloatArray:
+        gravity = np.array([self._value(cells, name) for name in self.gravity])
+        least, largest = _GRAVITY
+        size = float(np.linalg.norm(gravity))
+        if size < least or size > largest:
+            raise FormatError(f"gravity: expected free fall of {least:.1f} to {largest:.1f} m/s2, got {size:.3g}")
+        return gravity
 
     def _value(self, cells: list[str], name: str) -> float:
         text = cells[self._places[name]].strip()
@@ -187,6 +207,8 @@ class YarpLines:
     """Channels of the sensor."""
     envelope: bool
     """Whether number and time (s) of the sender stand in front, as `yarp read PORT REMOTE envelope` writes them."""
+    numbers: int = _ENVELOPE_NUMBERS
+    """As of `CsvLines`."""
 
     def packet(self, line: str) -> Packet | None:
         """Read a line, as of `LineForm`.
@@ -222,6 +244,8 @@ class MeasuresLines:
     """Indices of the sensors in the lists of force-torque sensors and of temperatures."""
     envelope: bool
     """As of `YarpLines`."""
+    numbers: int = _ENVELOPE_NUMBERS
+    """As of `CsvLines`."""
     _board_stamps: dict[str, float] = field(default_factory=dict)
 
     def packet(self, line: str) -> Packet | None:
@@ -289,6 +313,8 @@ class RosCsvLines:
 
     frame: str | None = None
     """Frame that all messages must be in; None for any."""
+    numbers: int = NUMBERS
+    """As of `CsvLines`; these lines have none."""
 
     def packet(self, line: str) -> Packet | None:
         """Read a line, as of `LineForm`.

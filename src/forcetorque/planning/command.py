@@ -71,12 +71,16 @@ def plan(
     Python: `run.plan(calibration, clearance_deg=10.0)`; `--jointly`: `planning.plan_jointly([experiment])`
     """
     from forcetorque.calibration.calibrate_jointly_command import refuse_beside_jointly
-    from forcetorque.experiment.calibration.artefact import read_calibration
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.planning.joint_calibration_plan import plan_jointly
     from forcetorque.planning.planning import plan
     from forcetorque.planning.trajectory_files import refuse_full_folder, write_plan
-    from forcetorque.results.terminal.reading import planned_experiments, planned_sensor, read_experiments
+    from forcetorque.results.terminal.reading import (
+        one_calibration,
+        planned_experiments,
+        planned_sensor,
+        read_experiments,
+    )
 
     log = start_logging()
     if jointly:
@@ -94,7 +98,7 @@ def plan(
     if output is not None:
         refuse_full_folder(output, where="--output ")
     refuse_figure(figure)
-    known = None if calibration is None else read_calibration(calibration)
+    known = None if calibration is None else one_calibration(calibration, sensor)
     contents = planned_experiments(experiments, log)
     name = planned_sensor(contents[0], sensor, known)
     result = plan(

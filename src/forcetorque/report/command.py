@@ -29,7 +29,7 @@ def report(
     results: Annotated[
         list[Path],
         typer.Argument(
-            help="Experiment files, calibrations, an acceptance file, and JSON results of other commands, in any order."
+            help="Experiment files, calibrations or folders of them, an acceptance file, JSON results of commands."
         ),
     ],
     output: Annotated[

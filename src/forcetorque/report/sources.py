@@ -15,7 +15,7 @@ from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import toml_content
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.applicability import calibrations_of
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.results.result import result_classes
 
@@ -43,7 +43,7 @@ def sort_sources(paths: Sequence[Path]) -> ReportSources:
     """Sort files by the schema that they state.
 
     Args:
-        paths: The files.
+        paths: The files, and folders of calibrations.
 
     Returns:
         Them by kind.
@@ -58,6 +58,9 @@ def sort_sources(paths: Sequence[Path]) -> ReportSources:
     acceptance: list[AcceptanceFile] = []
     results: dict[str, dict[str, Any]] = {}
     for path in dict.fromkeys(paths):
+        if path.is_dir():
+            calibrations |= calibrations_in(path)
+            continue
         content = _content(path)
         match str(content.get("schema")).split("/")[:2]:
             case ["forcetorque", "experiment"]:
@@ -114,8 +117,6 @@ def assign_calibrations(
 
 
 def _content(path: Path) -> dict[str, Any]:
-    if path.is_dir():
-        raise FormatError(f"{path}: expected {_KINDS}, got a folder; name the files in it")
     if not path.is_file():
         raise MissingFileError(f"{path}: expected a file to report on, there is none")
     if path.suffix not in (".toml", ".json"):  # so that no calibration is called as priors are in the tables

@@ -28,6 +28,7 @@ from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import status_text
 from forcetorque.live.settings import Settings
 from forcetorque.live.sources import Source
+from forcetorque.live.stated_lines import message_frames
 from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import Block
@@ -98,13 +99,13 @@ def shown_robot(
     """
     if isinstance(source, ReplaySource) and source.experiment is not None and settings.replay is not None:
         return _recorded_robot(settings.replay, source, calibrations, block, mesh_folders)
-    if isinstance(source, RosSource) and source.positions is not None and settings.robot and settings.frame:
-        names = source.positions.names
+    if isinstance(source, RosSource) and source.positions is not None and settings.robot:
+        names, frames = source.positions.names, message_frames(settings, calibrations)
         robot, notes = drawn_robot(read_urdf(settings.robot), names, settings.robot, block, mesh_folders)
         return ShownRobot(
             robot=robot,
             coordinates=names,
-            places=[_place(one, settings.frame) for one in calibrations],
+            places=[_place(one, frames[one.sensor.name]) for one in calibrations],
             postures=lambda samples: (samples.positions, np.tile(_UPRIGHT, (len(samples.time_s), 1))),
             notes=("the root link is drawn upright: where it is in the world is not in the stream", *notes),
         )

@@ -118,6 +118,8 @@ def test_a_sensor_read_in_the_wrong_sense_stops_it(folder: Path, run: Run) -> No
     edit(folder / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
     stopped = run("run", PARQUET, "-o", "results")
     assert stopped.code == 3
+    assert "STOPPED AT CHECK" in stopped.out.splitlines()[0]
+    assert f"\n  forcetorque init --resume {PARQUET}\n" in stopped.out  # which tries the change of the line
     assert not Path("results").exists()
 
 
@@ -286,7 +288,7 @@ def test_nothing_to_fit_is_said_before_anything_is_computed(folder: Path, run: R
     outcome = run("run", PARQUET, "-o", "results")
     assert outcome.code == 2
     assert 'expected an [[interval]] with use = "calibration"' in outcome.err
-    assert f"forcetorque init --resume {PARQUET} proposes intervals" in outcome.err
+    assert f"forcetorque inspect {PARQUET} shows when something touches it" in outcome.err
     assert "INFO: inspect" not in outcome.log
 
 

@@ -65,7 +65,7 @@ def test_a_fit_of_an_arm_that_moves_may_be_used_for_pushes(arm: Path) -> None:
     verdict = _verdict(run, _fit(run))
     force, moment = verdict.errors
     assert verdict.decision == "use"
-    assert verdict.message.startswith("use for pushes of 20 N anywhere within 0.2 m of the sensor: it errs by some ")
+    assert verdict.message.startswith("use for pushes of 20 N anywhere within 0.2 m of the sensor: force error ")
     assert force.allowed == pytest.approx(1.0)
     assert force.after < force.after_at_most < force.allowed < (force.before or 0.0)
     assert moment.after_at_most < (moment.allowed or 0.0)

@@ -624,4 +624,20 @@ def test_a_log_with_neither_sensor_nor_robot_is_not_called_complete(tmp_path: Pa
     assert (alone.verdict, alone.command) == ("NO SENSOR AND NO ROBOT", "")
     (beside,) = draft_experiment([log], urdf=ARM_URDF).answers()
     assert "NO SENSOR" not in beside.verdict
-    assert beside.command.startswith("inspect ")
+    assert beside.command.startswith("init --resume ")
+
+
+def test_tables_without_headings_have_a_list_of_names_each(tmp_path: Path) -> None:
+    """A wrench and a pose in two texts make a sensor and its motion; as many lists as tables, or one for all."""
+    rng = np.random.default_rng(5)
+    turns = rng.normal(size=(40, 4))
+    wrench, pose = tmp_path / "wrench.txt", tmp_path / "pose.txt"
+    np.savetxt(wrench, rng.normal(size=(40, 6)), delimiter=", ", fmt="%.6f")
+    np.savetxt(pose, turns / np.linalg.norm(turns, axis=1, keepdims=True), delimiter=", ", fmt="%.6f")
+    names = [["fx", "fy", "fz", "tx", "ty", "tz"], ["qx", "qy", "qz", "qw"]]
+    content = draft_experiment([wrench, pose], column_names=names).content
+    assert content.count("[[sensor]]") == 1
+    assert 'motion = ["pose"]' in content
+    with pytest.raises(FormatError, match="once for each of 2 in their order, got them 3 times"):
+        draft_experiment([wrench, pose], column_names=[*names, names[0]])
+    assert "[[sensor]]" not in draft_experiment([wrench, pose]).content

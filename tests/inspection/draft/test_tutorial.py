@@ -84,8 +84,8 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     judged = run(*evaluate, "--details").out
     for words in (
         "force error 0.22 N against 2.65 N with the prior",
-        "it errs by some 0.69 N",
-        "the prior by some 2.4 N",
+        "force error 0.69 N (95 %:",
+        "prior 2.4 N)",
     ):
         assert _said(words).search(judged), words
         for figure in re.findall(r"\d\.\d+ N", words):

@@ -30,7 +30,7 @@ def _scaled(factor: float) -> Wrong:
 REFUSED: dict[str, tuple[Wrong, str]] = {
     "masses in grams": (_scaled(1e3), "which no sensor does; are the masses in grams"),
     "half the mass": (_scaled(0.5), "which no sensor does; does the model have half of the true mass"),
-    "reversed": (_scaled(-1.0), "runs against the reference, .*gravity_direction .*measure_direction"),
+    "reversed": (_scaled(-1.0), "is opposite to the expected force, .*gravity_direction .*measure_direction"),
 }
 
 

@@ -50,7 +50,14 @@ class Arm(RosSource):
     def __init__(self) -> None:
         model = read_urdf(ARM_URDF)
         names = [name for name, joint in model.joints.items() if joint.type.moves and joint.mimic is None]
-        super().__init__(Loopback(), {"leg_ft": "/ft"}, domain=0, clock=time.monotonic, positions=JointPositions(names))
+        super().__init__(
+            Loopback(),
+            {"leg_ft": "/ft"},
+            frames={"leg_ft": "hand"},
+            domain=0,
+            clock=time.monotonic,
+            positions=JointPositions(names),
+        )
         self.counts = PacketCounts(countable=True)
         self.stop, self.faulty, self.angle = threading.Event(), threading.Event(), 0.0
 
@@ -75,7 +82,7 @@ def _running(calibration: Calibration, source: Arm) -> Iterator[str]:
     """Address of the page of a run that goes on until the block ends."""
     options = CorrectorOptions(quantity=HeldQuantity.RAW, offset=OffsetSource.TARE, tare_s=0.2)
     correctors = (Corrector(calibration, options),)
-    settings = Settings(robot=Path(ARM_URDF), joints="/joints", frame="hand", ros2=("/ft",), shown=True)
+    settings = Settings(robot=Path(ARM_URDF), joints="/joints", frame=("hand",), ros2=("/ft",), shown=True)
     urls: list[str] = []
     with live_page(settings, source, correctors, window_s=3.0, opened=urls.append) as page:
         loop = LiveLoop(source, correctors, [], clock=time.monotonic, recent=page.recent)
@@ -131,6 +138,10 @@ def test_the_page_follows_a_run(visit: Visit) -> None:
     last = _live(page)
     assert last["update"]["ended_by"] == "end of input"
     assert page.get_by_role("button", name="Follow").is_disabled()
+    shown = page.evaluate("window.ft.sample()")
+    page.keyboard.press(" ")
+    assert page.get_by_role("button", name="Follow").is_disabled()
+    assert page.evaluate("window.ft.sample()") == shown > 0
 
     sample = last["samples"] - 1
     model = read_urdf(ARM_URDF)

@@ -16,6 +16,7 @@ from forcetorque.results.terminal.options import (
     DetailsOption,
     ForceOption,
     FormatOption,
+    LoadsOption,
     SensorOption,
     between_commas,
 )
@@ -43,6 +44,7 @@ def run(
         typer.Option("--matrices", help="Folder of matrix files of the sensors, for a log without an experiment file."),
     ] = None,
     column_names: ColumnNamesOption = None,
+    loads: LoadsOption = None,
     override: Annotated[
         str | None,
         typer.Option(
@@ -70,11 +72,13 @@ def run(
     log = start_logging()
     refuse_standard_output("--output", output)
     if _state_experiments(files):
-        _refuse_beside(files[0], {"--urdf": urdf, "--matrices": matrices, "--column-names": column_names})
+        _refuse_beside(
+            files[0], {"--urdf": urdf, "--matrices": matrices, "--column-names": column_names, "--loads": loads}
+        )
         open_files = [file for file in files if file.is_file() and open_questions(file)]
     else:
         files = open_files = [
-            _begun(files, output, urdf, sensor or (), matrices, between_commas(column_names), force=force)
+            _begun(files, output, urdf, sensor or (), matrices, between_commas(column_names), loads, force=force)
         ]
     for file in open_files:
         again = typed(
@@ -122,7 +126,8 @@ def _begun(
     urdf: Path | None,
     sensors: Sequence[str],
     matrices: Path | None,
-    column_names: Sequence[str],
+    column_names: Sequence[Sequence[str]],
+    loads: str | None,
     *,
     force: bool,
 ) -> Path:
@@ -140,7 +145,7 @@ def _begun(
         return file
     output.mkdir(parents=True, exist_ok=True)
     draft = draft_experiment(
-        logs, file, urdf=urdf, sensors=sensors, matrices=matrices, column_names=column_names, force=force
+        logs, file, urdf=urdf, sensors=sensors, matrices=matrices, column_names=column_names, loads=loads, force=force
     )
     for sentence in draft.notes:
         start_logging().info("%s", sentence)

@@ -18,6 +18,7 @@ from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrati
 from forcetorque.calibration.export.command import export_calibrations
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
+from forcetorque.evaluation.answers import is_for_inspect
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
@@ -27,13 +28,13 @@ from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.answers import faults
+from forcetorque.inspection.answers import faults, has_proposal
 from forcetorque.inspection.inspect import FindingRow, Inspection, inspected
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements
 from forcetorque.recording.recording import Use
-from forcetorque.report.report import report
+from forcetorque.report.report import report, require_writable
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result, created_now
 from forcetorque.workbench.calibrate import workbench
@@ -213,17 +214,17 @@ def _of_experiments(
     if not names:
         raise ExperimentError(f"{way.files[0]}: expected a [[sensor]] to calibrate, got none")
     if all(interval.use is not Use.CALIBRATION for one in experiments.values() for interval in one.recording.intervals):
-        proposes = typed("init", "--resume", str(way.files[0]))
+        inspects = typed("inspect", str(way.files[0]))
         raise ExperimentError(
             f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
-            f"not state touches the limb; got none; forcetorque {proposes} proposes intervals"
+            f"not state touches the limb; got none; forcetorque {inspects} shows when something touches it"
         )
     _refuse_outputs(way, experiments, names)
-    wrong = _inspect(way, experiments, names)
+    wrong, proposed = _inspect(way, experiments, names)
     campaigns = {
         name: Campaign([SensorRun(one, name) for one in experiments.values() if name in _names(one)]) for name in names
     }
-    _check(way, campaigns, wrong)
+    _check(way, campaigns, wrong, proposed)
     if (loads := wrist_loads(first)) is not None and not loads.are_stated:
         _weigh(way, campaigns[names[0]])
         return
@@ -263,16 +264,30 @@ def _names(experiment: Experiment) -> list[str]:
     return [sensor.name for sensor in experiment.sensors]
 
 
-def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequence[str]) -> list[str]:
-    """Look for contacts in what is to be fitted; what else is wrong by the robot model, in words."""
+def _inspect(
+    way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequence[str]
+) -> tuple[list[str], Path | None]:
+    """Look for contacts in what is to be fitted; what else is wrong by the robot model, in words.
+
+    Args:
+        way: What has been done.
+        experiments: Experiments by file.
+        sensors: Names of the sensors.
+
+    Returns:
+        What is wrong, and the first file of which `init --resume` proposes a change; None for none.
+    """
     way.begin("inspect")
     touched: list[tuple[Path, str]] = []
     wrong, found = [], 0
+    proposed: Path | None = None
     for path, experiment in experiments.items():
         inspection = inspected(experiment, sensors=sensors, progress=way.progress)
         way.results.append(inspection)
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
-        wrong += [f"{path}: {row.stream}: {row.message}" for row in faults(inspection.findings)]
+        rows = faults(inspection.findings)
+        wrong += [f"{path}: {row.stream}: {row.message}" for row in rows]
+        proposed = path if proposed is None and has_proposal(rows) else proposed
         touched += [(path, f"{path}: {words}") for words in _contacts(experiment, inspection, sensors)]
     if touched:
         remedy = "leave the contact out of the [[interval]], state it as [[contact]]"
@@ -282,7 +297,7 @@ def _inspect(way: _Way, experiments: Mapping[Path, Experiment], sensors: Sequenc
             "inspect",
             f"{len(experiments)} recording(s), {found} with events, none of them a contact in a calibration interval",
         )
-    return wrong
+    return wrong, proposed
 
 
 def _contacts(experiment: Experiment, inspection: Inspection, sensors: Sequence[str]) -> Iterator[str]:
@@ -300,25 +315,32 @@ def _overlaps(row: FindingRow, start: float, end: float) -> bool:
     return row.start_s is not None and row.end_s is not None and row.start_s < end and row.end_s >= start
 
 
-def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str]) -> None:
+def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], proposed: Path | None) -> None:
     """Compare frames, senses, clocks and units that the files state with what the readings say.
 
     Args:
         way: What has been done.
         campaigns: Sensors by name.
         wrong: What `inspect` found to be wrong as a whole.
+        proposed: File of which `init --resume` proposes a change; None for none.
     """
     way.begin("check")
-    contradicted, unchecked = list(wrong), []
+    contradicted: list[str] = []
+    unchecked: list[str] = []
     for name, campaign in campaigns.items():
         for one in campaign.runs:
             try:
                 contradicted += [f"{name}: {words}" for words in contradicted_statements(one, cautions=False)]
             except ForceTorqueError as error:
                 unchecked.append(f"{name}: {error}")
-    if contradicted:
-        remedy = "correct what the file states"
-        way.stop("check", list(dict.fromkeys(contradicted)), remedy, "inspect", str(way.files[0]))
+    if contradicted or wrong:
+        # a fault of which a change is proposed comes first, a refusal that explains nothing last
+        reasons = list(dict.fromkeys([*wrong, *contradicted] if proposed else [*contradicted, *wrong]))
+        if proposed is None:
+            way.stop("check", reasons, "correct what the file states", "inspect", str(way.files[0]))
+        else:
+            remedy = "accept the change of the line, which is tried first"
+            way.stop("check", reasons, remedy, "init", "--resume", str(proposed))
     else:
         way.end("check", f"{len(campaigns)} sensor(s): nothing contradicts the file{_not_checked(unchecked)}")
 
@@ -457,7 +479,8 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
         given = ([reason.remedy for reason in use.reasons if reason.remedy is not None] for use in forbidden)
         remedies = dict.fromkeys((own[0] if own else "keep the prior matrix").rstrip(".") for own in given)
         texts = [f"{use.sensor}: {use.message}" for use in forbidden]
-        way.stop("evaluate", texts, "; ".join(remedies))
+        command = ("inspect", str(way.files[0])) if any(map(is_for_inspect, forbidden)) else ()
+        way.stop("evaluate", texts, "; ".join(remedies), *command)
     elif evaluations or without:
         texts = [f"{use.sensor}: {use.decision}" for use in uses]
         texts += [f"{one.subject.split()[0]}: no verdict" for one in without]
@@ -480,6 +503,7 @@ def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCali
     page, numbers = way.output / _PAGE, way.output / _NUMBERS
     shown = [(str(path), experiment) for path, experiment in experiments.items()]
     try:
+        require_writable([page])
         written = report(
             shown,
             [{name: own for name, own in groups.items() if name in _names(one)} for _, one in shown],

@@ -108,6 +108,14 @@ class LoadCaseError(Row):
     from_model: Annotated[float, Shown("robot model", digits=3)]
     """Part that would go if the robot model were known exactly; it is in none of the others."""
 
+    @property
+    def text(self) -> str:
+        """Such as `force error 4.1 N (95 %: 6.3 N, allowed 16 N, prior 8.2 N)`."""
+        allowed = "" if self.allowed is None else f", allowed {amount(self.allowed, self.unit)}"
+        prior = "" if self.before is None else f", prior {amount(self.before, self.unit)}"
+        after, most = amount(self.after, self.unit), amount(self.after_at_most, self.unit)
+        return f"{self.quantity} error {after} (95 %: {most}{allowed}{prior})"
+
 
 class LoadCaseVerdict(Row):
     """Whether one calibration may be used for one load case."""
@@ -349,11 +357,12 @@ class LoadCaseAssessment:
             )
             yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
-        chance, text = self.after.within(*self.case.requirement), self._predicted_words()
+        chance = self.after.within(*self.case.requirement)
+        text = ", ".join(error.text for error in self.errors())
         if chance >= CONFIDENCE:
             yield Reason(against=None, text=text)
         else:
-            text += f"; the chance that it is within that is {100.0 * chance:.0f} %"
+            text += f"; the chance that both are within what is allowed is {100.0 * chance:.0f} %"
             quantity, _ = largest_source(self.after, self.case.requirement)
             size, part = getattr(self.after, quantity).typical, FORCE if quantity == "force" else MOMENT
             unmeasured = self._is_unmeasured(self.case.wrench, part, size)
@@ -366,19 +375,6 @@ class LoadCaseAssessment:
         if self.after is None or self.after.within(*self.case.requirement) >= CONFIDENCE:
             return None
         return largest_source(self.after, self.case.requirement)[1]
-
-    def _predicted_words(self) -> str:
-        """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
-        parts, prior = [], []
-        for quantity, unit, _ in self.quantities:
-            allowed = self.limits[quantity]
-            size: ErrorMagnitude = getattr(self.after, quantity)
-            limit = "" if np.isinf(allowed) else f" ({amount(allowed, unit)} allowed)"
-            parts.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
-            if self.before is not None:
-                prior.append(amount(getattr(self.before, quantity).typical, unit))
-        before = f"; the prior by some {' and '.join(prior)}" if prior else ""
-        return f"it errs {' and '.join(parts)}{before}"
 
     def errors(self) -> Iterator[LoadCaseError]:
         """Predict the errors.

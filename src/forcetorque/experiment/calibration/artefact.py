@@ -343,6 +343,8 @@ def read_calibration(path: Path | str) -> Calibration:
         FormatError: If it is not a calibration of this schema version.
     """
     file = Path(path)
+    if file.is_dir():
+        raise FormatError(f"{file}: expected a calibration file, got a folder; name a file in it")
     try:
         content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
     except FormatError as error:

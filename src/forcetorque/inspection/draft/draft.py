@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +16,8 @@ from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_b
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.kept_parts import parts_kept
-from forcetorque.formats.log_format import LoggedRobot, not_read_message
+from forcetorque.formats.log_format import LoggedRobot, LogSketch, not_read_message
+from forcetorque.inspection.draft.bench import bench_lines, bench_table, is_bench
 from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals import (
@@ -27,7 +29,7 @@ from forcetorque.inspection.draft.intervals import (
     whole_log,
 )
 from forcetorque.inspection.draft.joints import standing_lines
-from forcetorque.inspection.draft.log import draft_log, recording_lines, without_streams
+from forcetorque.inspection.draft.log import ColumnNames, draft_log, recording_lines, without_streams
 from forcetorque.inspection.draft.logged_robot import (
     difference,
     logged_robot,
@@ -149,7 +151,7 @@ class Draft(Result):
                 concern=Concern.UNCERTAIN,
             )
             return
-        step = "fill in what is asked, then check the file" if count else "read the file, then go on"
+        step = "answer what is asked, in a terminal or in the file" if count else "read the file, then go on"
         few = (
             f"{listed(self.few_components)} not read: of a load cell or a sensor of three axes, take the lines that "
             "the file has as comments, and state its [[sensor]]"
@@ -162,7 +164,7 @@ class Draft(Result):
                 *((few,) if self.few_components else ()),
             ),
             step=step,
-            command=typed(*("inspect" if count else self._next).split(), self.file),
+            command=typed("init", "--resume", self.file) if count else self._next,
             written=(self.robot_file, *self.sensor_files),
             concern=Concern.UNCERTAIN if count else Concern.NONE,
         )
@@ -180,13 +182,13 @@ class Draft(Result):
             yield table_of(self.proposals, f"{self.file}: proposals")
             return
         if not self.questions:
-            yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
+            yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next}`"
             return
         yield table_of(self.questions, f'{self.file}: questions, one a line, in place of each "?"')
         count = len(self.questions)
         yield (
-            f"{count} line{'' if count == 1 else 's'} to fill in; `forcetorque inspect {self.file}` says which is "
-            "next, and then what is wrong with the log"
+            f"{count} line{'' if count == 1 else 's'} to fill in; `forcetorque init --resume {self.file}` asks one by "
+            "one"
         )
 
     @property
@@ -205,7 +207,8 @@ class Draft(Result):
     @property
     def _next(self) -> str:
         fitted = "[[sensor]]" in self.content and f"\n{line('motion', NO_MOTION)}" not in self.content
-        return "run" if fitted else "inspect"
+        goes_on = fitted or is_bench(tomllib.loads(self.content))
+        return typed("run", self.file) if goes_on else typed("inspect", self.file)
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
@@ -223,12 +226,13 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
-    column_names: Sequence[str] = (),
+    column_names: ColumnNames = (),
     sensors: Sequence[str] = (),
     matrices: Path | str | None = None,
+    loads: Path | str | None = None,
     force: bool = False,
 ) -> Draft:
-    """Draft the experiment file of a log.
+    """Draft the experiment file of a log, or the workbench file of a table of readings under known loads.
 
     Values that the log and the robot model determine are written; all others are `"?"` with a comment, which every
     command refuses. Intervals without an apparent contact are proposed where the force could be fitted to the
@@ -240,10 +244,13 @@ def draft_experiment(
         urdf: The robot; None for that which the log itself describes, which is written beside the file unless another
             one is there, or for a wrist sensor whose pose is logged.
         log_format: Name of the format; recognised from the files if None.
-        column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
+        column_names: Names of all columns, of tables whose first lines do not name them: a list for all tables, or one
+            for each; none for those of the files.
         sensors: Names or streams of the sensors to draft; all if empty. Without a robot an experiment has one sensor:
             others that are named, and other force plates, have a file each beside it, NAME.SENSOR.toml.
         matrices: Folder of the calibrations that the sensors came with; None for none.
+        loads: Weights of a bench: a table of them, `thesis-6.1`, or the table of readings itself where its columns have
+            the loads; None for those that its headings name, such as `known_fx`, or for no bench.
         force: Whether an existing experiment file may be replaced.
 
     Returns:
@@ -270,6 +277,8 @@ def draft_experiment(
         urdf, robot_file = kept, None
     model = model_of(logged) if urdf is None else read_urdf(urdf_file(urdf))
     log = draft_log(paths, model, log_format, column_names)
+    if (table := bench_table(log, None if loads is None else str(loads))) is not None:
+        return _bench(table, None if loads is None else str(loads), file, folder, is_written=output is not None)
     if robot_file is not None:
         refuse_output(robot_file, force=True)  # what is there is the same
     found = draft_sensors(log.streams, model)
@@ -293,18 +302,35 @@ def draft_experiment(
         other, *_ = _written(without_streams(log, others), (sensor,), priors, folder, model, robot)
         write_bytes_atomically(path, other.encode())
     tables = [stream.table for stream in log.streams if stream.table is not None and stream.table.is_table]
-    questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in unanswered_keys(text))
     return Draft(
         file=str(file),
         format=log.format,
         streams={} if recording is None else stream_rows(recording.streams),
-        questions=questions,
+        questions=_questions(text),
         notes=notes,
         few_components=() if found else tuple(column for table in tables for column in few_components(table).values()),
         robot_file=None if robot_file is None else str(robot_file),
         sensor_files=tuple(map(str, beside)),
         content=text,
     )
+
+
+def _bench(table: LogSketch, loads: str | None, file: Path, folder: Path, *, is_written: bool) -> Draft:
+    text = "\n".join(bench_lines(table, loads, folder)) + "\n"
+    if is_written:
+        write_bytes_atomically(file, text.encode())
+    return Draft(
+        file=str(file),
+        format="bench",
+        streams={},
+        questions=_questions(text),
+        notes=(f"{table.path}: readings under known loads; the file is that of a workbench",),
+        content=text,
+    )
+
+
+def _questions(text: str) -> tuple[QuestionRow, ...]:
+    return tuple(QuestionRow(line=one.line, key=one.key, question=one.words) for one in unanswered_keys(text))
 
 
 def _alone(

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.toml_file import OPEN
@@ -34,6 +34,8 @@ from forcetorque.inspection.draft.tables_and_arrays import (
 from forcetorque.inspection.draft.toml_lines import line, question, toml_value
 from forcetorque.robot.model import RobotModel
 
+ColumnNames: TypeAlias = Sequence[str] | Sequence[Sequence[str]]
+"""Names of all columns of every table, or a list of them for each table."""
 _TABLES = "tabular"
 """Name of the format of tables."""
 _OF_MOTION = ("position", "velocity", "proper_acceleration", "angular_velocity", "orientation", "gravity")
@@ -46,7 +48,7 @@ def draft_log(
     paths: Sequence[Path],
     model: RobotModel | None,
     log_format: str | None = None,
-    column_names: Sequence[str] = (),
+    column_names: ColumnNames = (),
 ) -> DraftedLog:
     """Look at a log.
 
@@ -54,7 +56,8 @@ def draft_log(
         paths: One log of any format, or several tables of one recording.
         model: The robot, whose joints are looked for by name; None for a wrist sensor without one.
         log_format: Name of the format; it is recognised by what is there if None.
-        column_names: Names of all columns, of tables whose first lines do not name them; none for those of the files.
+        column_names: Names of all columns, of tables whose first lines do not name them: a list for all tables, or one
+            for each; none for those of the files.
 
     Returns:
         What can be told of it.
@@ -77,7 +80,8 @@ def draft_log(
     joints = [] if model is None else [name for name, joint in model.joints.items() if joint.type.moves]
     if isinstance(known, SketchingFormat):
         if format_name(known) == _TABLES:
-            tables = [sketch_table(path, column_names) for path in paths]
+            named = _names_of_tables(column_names, paths)
+            tables = [sketch_table(path, names) for path, names in zip(paths, named, strict=True)]
             return DraftedLog(paths=tuple(paths), format=_TABLES, streams=table_streams(tables, joints))
         sketches = [known.sketch(path) for path in paths]
         if sketches[0].is_table:
@@ -90,6 +94,17 @@ def draft_log(
             skipped_arrays=sketches[0].skipped_arrays,
         )
     return draft_of_description(known.describe(paths[0]), joints)
+
+
+def _names_of_tables(column_names: ColumnNames, paths: Sequence[Path]) -> list[Sequence[str]]:
+    """Names of the columns of each table."""
+    lists = [column_names] if not column_names or isinstance(column_names[0], str) else list(column_names)
+    if len(lists) not in (1, len(paths)):
+        raise FormatError(
+            f"{', '.join(map(str, paths))}: expected names of columns once for all tables, or once for each of "
+            f"{len(paths)} in their order, got them {len(lists)} times"
+        )
+    return [list(map(str, names)) for names in (lists if len(lists) == len(paths) else lists * len(paths))]
 
 
 def draft_of_description(description: LogDescription, joints: Collection[str] = ()) -> DraftedLog:

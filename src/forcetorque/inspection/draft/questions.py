@@ -15,6 +15,7 @@ from forcetorque.base.toml_file import (
     unanswered_keys,
     with_answer,
 )
+from forcetorque.inspection.draft.bench import is_bench, logs_of_bench
 from forcetorque.inspection.draft.draft import Draft, ProposalRow, QuestionRow
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
@@ -54,7 +55,10 @@ def logs_of(file: Path) -> set[Path]:
         Folder or file of the recording, and the files of its streams; absolute.
     """
     with files_of_one_run():  # the answers are written to the file
-        recording = toml_content(file)[1].get("recording", {})
+        content = toml_content(file)[1]
+    if is_bench(content):
+        return {(file.parent / name).resolve() for name in logs_of_bench(content)}
+    recording = content.get("recording", {})
     folder = file.parent / recording.get("path", "")
     return {(folder / stream.get("file", "")).resolve() for stream in ({}, *recording.get("stream", ()))}
 
@@ -150,7 +154,8 @@ def resume_experiment(
     if ask is not None:
         answer_questions(path, ask)
     questions = open_questions(path)
-    left = () if questions else proposals(path) if accepts is None else settle(path, accepts)
+    is_whole = bool(questions) or is_bench(tomllib.loads(text_of(path)))  # nothing is proposed of a bench
+    left = () if is_whole else proposals(path) if accepts is None else settle(path, accepts)
     return Draft(
         file=str(path),
         format="toml",

@@ -53,7 +53,9 @@ _FEW = 9
 """Units that are written out in a question."""
 _LIKE_GRAVITY = 0.02
 """Share by which the largest component of gravity differs from its magnitude, at most."""
-_BEGIN_AGAIN = "`forcetorque init` --column-names begins the file again with them, and finds the sensor by them"
+_BEGIN_AGAIN = (
+    "`forcetorque init` --column-names, once for each table, begins the file again and finds the sensor by them"
+)
 _SENSE = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
 _EULER_LINES = (
     "",

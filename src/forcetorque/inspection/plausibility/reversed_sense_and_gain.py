@@ -351,7 +351,7 @@ _EXCITED = 0.1
 
 
 def require_same_sign(movement: Movement, prior: FloatArray, setup: Setup = ROBOT) -> None:
-    """Refuse a prior's reading whose force, or one axis of it, runs against the reference.
+    """Refuse a prior whose force, or one axis of it, is opposite to the expected force.
 
     Args:
         movement: How they move.
@@ -364,7 +364,8 @@ def require_same_sign(movement: Movement, prior: FloatArray, setup: Setup = ROBO
     gains = gains_of(movement, prior)
     if gains.overall + _SURELY_REVERSED * gains.deviation < 0.0:
         raise FitError(
-            f"the prior's reading runs against the reference, by {gains.overall:.2f} times of it; {setup.check_sign}"
+            f"the force by the prior matrix is opposite to the expected force, {gains.overall:.2f} times it; "
+            f"{setup.check_sign}"
         )
     # taking out what variables explain may leave less than nothing of an axis that does not move
     change = np.sqrt(np.maximum(np.diag(movement.second)[6:9], 0.0))
@@ -375,6 +376,6 @@ def require_same_sign(movement: Movement, prior: FloatArray, setup: Setup = ROBO
     ]
     if against:
         raise FitError(
-            f"{', '.join(against)} of the prior's reading run(s) against the reference, other forces do not; "
+            f"{', '.join(against)} by the prior matrix is opposite to the expected force, other components are not; "
             f"{setup.check_axes}"
         )

@@ -28,10 +28,17 @@ SensorOption = Annotated[
     list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
 ]
 ColumnNamesOption = Annotated[
-    str | None,
+    list[str] | None,
     typer.Option(
         "--column-names",
-        help="Names of all columns of a table without headings, between commas, as t,fx,fy,fz,tx,ty,tz.",
+        help="Names of all columns of a table without headings, as t,fx,fy,fz,tx,ty,tz; once for each table.",
+    ),
+]
+LoadsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--loads",
+        help="Weights of a bench: a table of them, thesis-6.1, or the log itself if its columns have the loads.",
     ),
 ]
 CalibrationsOption = Annotated[
@@ -56,9 +63,9 @@ PopulationOption = Annotated[
 ]
 
 
-def between_commas(text: str | None) -> list[str]:
-    """Give the parts of an option's text between commas; none where the option is not given."""
-    return [] if text is None else [part.strip() for part in text.split(",")]
+def between_commas(texts: list[str] | None) -> list[list[str]]:
+    """Give the parts of each text of an option between commas; none where the option is not given."""
+    return [[part.strip() for part in text.split(",")] for text in texts or ()]
 
 
 _WHOLE = 1000

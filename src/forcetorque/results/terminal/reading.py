@@ -190,6 +190,27 @@ def read_calibrations(paths: Iterable[Path] | None, sensors: Collection[str] | N
     return calibrations
 
 
+def one_calibration(path: Path, sensor: str | None) -> Calibration:
+    """Read the calibration that is meant.
+
+    Args:
+        path: The file, or a folder of them.
+        sensor: Name of its sensor; None where there is one calibration only.
+
+    Returns:
+        The calibration.
+
+    Raises:
+        ExperimentError: If the folder has none of the sensor, or several.
+    """
+    found = read_calibrations([path], None if sensor is None else [sensor])
+    if len(found) != 1:
+        of_sensor = "" if sensor is None else f" of {sensor!r}"
+        known = ", ".join(map(str, found)) or "none"
+        raise ExperimentError(f"{path}: expected one calibration{of_sensor}, got {known}; name one of its files")
+    return next(iter(found.values()))
+
+
 def sensors_named(experiment: Experiment, names: Collection[str] | None) -> list[ExperimentSensor]:
     """Find the sensors that are meant.
 

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Workbench files that are drafted from tables of readings under known loads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from forcetorque.inspection.draft.questions import resume_experiment
+
+from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
+from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.draft.questions import answer_questions, logs_of
+from forcetorque.workbench.loads import THESIS_TABLE
+from forcetorque.workbench.recording import read_bench
+from tests.app.outcome import Run
+from tests.scenes.benches import thesis_loads
+
+COUNTS_PER_SI = 100.0
+ANSWERS = {
+    "serial": "SIM7",
+    "measure_direction": "child_to_parent",
+    "full_scale": "32768.0",
+    "known_units": '["N", "N", "N", "N m", "N m", "N m"]',
+}
+
+
+def _write(file: Path, headings: list[str], values: np.ndarray) -> Path:
+    rows = [",".join(f"{value:.6g}" for value in row) for row in values]
+    file.write_text("\n".join([",".join(headings), *rows, ""]), encoding="utf-8")
+    return file
+
+
+def _readings() -> np.ndarray:
+    """Readings of a sensor that is exact, of the loads of the thesis."""
+    noise = np.random.default_rng(3).normal(0.0, 0.5, (len(thesis_loads()), 6))
+    return COUNTS_PER_SI * thesis_loads().wrench + noise
+
+
+def _answer(question: str) -> str:
+    return ANSWERS[question.splitlines()[-1].partition(", ")[2].partition(":")[0]]
+
+
+@pytest.fixture
+def beside_loads(tmp_path: Path) -> Path:
+    """A table whose headings name the loads, as a spreadsheet of a bench has them."""
+    headings = [*("Fx", "Fy", "Fz", "Mx", "My", "Mz"), *(f"known_{name}" for name in WRENCH_COMPONENTS)]
+    return _write(tmp_path / "bench.csv", headings, np.hstack([_readings(), thesis_loads().wrench]))
+
+
+def test_columns_of_loads_make_a_workbench_file(beside_loads: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`run` begins the file, and goes the whole way once its questions are answered."""
+    monkeypatch.chdir(beside_loads.parent)
+    begun = run("run", "bench.csv", "-o", "results", "--no-input")
+    file = Path("results/experiment.toml")
+    assert begun.code == 4
+    assert logs_of(file) == {beside_loads.resolve()}
+    assert answer_questions(file, _answer)
+    ended = run("run", "bench.csv", "-o", "results", "--no-input")
+    assert ended.code == 0, ended.out
+    assert "NO FAULT OF THE BENCH" in ended.out
+    assert Path("results/experiment.json").is_file()
+    assert resume_experiment(file).proposals == ()
+
+
+def test_a_table_of_weights_is_named(tmp_path: Path) -> None:
+    """Rows of readings are those of the table of weights, which is read as any other."""
+    table = _write(tmp_path / "bench.csv", [f"ch{k}" for k in range(6)], _readings())
+    file = tmp_path / "bench.toml"
+    draft = draft_experiment([table], file, loads=THESIS_TABLE)
+    (answer,) = draft.answers()
+    assert answer.command == f"init --resume {file}"
+    assert answer_questions(file, _answer)
+    bench = read_bench(file).bench
+    assert bench is not None
+    np.testing.assert_allclose(bench.raw, _readings(), rtol=1e-5)
+    assert next(iter(resume_experiment(file).answers())).command == f"run {file}"
+
+
+def test_what_is_not_known_is_asked(tmp_path: Path) -> None:
+    """Columns whose headings name no component are questions, as are those of fewer components."""
+    forces = _write(tmp_path / "cell.csv", ["a", "b", "c", "load_fx", "load_fy", "load_fz"], _readings())
+    content = draft_experiment([forces]).content
+    assert 'components = ["fx", "fy", "fz"]' in content
+    assert [one.key for one in draft_experiment([forces]).questions] == [
+        "serial",
+        "measure_direction",
+        "full_scale",
+        "load_full_scale",
+        "channels",
+        "known_units",
+    ]
+    named = draft_experiment(
+        [_write(tmp_path / "own.csv", list("abcdefgh"), np.hstack([_readings(), _readings()[:, :2]]))],
+        loads=tmp_path / "own.csv",
+    )
+    assert [one.key for one in named.questions][-3:] == ["channels", "known", "known_units"]
+
+
+def test_a_log_with_times_is_no_bench(tmp_path: Path, beside_loads: Path) -> None:
+    """Negative control: a robot logs commanded forces beside measured ones."""
+    table = np.hstack([_readings(), thesis_loads().wrench])
+    headings = beside_loads.read_text(encoding="utf-8").splitlines()[0].split(",")
+    log = _write(tmp_path / "log.csv", ["time_s", *headings], np.column_stack([np.arange(len(table)), table]))
+    assert "forcetorque/bench" not in draft_experiment([log]).content
+    assert "forcetorque/bench" in draft_experiment([beside_loads]).content
+
+
+def test_what_no_workbench_file_can_state_is_refused(tmp_path: Path, beside_loads: Path) -> None:
+    """Several tables, weights that are not there, lines above the headings; and the file by commands of experiments."""
+    with pytest.raises(ExperimentError, match="expected one table of readings"):
+        draft_experiment([beside_loads, _write(tmp_path / "b.csv", ["t", "fx"], np.eye(2))], loads=THESIS_TABLE)
+    with pytest.raises(MissingFileError, match="expected a table of weights"):
+        draft_experiment([beside_loads], loads=tmp_path / "none.csv")
+    above = tmp_path / "above.csv"
+    above.write_text(f"Bench of today\n{beside_loads.read_text(encoding='utf-8')}", encoding="utf-8")
+    with pytest.raises(FormatError, match="one line of headings"):
+        draft_experiment([above], loads=above)
+
+
+def test_another_command_names_the_kind_of_the_file(beside_loads: Path, run: Run) -> None:
+    """Not its first key that an experiment file does not have."""
+    file = beside_loads.with_suffix(".toml")
+    draft_experiment([beside_loads], file)
+    answer_questions(file, _answer)
+    assert 'expected "forcetorque/experiment/1", got "forcetorque/bench/1"' in run("inspect", file).error()
