@@ -19,7 +19,8 @@ from forcetorque.estimation.skin_contacts import SkinSource, skin_sources
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.robot.contacts import Contact, Wrenches
-from forcetorque.robot.mechanics.estimate import Estimates, Evaluator, estimate
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

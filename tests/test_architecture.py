@@ -6,7 +6,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from tests.test_import_order import KERNEL, NEEDS, ROOT as LIBRARY, TOP
+from tests.test_import_order import KERNEL, NEEDS, TOP
+from tests.test_import_order import ROOT as LIBRARY
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")

@@ -24,7 +24,8 @@ import numpy.typing as npt
 
 from benchmarks.dynamics.problem import Problem, icub_problem
 from forcetorque.base.arrays import FloatArray
-from forcetorque.robot.mechanics.estimate import Estimates, Evaluator, estimate
+from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 _BATCH = 65_536

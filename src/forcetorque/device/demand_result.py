@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence as Several
+from collections.abc import Iterator, Mapping
+from collections.abc import Sequence as Several
 from enum import StrEnum
 from typing import Annotated
 

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.noise.paired_comparison import SquaredErrors
-from forcetorque.evaluation.load_cases.validation_evidence import SecondMeans
+from forcetorque.evaluation.load_cases.validation_evidence import ValidationSegment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
@@ -121,7 +121,7 @@ def _error_rows(stored: StoredEvaluation, correction: Correction) -> tuple[Float
     return np.hstack([model.matrix, coefficients, -np.eye(6)]), offset
 
 
-def second_means(record: SensorRecord, name: str, correction: Correction) -> list[SecondMeans]:
+def second_means(record: SensorRecord, name: str, correction: Correction) -> list[ValidationSegment]:
     """Compute the errors of a linear calibration in means over seconds.
 
     Args:
@@ -138,7 +138,9 @@ def second_means(record: SensorRecord, name: str, correction: Correction) -> lis
         variables = means.variables if means.variables.size else np.zeros((len(means.time_s), 0))
         error = np.hstack([means.raw, variables, means.reference]) @ rows.T + offset
         made.append(
-            SecondMeans(session=means.session or name, time_s=means.time_s, error=error, reference=means.reference)
+            ValidationSegment(
+                session=means.session or name, time_s=means.time_s, error=error, reference=means.reference
+            )
         )
     return made
 
@@ -172,7 +174,7 @@ class ErrorInterval:
     """Upper end; infinite where too few data determine it."""
 
     @classmethod
-    def of(cls, means: Sequence[SecondMeans], axes: slice, *, tared: bool) -> Self:
+    def of(cls, means: Sequence[ValidationSegment], axes: slice, *, tared: bool) -> Self:
         """Compute it.
 
         Args:

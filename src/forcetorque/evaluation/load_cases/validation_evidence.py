@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Annotated, Literal
 
@@ -67,33 +67,14 @@ class ValidationSegment:
     reference: FloatArray
     """Expected wrenches; shape (n, 6); N, N m."""
 
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class SecondMeans:
-    """Errors of one calibration in a recording, or in the samples of one power cycle, in means of a second."""
-
-    session: str
-    """Name of the session."""
-    time_s: FloatArray
-    """Mean instants, not falling; shape (n,); s."""
-    error: FloatArray
-    """Mean errors; shape (n, 6); N, N m."""
-    reference: FloatArray
-    """Mean expected wrenches; shape (n, 6); N, N m."""
-
-    @classmethod
-    def of(cls, segment: ValidationSegment) -> SecondMeans:
-        """Average the errors of samples.
-
-        Args:
-            segment: The samples.
+    def second_means(self) -> ValidationSegment:
+        """Average over seconds.
 
         Returns:
-            Their means.
+            The same segment in means of a second, with their mean instants.
         """
-        columns = np.hstack([segment.error, segment.reference])
-        time_s, means, _ = means_over(segment.time_s, columns)
-        return cls(session=segment.session, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
+        time_s, means, _ = means_over(self.time_s, np.hstack([self.error, self.reference]))
+        return replace(self, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
 
 
 def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
@@ -106,10 +87,10 @@ def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
         The errors. The constant part is that of the session in which it is largest: of two that cancel each other
         either would hurt. What is left is about the mean of each session.
     """
-    return evidence_of_means([SecondMeans.of(segment) for segment in stretches])
+    return evidence_of_means([segment.second_means() for segment in stretches])
 
 
-def evidence_of_means(stretches: Sequence[SecondMeans]) -> Evidence:
+def evidence_of_means(stretches: Sequence[ValidationSegment]) -> Evidence:
     """Compute the same from means of a second.
 
     Args:
