@@ -7,6 +7,7 @@ import json
 import math
 import os
 import socket
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +20,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.base.output_file import is_replaceable
+from forcetorque.experiment.calibration.artefact import SessionOffset
 from forcetorque.formats.ros.wrench_message import read_wrench
 from forcetorque.live import outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
@@ -33,7 +35,7 @@ from forcetorque.live.settings import Settings
 from forcetorque.live.sources import LONGEST_LINE, LineSource
 from forcetorque.live.stated_source import make_run
 from forcetorque.live.text_lines import LineForm, MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
-from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
+from tests.scenes.calibrations import FACTORY, OFFSET, make_calibration, make_variable
 
 RAW = np.array([[100.0, -200.0, 300.0, -400.0, 500.0, -600.0]])
 CHANNELS = "c1,c2,c3,c4,c5,c6"
@@ -528,6 +530,25 @@ def test_a_heading_must_have_the_columns() -> None:
     """A name that is not there ends the run."""
     with pytest.raises(RecordingError, match="one column 't'"):
         _run("n,time," + CHANNELS + "\n", Settings(**TABLE))
+
+
+@pytest.mark.parametrize(
+    ("stated", "named"),
+    [({}, "second day"), ({"session": "first day"}, "first day"), ({"offset": OffsetSource.TARE}, None)],
+)
+def test_the_power_cycle_of_an_offset_is_in_the_account(stated: dict[str, Any], named: str | None) -> None:
+    """Without a statement it is the last one; a tare has none."""
+    days = [
+        SessionOffset(name=f"{day} day", offset=OFFSET, standard_error=None, prior_offset=None)
+        for day in ("first", "second")
+    ]
+    calibration = make_calibration().model_copy(update={"sessions": tuple(days)})
+    source, correctors = make_run(Settings(**TABLE | stated), [calibration], descriptor=0, warn=lambda _: None)
+    result = LiveLoop(source, correctors, [], clock=time.monotonic).result("end of input")
+    assert result.sensors[0].power_cycle == named
+    assert [text for text in next(result.answers()).why if "Offset: " in text] == (
+        [f"Offset: as it was in power cycle {named!r} of the calibration."] if named else []
+    )
 
 
 def test_options_of_tracking_are_read() -> None:

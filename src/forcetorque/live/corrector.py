@@ -117,6 +117,12 @@ class Corrector:
         return self._raw.shape[1]
 
     @property
+    def power_cycles(self) -> tuple[str | None, ...]:
+        """Power cycle whose fitted offset is taken, by sensor; None where there is none, or a tare gives the offset."""
+        fitted = self.options.offset is OffsetSource.FITTED
+        return tuple(term.session if fitted else None for term in self._terms)
+
+    @property
     def taring(self) -> BoolArray:
         """Of which sensors a tare collects; shape (s,)."""
         return np.zeros(len(self._terms), dtype=np.bool_) if self._tare is None else self._tare.collecting.copy()

@@ -49,6 +49,8 @@ class LiveSensor(Row):
     """Half-width of its 95 % interval."""
     drift: WrenchValues | None
     """Change of the bias since the tare; None where it was not tracked."""
+    power_cycle: str | None = None
+    """Power cycle of the calibration whose offset was taken; None where it has none, or a tare gives the offset."""
     taring: bool
     """Whether its tare did not end: for want of time, of samples without fault, or of a load at rest."""
     tare_moved_N: float = 0.0
@@ -184,6 +186,8 @@ class LiveRun(Result):
         if packets.silences:
             times = counted(packets.silences, "time")
             sentences.append(f"The source was silent {times}, for up to {packets.longest_silence_s:.1f} s.")
+        if row.power_cycle is not None:
+            sentences.append(f"Offset: as it was in power cycle {row.power_cycle!r} of the calibration.")
         if row.bias is not None and row.bias_half_width_95 is not None:
             force = ", ".join(
                 f"{value:.2f} ±{half:.2f}" for value, half in zip(row.bias[:3], row.bias_half_width_95[:3], strict=True)

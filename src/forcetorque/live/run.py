@@ -198,6 +198,7 @@ class LiveLoop:
             bias=corrector.bias[k].copy() if has_bias else None,
             bias_half_width_95=NORMAL_95 * np.sqrt(corrector.bias_variance[k]) if has_bias else None,
             drift=tracked,
+            power_cycle=corrector.power_cycles[k],
             taring=bool(corrector.taring[k]),
             tare_moved_N=float(corrector.tare_moved_N[k]),
         )

@@ -28,6 +28,8 @@ class SensorTerms:
     """Values at which the variables contribute nothing; shape (v,)."""
     offset: FloatArray
     """Fitted offset; shape (6,); N, N m."""
+    session: str | None
+    """Power cycle that the offset is of; None where the calibration has no names of them."""
     variables: tuple[str, ...]
     """Names of the variables."""
     quadratic: QuadraticCorrection | None
@@ -84,6 +86,7 @@ def sensor_terms(
         coefficients=model.coefficients,
         reference_values=model.reference_values,
         offset=model.offset,
+        session=named,
         variables=variables,
         quadratic=model.quadratic,
         to_counts=to_counts,
