@@ -302,7 +302,7 @@ class SensorCalibrations(DrawnResult):
         Raises:
             FitError: If no calibration is a generative fit towards a prior matrix.
         """
-        from forcetorque.calibration.figures.joint import joint_figure
+        from forcetorque.calibration.figures.information import joint_figure
 
         if self.joint is not None:
             return joint_figure(self.joint.residuals)

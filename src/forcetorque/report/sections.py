@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.figures.joint import joint_figure
+from forcetorque.calibration.figures.information import joint_figure
 from forcetorque.calibration.report_blocks import (
     excitation_blocks,
     lambda_blocks,
