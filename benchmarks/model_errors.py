@@ -267,12 +267,16 @@ def _written(folder: Path, name: str, limb: str, recording: Recording, duration_
 
 @contextmanager
 def expected_errors(family: str, robot: str) -> Iterator[str]:
-    """Give the line of the experiment file; by `INFORMED` fits expect the errors of the family, and no other."""
+    """Give the line of the experiment file; by `INFORMED` fits expect the errors of the family, and no other.
+
+    Errors without the structure of the sensor have no unknowns of their own: coefficients of that size stand for them.
+    """
     if robot != INFORMED:
         yield robot
         return
     kind, per_axis = FAMILIES[family], 1.0 / np.sqrt(3.0)
-    expected = kind.coefficients, kind.gains, per_axis * np.deg2rad(kind.turn_deg), per_axis * kind.shift_m
+    rotation_rad, shift_m = per_axis * np.deg2rad(kind.turn_deg), per_axis * kind.shift_m
+    expected = kind.coefficients or kind.dense, kind.gains, rotation_rad, shift_m
     coefficients, gain, *mount = (Scale(expected=max(size, 1e-6), weight=np.inf) for size in expected)
     changed = {
         "COEFFICIENTS": coefficients,

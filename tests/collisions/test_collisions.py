@@ -182,7 +182,7 @@ def test_a_push_is_an_event_for_viewers(folder: Path, tmp_path: Path) -> None:
 
 
 def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In the order of time; of a sensor that cannot be looked at there are none, and a log that is too long says so."""
+    """In the order of time; a sensor that cannot be looked at and a log that is too long are named, with the reason."""
     experiment = _planted(folder, tmp_path, _push).experiment
     others = tuple(
         Finding(stream="arm_ft", kind="gap", message="a gap", count=1, start_ns=experiment.recording.start_ns + at)
@@ -192,7 +192,21 @@ def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, mon
     monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 10.0)
     assert [one.kind for one in with_collisions(others, experiment, {})] == ["not_compared", "gap", "gap"]
     ignored = experiment.recording.with_intervals([])
-    assert with_collisions(others, replace(experiment, recording=ignored), {}) == others
+    untold, *left = with_collisions(others, replace(experiment, recording=ignored), {})
+    assert (untold.kind, untold.sensor, tuple(left)) == ("not_compared", "arm_ft", others)
+    assert untold.message.startswith("no look for collisions: ")
+    assert "expected an interval with a support" in untold.message
+
+
+def test_a_collision_hides_nothing_of_another_sensor_of_its_stream(folder: Path, tmp_path: Path) -> None:
+    """What `inspect` found of the other sensor stays; the same of this sensor does not."""
+    experiment = _planted(folder, tmp_path, lambda run: 60.0 / FORCE_N * _push(run)).experiment
+    own = next(one for one in inspect_experiment(experiment, with_causes=False) if one.kind in UNEXPLAINED)
+    assert own.sensor == "arm_ft"
+    other = replace(own, sensor="other_ft")
+    events = with_collisions([own, other], experiment, {})
+    assert [(one.kind, one.sensor) for one in events if one is not other] == [("collision", "arm_ft")]
+    assert any(one is other for one in events)
 
 
 @pytest.mark.parametrize(

@@ -184,6 +184,7 @@ def test_percent_of_full_scale(entries: Entries) -> None:
     (row,) = (row for row in result.contestants if row.contestant == BOUGHT)
     np.testing.assert_allclose(row.rmse_percent_of_full_scale, 100.0 * row.rmse / full_scale)
     assert any(OURS in words and "full scale" in words for words in result.warnings)
+    assert not any("one load" in words for words in result.warnings)
 
 
 def _bench(rng: np.random.Generator) -> BenchRecording:

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError
-from forcetorque.device.demand_result import RequirementRow, Verdict, requirement_rows
+from forcetorque.device.demand_result import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.demands import DeviceDemands, device_demands
-from forcetorque.device.device_file import DeviceMotion, DevicePosture, DeviceSimulation, read_device
+from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
 from forcetorque.device.mechanical_demands import average_torque
 from forcetorque.device.tolerances import Tolerance
@@ -185,3 +185,20 @@ def test_the_page_has_these_figures(demands: DeviceDemands) -> None:
     assert len(table) == 6
     for gravity_by, width, *cells in table:
         assert cells == shown[gravity_by, width]
+
+
+def test_heat_reaches_what_is_put_in_over_what_is_lost(demands: DeviceDemands) -> None:
+    """By hand: 40 W over 1 W/K are 40 K, in a time constant of ten minutes; 15 degC takes cooling."""
+    heat = DeviceHeat(heating_W=40.0, cooling_W=10.0, loss_W_per_K=1.0, capacity_J_per_K=600.0, ambient_degC=20.0)
+    row = _heat(heat)
+    assert (row.number, row.verdict, row.value, row.limit, row.unit) == (12, Verdict.MET, 60.0, 55.0, "degC")
+    assert "reaches 10 to 60 degC" in row.why
+    assert f"heated to 55 degC in {10.0 * np.log(40.0 / 5.0):.3g} min" in row.why
+    assert f"cooled from there to 15 degC in {10.0 * np.log(45.0 / 5.0):.3g} min" in row.why
+    warm = _heat(heat.model_copy(update={"cooling_W": 0.0}))
+    assert (warm.verdict, "never cooled from there to 15 degC" in warm.why) == (Verdict.NOT_MET, True)
+    weak = _heat(heat.model_copy(update={"heating_W": 30.0}))
+    assert (weak.verdict, "never heated to 55 degC" in weak.why) == (Verdict.NOT_MET, True)
+    # the device of the thesis describes no heat
+    (absent,) = _requirement(demands, 12)
+    assert absent.verdict is Verdict.NOT_COMPUTED

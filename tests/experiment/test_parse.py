@@ -253,7 +253,10 @@ TABLES = {
         "measurement_offset_sd, mount, name, prior, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
-    'label = "judge"': (r"interval\[1\]", "contact_links, end_s, kind, label, load, session, start_s, support, use"),
+    'label = "judge"': (
+        r"interval\[1\]",
+        "contact_links, end_s, files, kind, label, load, session, start_s, support, use",
+    ),
     "[processing]": ("processing", "derivatives, smoothing"),
     "[calibration]": (
         "calibration",

@@ -58,8 +58,9 @@ def test_outliers_of_every_segment_are_named(recorded: Path, monkeypatch: pytest
 
 
 def test_contents_are_those_of_the_recording(recorded: Path) -> None:
-    """Streams, their lengths and the duration do not depend on segments."""
+    """Streams, their lengths and the duration do not depend on segments; findings do, and their postures with them."""
     whole = inspect_log(recorded / CALIBRATION[0])
     with short_segments():
         segmented = inspect_log(recorded / CALIBRATION[0])
-    assert segmented.model_copy(update={"findings": ()}) == whole.model_copy(update={"findings": ()})
+    found = {"findings": (), "postures": ()}
+    assert segmented.model_copy(update=found) == whole.model_copy(update=found)

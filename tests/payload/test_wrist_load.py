@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any, Literal
 
@@ -594,3 +595,54 @@ def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     errors = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
     assert errors[0].samples == 8
     assert all(verdict.force_error_mean_N < 0.2 for verdict in errors)
+
+
+def test_a_new_session_takes_the_load_from_the_result_of_an_earlier_one(tmp_path: Path) -> None:
+    """Poses without a calibration interval are evaluated under it, and the sensor that weighed it is named."""
+    weighed = weigh_load(SensorRun(load_experiment(_write(tmp_path)), "wrist"))
+    (tmp_path / "payload.json").write_text(weighed.json_text())
+    named = TEXT.replace('motion = ["poses"]', 'motion = ["poses"]\nfrom = "payload.json"')
+    session = named.replace('use = "calibration"', 'use = "validation"')
+    run = SensorRun(load_experiment(_write(tmp_path, text=session)), "wrist")
+    loads = wrist_loads(run.experiment)
+    assert loads is not None
+    assert loads.are_stated
+    assert loads.loads[0].mass == weighed.loads[0].mass_kg
+    np.testing.assert_array_equal(loads.loads[0].centre_of_mass, weighed.loads[0].centre_of_mass_m)
+    evaluation = evaluate(run)
+    assert min(row.rmse[0] for row in evaluation.verdicts) < 3 * NOISE[0]  # with the offset that was estimated
+    assert any("weighed before by this sensor itself (FT1)" in words for words in evaluation.warnings)
+    # negative controls: a serial that did not weigh it, and another mass
+    other = _write(tmp_path, text=session.replace('serial = "FT1"', 'serial = "FT2"'))
+    assert not any("weighed before" in words for words in evaluate(SensorRun(load_experiment(other), "wrist")).warnings)
+    (tmp_path / "payload.json").write_text(weighed.json_text().replace(f"{weighed.loads[0].mass_kg!r}", "1.4"))
+    heavy = evaluate(SensorRun(load_experiment(_write(tmp_path, text=session)), "wrist"))
+    assert min(row.rmse[0] for row in heavy.verdicts) > 0.5
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"frame":"tool"', '"frame":"flange"', "expected a load in the frame 'tool', got one in 'flange'"),
+        ('"frame":"tool"', '"frame":null', "expected a load in the frame 'tool', got a result that names no frame"),
+        ('"link":null', '"link":"hand"', "expected a load on a wrist sensor, got 'load' on the link 'hand'"),
+        ('"mass_half_width_95_kg":0', '"mass_half_width_95_kg":null,"x":0', "the load 'load' was left open there"),
+        ('"mass_kg":', '"mass_kg":-', "expected a mass of 0 kg or more, got -1.1"),
+    ],
+)
+def test_a_load_of_another_frame_or_one_left_open_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+    """Each names the file and what is expected."""
+    weighed = weigh_load(SensorRun(load_experiment(_write(tmp_path)), "wrist"))
+    text = weighed.json_text().replace('": ', '":')
+    assert old in text
+    (tmp_path / "payload.json").write_text(text.replace(old, new, 1))
+    named = _write(tmp_path, text=TEXT.replace('motion = ["poses"]', 'motion = ["poses"]\nfrom = "payload.json"'))
+    with pytest.raises(ExperimentError, match=re.escape(message)):
+        load_experiment(named)
+
+
+def test_a_load_is_stated_once(tmp_path: Path) -> None:
+    """In the file or by the result, not both."""
+    twice = TEXT.replace('motion = ["poses"]', 'motion = ["poses"]\nfrom = "payload.json"\nmass_kg = 1.0')
+    with pytest.raises(ForceTorqueError, match="from says what the load is: leave mass_kg"):
+        load_experiment(_write(tmp_path, text=twice))

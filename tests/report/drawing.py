@@ -57,6 +57,7 @@ from forcetorque.results.figures import png_bytes
 from forcetorque.robot.motion import JointMotion
 from forcetorque.sensor.bandwidth.bandwidth import Response
 from forcetorque.sensor.bandwidth.decays import DecayCurve
+from forcetorque.sensor.bandwidth.driven import ChannelResponse
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind
 from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
@@ -567,10 +568,30 @@ def _response(rng: np.random.Generator) -> Figure:
             events=(),
             numbers=(),
             curve=curve,
+            channels=tuple(_channel_response(name, curve) for name in WRENCH_COMPONENTS),
             inverse=None,
             refused=(),
             decays=decays,
         )
+    )
+
+
+def _channel_response(name: str, curve: ResponseCurve) -> ChannelResponse:
+    return ChannelResponse(
+        channel=name,
+        explained_share=0.99,
+        coherence=0.98,
+        strongest_hz=2.0,
+        strongest_gain=None if name == "tz" else 1.0,
+        strongest_half_width_95=None if name == "tz" else 0.1,
+        natural_frequency_hz=None,
+        natural_frequency_half_width_95_hz=None,
+        gain=None,
+        gain_half_width_95=None,
+        unit="1",
+        moves_with=None,
+        undetermined=None,
+        curve=curve,
     )
 
 

@@ -8,6 +8,7 @@ here: methods, shares of the predicted deviation and thresholds are those of the
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +21,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth, FlatWeight, SkinContact, Sphere
 from forcetorque.skin.simulation.surface import TrueSurface
+from forcetorque.skin.wrench.known_weight import agreement_of
 from forcetorque.skin.wrench.operator import WrenchMethod
 from tests.skin.contact_trials import (
     JUDGED_SEED,
@@ -56,6 +58,7 @@ SKIN_M: Final = 0.0055
 ON_SKIN: Final = 0.96
 LIGHTEST_N, HEAVIEST_N = 2.0, 30.0
 SLIP: Final = 0.3
+PLACEMENTS, DRAWS = 5, 1000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,6 +237,11 @@ def lines(name: str, trials: Sequence[ContactTrial]) -> Iterator[str]:
             f"  {method}: {told.magnitude_N:.3f} N, {told.over_load:.1%}, bias {told.bias:+.1%}, moment "
             f"{told.torque_Nm:.4f} N m, with its best gain {told.gained_N:.3f} N"
         )
+    shares = np.array([np.linalg.norm(one.wrenches[WrenchMethod.KRIGING][:3]) / one.truth.load_N for one in trials])
+    rng = np.random.default_rng(JUDGED_SEED)
+    verdicts = Counter(agreement_of(rng.choice(shares, PLACEMENTS, replace=False))[2] for _ in range(DRAWS))
+    words = ", ".join(f"{verdict} {count}" for verdict, count in sorted(verdicts.items()))
+    yield f"  known weight, {PLACEMENTS} placements each of {DRAWS} draws of these contacts: {words}"
     kept = held(trials)
     yield (
         f"  {kept.number} single contacts with under {OFF_EDGE:.0%} at the edge, in range: {kept.force:.1%} within two "

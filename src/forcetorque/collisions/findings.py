@@ -27,11 +27,11 @@ _MARGIN_NS = 500_000_000
 def with_collisions(
     findings: Sequence[Finding], experiment: Experiment, calibrations: Mapping[str, Calibration]
 ) -> tuple[Finding, ...]:
-    """Add the collisions of every sensor that `robot collisions` can look at, in place of the same by `inspect`.
+    """Add the collisions of every sensor, in place of the same by `inspect`; of one without a look, the reason.
 
     Args:
         findings: Other findings; of these, what `inspect` cannot explain is left out where half of it or more lies in
-            collisions of its stream. A `step` stays beside a `new_level`, which may be that step.
+            collisions of its sensor. A `step` stays beside a `new_level`, which may be that step.
         experiment: The experiment.
         calibrations: By what sensors are read, by their names; by prior or as logged without.
 
@@ -50,6 +50,7 @@ def _is_in(finding: Finding, collisions: Sequence[Finding]) -> bool:
         min(one.end_ns + _MARGIN_NS, finding.end_ns) - max(one.start_ns - _MARGIN_NS, finding.start_ns)
         for one in collisions
         if one.stream == finding.stream
+        and finding.sensor in (None, one.sensor)
         and one.start_ns is not None
         and one.end_ns is not None
         and (one.kind, finding.kind) != ("new_level", "step")
@@ -74,7 +75,9 @@ def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration])
         try:
             correction = run.read_by(None, calibrations.get(sensor.name)).bare
             rows = find_collisions(run, correction, (), (), ALARMS_PER_HOUR).collisions
-        except ForceTorqueError:  # the command says what it needs
+        except ForceTorqueError as error:
+            text = f"no look for collisions: {error}"
+            yield Finding(stream=sensor.stream, kind="not_compared", message=text, count=0, sensor=sensor.name)
             continue
         for row in rows:
             yield Finding(
@@ -86,6 +89,7 @@ def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration])
                 end_ns=start_ns + round(row.end_s * 1e9),
                 size=row.force_N,
                 unit="N",
+                sensor=sensor.name,
             )
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -45,7 +45,10 @@ class ContestantRow(Row):
     rank: Annotated[int, Shown("rank")]
     """Rank by force and moment together: one more than the number of contestants with significantly smaller errors."""
     error_percent: Annotated[float, Shown("error", "% of the loads", digits=2)]
-    """Root mean square error of force over the judged force and of moment over the judged moment, together; %."""
+    """Root mean square error of force over the judged force and of moment over the judged moment of all contestants,
+    together; %."""
+    judged_N: Annotated[float, Shown("judged", "N", digits=1)]
+    """Root mean square force about its mean that this contestant was judged by."""
     force_error_N: Annotated[float, Shown("force", "N", digits=3)]
     """Root mean square norm of the force error."""
     rank_force: Annotated[int, Shown("rank, force")]
@@ -117,6 +120,7 @@ def contestant_row(
     common: BoolArray,
     *,
     scale: tuple[float, float],
+    judged_N: float,
     ranks: tuple[int, int, int],
 ) -> ContestantRow:
     """Compute the scores of a contestant.
@@ -127,6 +131,7 @@ def contestant_row(
         squares: Their squared errors by `mean_squares`; shape (loads, q, 6).
         common: Phases that all runs have; shape (p,).
         scale: Root mean square force and moment that were judged; N, N m.
+        judged_N: Its own judged force; N.
         ranks: Its ranks by wrench, force and moment.
 
     Returns:
@@ -149,6 +154,7 @@ def contestant_row(
         fitted_loads_kg=reader.fitted_loads_kg,
         rank=ranks[0],
         error_percent=100.0 * float(np.hypot(force / scale[0], moment / scale[1])),
+        judged_N=judged_N,
         force_error_N=force,
         rank_force=ranks[1],
         moment_error_Nm=moment,
@@ -323,11 +329,21 @@ def ranking(entries: Entries, *, code_version: str, created: str) -> Contest:
     common = common_phases(trials)
     loads = {name: by_load(own) for name, own in trials.items()}
     squares = {name: mean_squares(own, common) for name, own in loads.items()}
-    scale = _scale(trials, common)
+    judged = {name: _judged(own, common) for name, own in trials.items()}
+    scale_N, scale_Nm = np.sqrt(np.mean([np.square(own) for own in judged.values()], axis=0)).tolist()
+    scale = (scale_N, scale_Nm)
     pairs = compared_pairs(squares, scale=scale)
     ranks, winner = ranks_and_winner(tuple(squares), pairs)
     rows = [
-        contestant_row(reader, loads[name], squares[name], common, scale=scale, ranks=ranks[name])
+        contestant_row(
+            reader,
+            loads[name],
+            squares[name],
+            common,
+            scale=scale,
+            judged_N=judged[name][0],
+            ranks=ranks[name],
+        )
         for reader in readers
         for name in [reader.entry.name]
     ]
@@ -388,9 +404,9 @@ def _require_unfitted(readers: Sequence[Reader]) -> tuple[float, ...]:
     return _loads(readers[0])
 
 
-def _scale(trials: Mapping[str, Sequence[Trial]], common: BoolArray) -> tuple[float, float]:
-    """Root mean square force and moment that were judged, of all contestants; N, N m."""
-    references = np.concatenate([trial.reference[common] for own in trials.values() for trial in own])
+def _judged(trials: Sequence[Trial], common: BoolArray) -> tuple[float, float]:
+    """Root mean square force and moment about their means that judge a contestant; N, N m."""
+    references = np.concatenate([trial.reference[common] for trial in trials])
     moved = references - references.mean(axis=0)
     return (
         float(np.sqrt((moved[:, :3] ** 2).sum(axis=1).mean())),
@@ -398,7 +414,17 @@ def _scale(trials: Mapping[str, Sequence[Trial]], common: BoolArray) -> tuple[fl
     )
 
 
+_ONE_LOAD = 1.25
+"""Ratio of judged forces up to which sensors carry one load: errors that differ by as much count as equal."""
+
+
 def _warnings(rows: Sequence[ContestantRow]) -> Iterator[str]:
+    least, *_, most = sorted(rows, key=lambda row: row.judged_N)
+    if most.judged_N > _ONE_LOAD * least.judged_N:
+        yield (
+            f"{most.contestant} is judged by {most.judged_N:.3g} N, {least.contestant} by {least.judged_N:.3g} N: they "
+            "do not carry one load, and who carries less errs less in N; mount them where they carry the same"
+        )
     if all(row.repeatability is None for row in rows):
         yield "no load was repeated: precision and drift are unobservable; repeat a run"
     without = [row.contestant for row in rows if row.full_scale is None]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from collections.abc import Sequence as Several
 from enum import StrEnum
@@ -12,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.device.description import device_load
-from forcetorque.device.device_file import DeviceFile
+from forcetorque.device.device_file import DeviceFile, DeviceHeat
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
 from forcetorque.device.excitation import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads
 from forcetorque.device.expected_wrench import device_response
@@ -160,13 +161,15 @@ ENVELOPE_M2 = 1.5
 MOST_LOADINGS = 3
 """Largest number of loadings, by requirement 2."""
 
+COLDEST_DEGC, HOTTEST_DEGC = 15.0, 55.0
+"""Temperatures between which the device excites a sensor, by requirement 12."""
+
 _SPACING_DEG = 10.0
 _NOT_COMPUTED = {
     3: ("loading feels neither difficult nor dangerous", "people say so, no geometry"),
     4: ("by hand only mount, load, start", "who unlocks the hinge is not part of the description"),
     8: ("a sensor is mounted within 2 min", "screws and holes are not described; people are timed"),
     9: ("cost of at most 10000 EUR", "no prices are described"),
-    12: ("sensor at 15 to 55 degC", "there is no model of heat in the interfaces"),
     13: ("dynamic behaviour can be analysed", "neither friction nor a release of the load is described"),
 }
 
@@ -205,6 +208,7 @@ def requirement_rows(
             f"{', '.join(file.joint_names)}",
         ),
         _space(swept),
+        _heat(file.heat),
         *(
             RequirementRow(number=number, requirement=text, verdict=Verdict.NOT_COMPUTED, why=why)
             for number, (text, why) in _NOT_COMPUTED.items()
@@ -246,6 +250,37 @@ def _excitation(file: DeviceFile) -> RequirementRow:
         unit="of theirs",
         why=f"the motion with {loads}, in the direction in which {worst} is excited least; remedies are above",
     )
+
+
+def _heat(heat: DeviceHeat | None) -> RequirementRow:
+    """The temperatures at which heat put in, or taken out, is what is lost to the room."""
+    text = f"sensor at {COLDEST_DEGC:g} to {HOTTEST_DEGC:g} degC"
+    if heat is None:
+        why = "no [heat] is described: power of the heater, losses and heat capacity"
+        return RequirementRow(number=12, requirement=text, verdict=Verdict.NOT_COMPUTED, why=why)
+    hottest = heat.ambient_degC + heat.heating_W / heat.loss_W_per_K
+    coldest = heat.ambient_degC - heat.cooling_W / heat.loss_W_per_K
+    heated = _time_to(f"heated to {HOTTEST_DEGC:g} degC", heat, heat.ambient_degC, hottest, HOTTEST_DEGC)
+    cooled = _time_to(f"cooled from there to {COLDEST_DEGC:g} degC", heat, HOTTEST_DEGC, coldest, COLDEST_DEGC)
+    return RequirementRow(
+        number=12,
+        requirement=text,
+        verdict=Verdict.MET if coldest <= COLDEST_DEGC and hottest >= HOTTEST_DEGC else Verdict.NOT_MET,
+        value=hottest,
+        limit=HOTTEST_DEGC,
+        unit="degC",
+        why=f"one body at {heat.ambient_degC:g} degC in the room reaches {coldest:.3g} to {hottest:.3g} degC; "
+        f"{heated}; {cooled}",
+    )
+
+
+def _time_to(words: str, heat: DeviceHeat, start_degC: float, end_degC: float, limit_degC: float) -> str:
+    """When the exponential way from a temperature to the one that it ends at passes a limit."""
+    behind, ahead = end_degC - start_degC, end_degC - limit_degC
+    if (limit_degC - start_degC) * behind <= 0.0 or ahead * behind <= 0.0:
+        return f"never {words}" if start_degC != limit_degC else f"{words} from the start"
+    minutes = heat.capacity_J_per_K / heat.loss_W_per_K * math.log(behind / ahead) / 60.0
+    return f"{words} in {minutes:.3g} min"
 
 
 def _strength(file: DeviceFile) -> Iterator[RequirementRow]:

@@ -74,6 +74,21 @@ class DeviceSimulation(Table):
         return self
 
 
+class DeviceHeat(Table):
+    """Heating and cooling of the sensors in their stack, as one body that loses heat to the room."""
+
+    heating_W: NotNegative
+    """Heat that the heater, or the Peltier element, puts in at most."""
+    cooling_W: NotNegative
+    """Heat that it takes out at most; 0 of a heater."""
+    loss_W_per_K: Positive
+    """Heat that sensors and interfaces lose to the room and to the arm, for every kelvin above them."""
+    capacity_J_per_K: Positive
+    """Heat capacity of sensors and interfaces."""
+    ambient_degC: Finite = 22.0
+    """Temperature of the room."""
+
+
 class DeviceFile(Device):
     """The whole file."""
 
@@ -83,6 +98,8 @@ class DeviceFile(Device):
     """Its motion."""
     simulation: DeviceSimulation = DeviceSimulation()
     """Its simulation."""
+    heat: DeviceHeat | None = None
+    """Heating and cooling of the largest stack of sensors; none if left out."""
 
     @property
     def sequence(self) -> Sequence:

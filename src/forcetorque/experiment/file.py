@@ -161,15 +161,21 @@ class Contact(Table):
         return self
 
 
+EACH_FILE = "{file}"
+"""What stands for the name of a file in the label of an interval."""
+
+
 class Interval(Table):
     """A span of the recording."""
 
     label: Text
-    """Name of the interval."""
+    """Name of the interval; with `files`, `{file}` in it stands for the name of each file without its ending."""
+    files: Text | None = None
+    """Stream of several files, such as `file = "raw/*.csv"`: the interval is made for each of them."""
     start_s: Finite
-    """Start; s from the earliest stamp over all streams."""
+    """Start; s from the earliest stamp over all streams; with `files` from the first sample of each, 0 if left out."""
     end_s: Finite | None = None
-    """End, itself excluded; s from the earliest stamp over all streams; the end of the log if left out."""
+    """End, itself excluded; s from the same; the end of the log, or of the file, if left out."""
     use: Use
     """calibration, validation or ignore."""
     kind: Text | None = None
@@ -184,6 +190,19 @@ class Interval(Table):
     contact_links: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
     """In place of a support: links that the world touches, nobody knows how, while the IMU of the recording tells how
     the robot moves."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_the_start_of_files(cls, value: Any) -> Any:
+        return {"start_s": 0.0, **value} if isinstance(value, dict) and value.get("files") is not None else value
+
+    @model_validator(mode="after")
+    def _label_of_files(self) -> Interval:
+        if self.files is not None and EACH_FILE not in self.label:
+            raise PydanticCustomError(
+                "label_of_files", 'expected "{each}" in the label of an interval with files', {"each": EACH_FILE}
+            )
+        return self
 
     @model_validator(mode="after")
     def _support_or_contact_links(self) -> Interval:

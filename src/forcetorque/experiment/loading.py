@@ -42,6 +42,7 @@ from forcetorque.experiment.file import (
 )
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.kept_experiments import keep_experiment
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount
@@ -278,6 +279,7 @@ def _load(parsed: ExperimentFile, file: Path, inputs: Inputs) -> Experiment:
     before = inputs.names()
     streams = read_streams(parsed, file, robot, inputs)
     logs = inputs.names() - before
+    parsed = with_intervals_of_files(parsed, file, streams)
     loading = Loading(parsed=parsed, file=file, inputs=inputs, recording=streams, model=robot or NO_ROBOT, supports={})
     if robot is None:
         stand_in = _stand_in(loading)

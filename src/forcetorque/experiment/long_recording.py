@@ -153,7 +153,7 @@ def _continued(first: Finding, second: Finding) -> Finding:
 
 
 def _key(finding: Finding) -> tuple[object, ...]:
-    return finding.stream, finding.kind, finding.channel
+    return finding.stream, finding.sensor, finding.kind, finding.channel
 
 
 def share_of_segments(count: int, segments: int) -> str:

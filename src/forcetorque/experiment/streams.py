@@ -19,6 +19,7 @@ from forcetorque.experiment.core_tables import Sensor
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import ExperimentContext, Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
+from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.sensors import declare_sensors
 from forcetorque.formats.array_file.log_format import array_streams
 from forcetorque.formats.array_file.streams import ArrayLog
@@ -118,6 +119,7 @@ def read_streams(
         streams=_by_name(file, reading.streams),
         findings=reading.findings,
         origin=specified if reading.origin is None else reading.origin,
+        files=reading.files,
     )
     return follow_recipes(parsed, file, logged, model, clocks_must_tell=clocks_must_tell)
 
@@ -180,6 +182,7 @@ def load_recorded(path: Path | str) -> RecordedLog:
     # of a robot only its joints matter here, which are in rad or in m
     model = None if parsed.robot is None else read_urdf(inputs.robot(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
+    parsed = with_intervals_of_files(parsed, file, recording)
     return RecordedLog(name=parsed.name, recording=recording, intervals=read_spans(parsed, file, recording))
 
 

@@ -16,7 +16,7 @@ from forcetorque.base.toml_file import Table
 from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import LoggedWrist
 from forcetorque.formats.namespaces import namespace_depth
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream
 
 
@@ -50,6 +50,8 @@ class LogReading:
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
     """What the log itself specifies about its origin; None if nothing."""
+    files: Mapping[str, tuple[FileRows, ...]] = field(default_factory=dict)
+    """Files that streams were put together of, by the name of the stream."""
 
     @classmethod
     def of(
@@ -58,6 +60,7 @@ class LogReading:
         *,
         unread: Iterable[Finding] = (),
         origin: Mapping[str, str] | None = None,
+        files: Mapping[str, tuple[FileRows, ...]] | None = None,
     ) -> Self:
         """Collect the streams of a log.
 
@@ -65,6 +68,7 @@ class LogReading:
             readings: The streams, each with its findings.
             unread: Findings on what was not read; they come first.
             origin: As of the class.
+            files: As of the class.
 
         Returns:
             All of them.
@@ -74,6 +78,7 @@ class LogReading:
             streams=tuple(reading.stream for reading in streams),
             findings=(*unread, *(finding for reading in streams for finding in reading.findings)),
             origin=origin,
+            files={} if files is None else files,
         )
 
 
@@ -95,6 +100,8 @@ class LogDescription:
     """Where such a wrench is not in the log of an arm: what is known of its joint torques; None without."""
     sensors_apart: bool = False
     """Whether its sensors are those of no robot, each with a load of its own, as force plates are."""
+    unread_wrenches: tuple[str, ...] = ()
+    """Streams that hold a wrench once `undetermined` is answered, and are not in `reading` before."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -112,7 +112,8 @@ def inspect_experiment(
             if computed is not None and computed.sensor is sensor:
                 run = computed.copy()
             at_half = partial(time_left.at, number * _STEPS + 1)
-            findings += _model_findings(run, calibration, with_causes=with_causes, at_half=at_half)
+            compared_sensor = _model_findings(run, calibration, with_causes=with_causes, at_half=at_half)
+            findings += (replace(one, sensor=sensor.name) for one in compared_sensor)
     return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
 
 

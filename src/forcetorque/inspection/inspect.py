@@ -43,6 +43,7 @@ from forcetorque.inspection.file_contents import (
     times_text,
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.postures import PostureRow, posture_tables, unexplained_postures
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
 from forcetorque.results.result import Result
@@ -152,6 +153,8 @@ class Inspection(Result):
     """The calibration of the maker, where the file is one."""
     in_use_s: tuple[tuple[float, float], ...] = ()
     """Begin and end of the intervals for calibration and validation; s from the earliest stamp; none of a log."""
+    postures: tuple[PostureRow, ...] = ()
+    """Postures in which a sensor begins to disagree with the robot model; none without joints."""
     to_calibrate: ToCalibrate = Field(default="sensor", exclude=True, repr=False)
     """What the experiment file is for; a sensor of a log; None where it states nothing to calibrate."""
 
@@ -180,6 +183,7 @@ class Inspection(Result):
         for (stream, kind, channel), count in Counter(row.group for row in self.findings).items():
             if count > _MOST_SHOWN:
                 yield f"{count - _MOST_SHOWN} more of {stream}: {kind} {channel}".rstrip()
+        yield from posture_tables(self.postures)
         yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {', '.join(self.streams)}"
 
     def records(self) -> list[dict[str, object]]:
@@ -230,8 +234,10 @@ def inspect_log(
     unread = _without_experiment(source, log_format)
     of_log = calibration is None and not sensors
     if unread is None and of_log:
-        recording, findings, to_calibrate = _recorded(source, log_format, progress)
-        return _inspection(str(source), recording, findings, to_calibrate=to_calibrate)
+        read, findings, to_calibrate = _recorded(source, log_format, progress)
+        experiment = read if isinstance(read, Experiment) else None
+        recording = read if isinstance(read, Recording) else read.recording
+        return _inspection(str(source), recording, findings, to_calibrate=to_calibrate, experiment=experiment)
     if unread is not None and of_log:
         return unread
     if unread is not None or log_format is not None or recognised_format(source) is not None:
@@ -269,11 +275,16 @@ def inspected(
     """
     read = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
     findings = _of_experiment(experiment, experiment.section(PATCHES), read, sensors=sensors, progress=progress)
-    return _inspection(source or str(experiment.file), experiment.recording, findings)
+    return _inspection(source or str(experiment.file), experiment.recording, findings, experiment=experiment)
 
 
 def _inspection(
-    source: str, recording: Recording, findings: Iterable[Finding], *, to_calibrate: ToCalibrate = "sensor"
+    source: str,
+    recording: Recording,
+    findings: Sequence[Finding],
+    *,
+    to_calibrate: ToCalibrate = "sensor",
+    experiment: Experiment | None = None,
 ) -> Inspection:
     start, end = recording.span_ns
     return Inspection(
@@ -283,6 +294,7 @@ def _inspection(
         findings=finding_rows(start, findings),
         clocks=clock_rows(recording.clocks),
         to_calibrate=to_calibrate,
+        postures=() if experiment is None else tuple(unexplained_postures(experiment, findings)),
         in_use_s=tuple(
             ((one.start_ns - start) * 1e-9, (min(one.end_ns, end) - start) * 1e-9)
             for one in recording.intervals
@@ -330,13 +342,22 @@ def _prior(source: Path) -> PriorFile:
     return replace(file, notes=(words,))
 
 
-def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recording, tuple[Finding, ...], ToCalibrate]:
-    """Recording and findings of a log or an experiment file, and as of `Inspection.to_calibrate`."""
+def _recorded(
+    source: Path, name: str | None, progress: Progress
+) -> tuple[Recording | Experiment, tuple[Finding, ...], ToCalibrate]:
+    """Recording of a log, or experiment with sensors, its findings, and as of `Inspection.to_calibrate`."""
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
     log_format = recognised_format(source) if name is None else format_named(name)
     if log_format is not None:
-        reading = log_format.describe(source).reading
+        description = log_format.describe(source)
+        reading = description.reading
+        if not any(map(len, reading.streams)):
+            for key, words in description.undetermined.items():
+                raise FormatError(
+                    f"{source}: {key}: expected {words}; got none, without which no sample is read; `forcetorque init "
+                    f"{source}` begins an experiment file that asks for it"
+                )
         recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
         findings = inspect_recording(recording)
         if isinstance(log_format, RobotLoggingFormat):
@@ -360,7 +381,7 @@ def _recorded(source: Path, name: str | None, progress: Progress) -> tuple[Recor
         if all(clock.undetermined is None for clock in recording.clocks):
             raise
         return recording, inspect_recording(recording), "sensor"
-    return experiment.recording, _of_experiment(experiment, patches, progress=progress), "sensor"
+    return experiment, _of_experiment(experiment, patches, progress=progress), "sensor"
 
 
 def _of_experiment(

@@ -46,7 +46,8 @@ def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
     if hanging is None:
         raise ExperimentError(
             "expected [[load]], what hangs on the sensor, got [robot] alone; add [[load]] with link, the link of the "
-            "URDF that it is fastened to, or give [load] in place of [robot]"
+            "URDF that it is fastened to, or give [load] in place of [robot]; of the tool of the URDF itself "
+            "`forcetorque tare --to` writes a file for a robot"
         )
     return hanging
 
@@ -162,6 +163,7 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         experiment=", ".join(campaign.experiments),
         sensor=first.sensor.name,
         serial=first.sensor.serial,
+        frame=None if table is None else table.frame,
         log_format=str(first.experiment.recording.origin.get("format", "")),
         observations=len(solution.residual),
         left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),

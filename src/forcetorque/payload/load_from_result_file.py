@@ -37,7 +37,7 @@ class LoadFromFile:
     """A load from an earlier result of `forcetorque payload`."""
 
     load: Load
-    """Expected parameters and their precision."""
+    """Expected parameters and their precision; on a wrist sensor as stated."""
     serial: str
     """Serial number of the sensor that identified it."""
     known_loads: tuple[str, ...]
@@ -53,13 +53,20 @@ class _Row(BaseModel):
     link: str | None = None
     inertial: Annotated[FloatArray, ArrayField((INERTIAL,))] | None = None
     covariance: Annotated[FloatArray, ArrayField((INERTIAL, INERTIAL))] | None = None
+    mass_half_width_95_kg: float | None = None
+    centre_of_mass_m: tuple[float | None, float | None, float | None] = (None, None, None)
+    inertia_kgm2: Annotated[FloatArray, ArrayField((3, 3))] | None = None
 
 
 class _Weighed(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     serial: str
+    frame: str | None = None
     loads: tuple[_Row, ...]
+
+    def known_loads(self) -> tuple[str, ...]:
+        return tuple(row.load for row in self.loads if not row.estimated and row.mass_kg)
 
 
 def read_load_from_file(file: Path, name: str, link: str) -> LoadFromFile:
@@ -77,17 +84,7 @@ def read_load_from_file(file: Path, name: str, link: str) -> LoadFromFile:
         FormatError: If it is no such result.
         ExperimentError: If it has no such load, or the load is undetermined, or in another frame.
     """
-    content = read_json(file, expected="a result of `forcetorque payload FILE --format json`, there is none")
-    if not isinstance(content, dict) or content.get("schema") != SCHEMA:
-        raise FormatError(f"{file}: expected a result of `forcetorque payload FILE --format json`, schema {SCHEMA!r}")
-    try:
-        weighed = _Weighed.model_validate(content)
-    except ValidationError as error:
-        raise FormatError(f"{file}: {first_error(error)}") from error
-    names = [row.load for row in weighed.loads]
-    if name not in names and len(names) != 1:
-        raise ExperimentError(f"{file}: no load {name!r}; {known_names(name, names)}")
-    row = weighed.loads[names.index(name) if name in names else 0]
+    weighed, row = _weighed(file, name)
     if row.link is None:
         raise ExperimentError(
             f"{file}: expected a load that was weighed on a link of a robot, got {row.load!r} in the frame of a "
@@ -106,8 +103,63 @@ def read_load_from_file(file: Path, name: str, link: str) -> LoadFromFile:
         expected=row.inertial,
         precision=np.asarray(np.linalg.inv(covariance), dtype=np.float64),
     )
-    known_loads = tuple(row.load for row in weighed.loads if not row.estimated and row.mass_kg)
-    return LoadFromFile(load=load, serial=weighed.serial, known_loads=known_loads)
+    return LoadFromFile(load=load, serial=weighed.serial, known_loads=weighed.known_loads())
+
+
+def read_wrist_load_from_file(file: Path, name: str, frame: str) -> LoadFromFile:
+    """Read a load on a wrist sensor from a result of `forcetorque payload`, as if it were stated.
+
+    Args:
+        file: JSON file.
+        name: Name of the load; ignored if the file has one load only.
+        frame: Frame of the sensor, in which it was identified.
+
+    Returns:
+        The load under this name, with its sensor.
+
+    Raises:
+        FormatError: If it is no such result.
+        ExperimentError: If it has no such load, or the load is undetermined, of no positive mass, or in another frame.
+    """
+    weighed, row = _weighed(file, name)
+    if row.link is not None:
+        raise ExperimentError(
+            f"{file}: expected a load on a wrist sensor, got {row.load!r} on the link {row.link!r} of a robot; state "
+            "mass_kg and centre_of_mass_m in the frame of the sensor"
+        )
+    if weighed.frame != frame:
+        was = "a result that names no frame" if weighed.frame is None else f"one in {weighed.frame!r}"
+        raise ExperimentError(
+            f"{file}: expected a load in the frame {frame!r}, got {was}; weigh it again in this frame, or state "
+            "mass_kg and centre_of_mass_m"
+        )
+    centre = [place for place in row.centre_of_mass_m if place is not None]
+    if row.mass_kg is None or row.mass_half_width_95_kg is None or (row.mass_kg and len(centre) < 3):
+        raise ExperimentError(f"{file}: the load {row.load!r} was left open there; weigh it again, or state mass_kg")
+    if row.mass_kg < 0.0:
+        raise ExperimentError(f"{file}: load {row.load!r}: expected a mass of 0 kg or more, got {row.mass_kg:.4g} kg")
+    load = Load(
+        name=name,
+        mass=row.mass_kg,
+        centre_of_mass=np.array(centre) if len(centre) == 3 else np.zeros(3),
+        inertia=row.inertia_kgm2,
+    )
+    return LoadFromFile(load=load, serial=weighed.serial, known_loads=weighed.known_loads())
+
+
+def _weighed(file: Path, name: str) -> tuple[_Weighed, _Row]:
+    """The result, and its load of this name."""
+    content = read_json(file, expected="a result of `forcetorque payload FILE --format json`, there is none")
+    if not isinstance(content, dict) or content.get("schema") != SCHEMA:
+        raise FormatError(f"{file}: expected a result of `forcetorque payload FILE --format json`, schema {SCHEMA!r}")
+    try:
+        weighed = _Weighed.model_validate(content)
+    except ValidationError as error:
+        raise FormatError(f"{file}: {first_error(error)}") from error
+    names = [row.load for row in weighed.loads]
+    if name not in names and len(names) != 1:
+        raise ExperimentError(f"{file}: no load {name!r}; {known_names(name, names)}")
+    return weighed, weighed.loads[names.index(name) if name in names else 0]
 
 
 GYRATION_M: Final = 0.1

@@ -13,10 +13,11 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.load_from_result_file import LoadFromFile, read_wrist_load_from_file
 from forcetorque.payload.samples_from_recordings import load_number, load_problem, samples_left_out
 from forcetorque.payload.toml_tables import Load as LoadTable
 from forcetorque.recording.recording import MovingSupport, Support, Use
@@ -84,6 +85,8 @@ class WristLoads:
     """What the file says of the sensor under them."""
     sensor: ExperimentSensor
     """The sensor."""
+    weighed: tuple[LoadFromFile, ...] = ()
+    """Loads of an earlier result."""
     _known: dict[str, LoadSolution] = field(default_factory=dict, repr=False)
 
     @property
@@ -199,19 +202,30 @@ class WristLoads:
         return experiments
 
 
-def stated_loads(tables: Sequence[LoadTable]) -> tuple[Load, ...]:
-    """Give loads as a file states them.
+def stated_loads(tables: Sequence[LoadTable], inputs: Inputs) -> tuple[tuple[Load, ...], tuple[LoadFromFile, ...]]:
+    """Give loads as a file states them, or the result that it names.
 
     Args:
         tables: Tables `[load]` or `[[load]]`.
+        inputs: Opens the results that they name.
 
     Returns:
-        The loads.
+        The loads, and those of an earlier result.
     """
-    return tuple(
-        Load(name=table.name, mass=table.mass_kg, centre_of_mass=table.centre_of_mass_m, inertia=table.inertia_kgm2)
+    weighed = {
+        table.name: read_wrist_load_from_file(inputs.file(table.weighed), table.name, table.frame)
+        for table in tables
+        if table.weighed is not None
+    }
+    loads = tuple(
+        weighed[table.name].load
+        if table.name in weighed
+        else Load(
+            name=table.name, mass=table.mass_kg, centre_of_mass=table.centre_of_mass_m, inertia=table.inertia_kgm2
+        )
         for table in tables
     )
+    return loads, tuple(weighed.values())
 
 
 def stated_inertia(loads: Sequence[Load]) -> Inertia:
@@ -225,7 +239,11 @@ def stated_inertia(loads: Sequence[Load]) -> Inertia:
 
 
 def read_wrist_loads(
-    tables: Sequence[LoadTable], file: Path, supports: Mapping[str, MovingSupport], sensor: ExperimentSensor
+    tables: Sequence[LoadTable],
+    file: Path,
+    supports: Mapping[str, MovingSupport],
+    sensor: ExperimentSensor,
+    inputs: Inputs,
 ) -> WristLoads:
     """Take the loads of an experiment file.
 
@@ -234,13 +252,14 @@ def read_wrist_loads(
         file: The experiment file, for messages.
         supports: Support of the intervals of each load, by its name.
         sensor: The sensor.
+        inputs: Opens the results that the tables name.
 
     Returns:
         The loads.
     """
     with stated_in(f"{file}: load"):
-        loads = stated_loads(tables)
-    return WristLoads(loads=loads, supports=supports, table=tables[0], sensor=sensor)
+        loads, weighed = stated_loads(tables, inputs)
+    return WristLoads(loads=loads, supports=supports, table=tables[0], sensor=sensor, weighed=weighed)
 
 
 def load_model(load: LoadTable, sensor: str, inertia: Inertia) -> RobotModel:

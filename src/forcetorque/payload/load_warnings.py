@@ -121,7 +121,8 @@ def circular_loads(run: SensorRun) -> Iterator[str]:
     Yields:
         A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
     """
-    for weighed in () if (loads := link_loads(run.experiment)) is None else loads.weighed:
+    loads = link_loads(run.experiment) or wrist_loads(run.experiment)
+    for weighed in () if loads is None else loads.weighed:
         if weighed.serial == run.sensor.serial and not weighed.known_loads:
             yield (
                 f"load {weighed.load.name!r}: weighed before by this sensor itself ({weighed.serial}), beside nothing "

@@ -365,6 +365,8 @@ class WeighedLoad(Result):
     """Sensor."""
     serial: str
     """Its serial number."""
+    frame: str | None = None
+    """Frame of the loads on a wrist sensor; null on links of a robot."""
     observations: int
     """Number of means or poses that were fitted."""
     left_out: int

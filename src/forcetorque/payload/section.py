@@ -63,7 +63,7 @@ class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
                 loading.recording.stream(stream)
             if load.applied is not None:
                 loading.recording.stream(load.applied).signal("applied_wrench")
-            inertia = stated_inertia(stated_loads(tables))
+            inertia = stated_inertia(stated_loads(tables, loading.inputs)[0])
         return StandIn(model=load_model(load, loading.parsed.sensor[0].name, inertia), supports=supports)
 
     def place(  # noqa: D102
@@ -102,7 +102,8 @@ def _require_robot_or_load(loads: Loads | None, file: ExperimentFile) -> None:
 
 def _read(table: Loads | None, loading: Loading) -> WristLoads | LinkLoads | None:
     if loading.stand_in is not None and loading.stand_in.supports is not None:
-        return read_wrist_loads(wrist_tables(table), loading.file, loading.stand_in.supports, loading.sensors[0])
+        supports = loading.stand_in.supports
+        return read_wrist_loads(wrist_tables(table), loading.file, supports, loading.sensors[0], loading.inputs)
     return read_link_loads(link_tables(table), loading)
 
 

@@ -72,6 +72,8 @@ class Load(Table):
     """Centre of mass in the frame; left out to estimate it."""
     inertia_kgm2: Annotated[FloatArray, ArrayField((3, 3))] | Literal["unknown"] | None = None
     """Inertia about the centre of mass, along the frame's axes; `unknown` to estimate it; a point mass if left out."""
+    weighed: Path | None = Field(default=None, alias="from")
+    """In place of these: the load of that name in a result of `forcetorque payload --format json`, taken as stated."""
     drift: bool | None = None
     """Whether biases move evenly in time where loads are estimated; rows that are held out choose if left out."""
     mount: Literal["unknown"] | None = None
@@ -94,6 +96,9 @@ class Load(Table):
             )
         if self.applied is not None and (self.mass_kg is not None or self.centre_of_mass_m is not None):
             raise PydanticCustomError("load_twice", "applied says what the sensor must read: leave the mass out")
+        if self.weighed is not None and (self.applied is not None or self.motion == ()):
+            raise PydanticCustomError("load_twice", "from names a load that moves: expected motion with its streams")
+        _require_stated_once(self)
         return self
 
     @property
@@ -213,17 +218,21 @@ class LinkLoad(Table):
 
     @model_validator(mode="after")
     def _stated_or_weighed(self) -> LinkLoad:
-        stated = (self.mass_kg, self.centre_of_mass_m, self.inertia_kgm2)
-        if self.weighed is not None and any(value is not None for value in stated):
-            raise PydanticCustomError(
-                "load_twice", "from says what the load is: leave mass_kg, centre_of_mass_m and inertia_kgm2 out"
-            )
+        _require_stated_once(self)
         return self
+
+
+def _require_stated_once(load: Load | LinkLoad) -> None:
+    stated = (load.mass_kg, load.centre_of_mass_m, load.inertia_kgm2)
+    if load.weighed is not None and any(value is not None for value in stated):
+        raise PydanticCustomError(
+            "load_twice", "from says what the load is: leave mass_kg, centre_of_mass_m and inertia_kgm2 out"
+        )
 
 
 def _kind_of_load(value: Any) -> str:
     keys = value.keys() if isinstance(value, dict) else ()
-    if isinstance(value, Load) or (not {"link", "from"} & set(keys) and _OF_A_SENSOR & set(keys)):
+    if isinstance(value, Load) or ("link" not in keys and _OF_A_SENSOR & set(keys)):
         return "on a sensor"
     return "on a link"
 

@@ -250,8 +250,8 @@ def advice(
     return (
         f"record first {first.postures} postures in {first.seconds:.0f} s, held at {first.support}, {attached}{warm}: "
         f"the expected error falls from {first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m to "
-        f"{first.force_after_N:.3g} N (at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
-        f"(at most {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{of_model(rows[-1])}{left}"
+        f"{first.force_after_N:.3g} N (95 %: {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
+        f"(95 %: {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{of_model(rows[-1])}{left}"
     )
 
 

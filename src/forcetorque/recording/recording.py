@@ -156,6 +156,18 @@ class Finding:
     """How large it is, in `unit`."""
     unit: str | None = None
     """Unit of the size."""
+    sensor: str | None = None
+    """Sensor whose reading was compared; None for what is of the stream itself."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileRows:
+    """One of the files that a stream was put together of."""
+
+    name: str
+    """Path in the folder of the log."""
+    rows: int
+    """Number of its samples."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -172,6 +184,8 @@ class Recording(ArrayRecord):
     """Where it comes from, as free text by key: format, path, robot."""
     clocks: tuple[ClockShift, ...] = field(default=(), metadata=names())
     """How stamps were brought to one clock when it was read; not stored, for what is stored has that clock."""
+    files: Mapping[str, tuple[FileRows, ...]] = field(default_factory=dict, metadata=mapping())
+    """Files that streams were put together of, in their order, by the name of the stream; not stored."""
     of_span_ns: tuple[int, int] | None = None
     """Earliest and latest stamp of the recording that it is a segment of; None for a whole one, which alone is stored.
     """

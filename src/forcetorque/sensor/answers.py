@@ -14,6 +14,7 @@ from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import Response
     from forcetorque.sensor.bandwidth.decays import ResponseNumber
+    from forcetorque.sensor.bandwidth.driven import ChannelResponse
     from forcetorque.sensor.gains.gains import Gains
     from forcetorque.sensor.gains.result import SensorRow
     from forcetorque.sensor.sessions.session_drift import Drift
@@ -113,10 +114,25 @@ def response_answer(response: Response) -> Answer:
     return Answer(
         subject=f"{response.sensor} ({response.serial}), {response.excitation}, {response.signal}",
         verdict=shown[0] if shown else "NOT DETERMINED",
-        why=("; ".join((*shown[1:], *first, *filtered)), *response.refused[:1]),
+        why=("; ".join((*shown[1:], *first, *filtered)), *_channels(response.channels), *response.refused[:1]),
         written=(response.figure_file,),
         concern=Concern.BAD if not shown else Concern.UNCERTAIN if response.refused else Concern.NONE,
     )
+
+
+def _channels(channels: Sequence[ChannelResponse]) -> Iterator[str]:
+    if len(channels) < 2:
+        return
+    gains = [f"{row.channel} {_gain(row, row.strongest_gain)}" for row in channels if row.strongest_gain is not None]
+    lost = [row.channel for row in channels if row.strongest_gain is None]
+    unknown = [f"not explained by its measured force: {', '.join(lost)}"] if lost else []
+    yield f"gain by channel: {'; '.join((*gains, *unknown))}"
+
+
+def _gain(row: ChannelResponse, strongest: float) -> str:
+    if row.gain is not None:
+        return plus_minus(row.gain, row.gain_half_width_95, "")
+    return f"{plus_minus(strongest, row.strongest_half_width_95, '')} at {row.strongest_hz:.3g} Hz"
 
 
 def _number(row: ResponseNumber) -> str:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from forcetorque.sensor.bandwidth.bandwidth import Response
     from forcetorque.sensor.bandwidth.decays import DecayCurve
+    from forcetorque.sensor.bandwidth.driven import ChannelResponse
     from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
     from forcetorque.sensor.gains.gains import SensorGains
     from forcetorque.sensor.sessions.session_drift import SensorSessions, SessionRow
@@ -153,7 +154,7 @@ _MEASURED, _FITTED = look(0), look(1)
 
 @in_figure_style
 def response_figure(response: Response) -> Figure:
-    """Draw gain, phase and coherence over frequency, and the first decays.
+    """Draw gain, phase and coherence over frequency, the same of every channel of several, and the first decays.
 
     Args:
         response: The response; panels that it has nothing for are left out.
@@ -167,22 +168,28 @@ def response_figure(response: Response) -> Figure:
     decays = response.decays[:MOST_DECAYS]
     curved = response.curve is not None
     decay_rows = -(-len(decays) // _COLUMNS)
-    rows = max(curved + decay_rows, 1)
+    channels = response.channels if len(response.channels) > 1 else ()
+    channel_rows = 2 if channels else 0
+    rows = max(curved + channel_rows + decay_rows, 1)
     figure = new_figure(ROW_INCHES[1] * 0.9 * rows)
     # a grid inside for each kind of panel: of columns that both divide, Matplotlib 3.8 leaves the panels nothing
     grid = figure.add_gridspec(rows, 1)
     if response.curve is not None:
         third = grid[0].subgridspec(1, 3)
         _bode([figure.add_subplot(third[k]) for k in range(3)], response.curve)
+    if channels:
+        cells = grid[int(curved) : int(curved) + channel_rows].subgridspec(channel_rows, len(channels))
+        for k, channel in enumerate(channels):
+            _channel([figure.add_subplot(cells[row, k]) for row in range(channel_rows)], channel, first=k == 0)
     if decays:
-        quarter = grid[int(curved) :].subgridspec(decay_rows, _COLUMNS)
+        quarter = grid[int(curved) + channel_rows :].subgridspec(decay_rows, _COLUMNS)
         for k, decay in enumerate(decays):
             _decay(figure.add_subplot(quarter[k]), decay, first=k % _COLUMNS == 0, signal=response.signal)
     keys: list[tuple[str, Any]] = [
         ("measured", {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes}),
         ("fitted", {"color": _FITTED.colour, "linestyle": _FITTED.dashes}),
     ]
-    if curved:
+    if curved or channels:
         keys.append(("95 % interval", {"color": _MEASURED.colour, "linewidth": 6.0, "alpha": 0.25}))
         keys.append(("coherence of chance, 95 %", {"color": REFERENCE_COLOUR, "linestyle": ":"}))
     name = shown_name(f"{response.sensor}, {response.signal}")
@@ -195,27 +202,47 @@ def _bode(panels: list[Axes], curve: ResponseCurve) -> None:
     driven = np.asarray(curve.driven) > 0.0
     frequency, value = curve.frequency_hz[driven], (curve.real + 1j * curve.imaginary)[driven]
     size, radius = np.abs(value), curve.radius_95[driven]
-    floor = 1e-3 * float(size.max())
     turn = np.degrees(np.arcsin(np.clip(radius / np.maximum(size, 1e-300), 0.0, 1.0)))
     # a phase whose interval is the whole circle is none; from -270 to 90 deg no resonance crosses the edge
     phase = np.where(radius < size, (np.degrees(np.angle(value)) - 90.0) % 360.0 - 270.0, np.nan)
-    lines: dict[str, Any] = {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes, "linewidth": 1.0}
-    band: dict[str, Any] = {"color": _MEASURED.colour, "alpha": 0.25, "linewidth": 0.0}
-    panels[0].fill_between(frequency, np.maximum(size - radius, floor), np.maximum(size + radius, floor), **band)
-    panels[0].loglog(frequency, np.maximum(size, floor), **lines)
-    panels[1].fill_between(frequency, phase - turn, phase + turn, **band)
-    panels[1].semilogx(frequency, phase, **lines)
-    panels[2].semilogx(frequency, curve.coherence[driven], **lines)
-    panels[2].axhline(curve.chance, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
-    panels[2].set_ylim(0.0, 1.05)
+    panels[1].fill_between(frequency, phase - turn, phase + turn, **_BAND)
+    panels[1].semilogx(frequency, phase, **_CURVE)
     if curve.fitted_real is not None and curve.fitted_imaginary is not None:
         fitted = (curve.fitted_real + 1j * curve.fitted_imaginary)[driven]
-        style = {"color": _FITTED.colour, "linestyle": _FITTED.dashes, "linewidth": 1.4}
-        panels[0].loglog(frequency, np.maximum(np.abs(fitted), floor), **style)
-        panels[1].semilogx(frequency, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **style)
+        panels[1].semilogx(frequency, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **_FIT)
+    _gain_and_coherence(panels[0], panels[2], curve)
     for panel, label in zip(panels, ("gain", "phase, deg", "coherence"), strict=True):
         panel.set_ylabel(label)
         panel.set_xlabel("frequency, Hz")
+
+
+_BAND: dict[str, Any] = {"color": _MEASURED.colour, "alpha": 0.25, "linewidth": 0.0}
+_CURVE: dict[str, Any] = {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes, "linewidth": 1.0}
+_FIT: dict[str, Any] = {"color": _FITTED.colour, "linestyle": _FITTED.dashes, "linewidth": 1.4}
+
+
+def _gain_and_coherence(gain: Axes, coherence: Axes, curve: ResponseCurve) -> None:
+    driven = np.asarray(curve.driven) > 0.0
+    frequency = curve.frequency_hz[driven]
+    size, radius = np.hypot(curve.real, curve.imaginary)[driven], curve.radius_95[driven]
+    floor = 1e-3 * float(size.max())
+    gain.fill_between(frequency, np.maximum(size - radius, floor), np.maximum(size + radius, floor), **_BAND)
+    gain.loglog(frequency, np.maximum(size, floor), **_CURVE)
+    if curve.fitted_real is not None and curve.fitted_imaginary is not None:
+        fitted = np.hypot(curve.fitted_real, curve.fitted_imaginary)[driven]
+        gain.loglog(frequency, np.maximum(fitted, floor), **_FIT)
+    coherence.semilogx(frequency, curve.coherence[driven], **_CURVE)
+    coherence.axhline(curve.chance, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
+    coherence.set_ylim(0.0, 1.05)
+
+
+def _channel(panels: list[Axes], channel: ChannelResponse, *, first: bool) -> None:
+    _gain_and_coherence(panels[0], panels[1], channel.curve)
+    panels[0].set_title(channel.channel if channel.strongest_gain is not None else f"{channel.channel}: not explained")
+    panels[1].set_xlabel("frequency, Hz")
+    if first:
+        panels[0].set_ylabel("gain")
+        panels[1].set_ylabel("coherence")
 
 
 def _decay(panel: Axes, decay: DecayCurve, *, first: bool, signal: str) -> None:

@@ -6,12 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.number_text import amount, within
+from forcetorque.results.number_text import amount, plus_minus, within
 from forcetorque.skin.contact.tracking import OFFERED
 
 if TYPE_CHECKING:
     from forcetorque.skin.layout.check import SkinCheck
     from forcetorque.skin.taxels.calibrate import SkinCalibration
+    from forcetorque.skin.wrench.known_weight import KnownWeight
     from forcetorque.skin.wrench.wrench import SkinWrench
 
 _TWO_SIGMA = 1.96
@@ -89,6 +90,7 @@ def skin_wrench_answer(result: SkinWrench) -> Answer:
         why=()
         if largest is None
         else (
+            *(() if result.weight is None else (_weight(result.weight),)),
             f"largest contact force {within(largest.force_N, _half_width(largest.force_sd_N), 'N')} at "
             f"{largest.time_s:.2f} s; mean of all contacts together {amount(result.mean_force_N, 'N')}",
             f"{len(result.lives)} contact{'s' * (len(result.lives) != 1)}, each from its first frame to its last; "
@@ -96,8 +98,31 @@ def skin_wrench_answer(result: SkinWrench) -> Answer:
         ),
         step="take what was left after a release as rest, by --re-tare" if offered else "",
         written=(result.figure_file,),
-        concern=Concern.UNCERTAIN if offered else Concern.NONE,
+        concern=Concern.BAD
+        if result.weight is not None and result.weight.agreement.startswith("too")
+        else Concern.UNCERTAIN
+        if offered or (result.weight is not None and result.weight.agreement == "inconclusive")
+        else Concern.NONE,
     )
+
+
+def _weight(weight: KnownWeight) -> str:
+    read = plus_minus(100.0 * weight.share, _percent(weight.share_half_width_95), "%")
+    words = {
+        "agrees": "it agrees",
+        "too much": "TOO MUCH: the cover is softer under an object than in the chamber, or its curves do not hold",
+        "too little": "TOO LITTLE: load is lost at the edge, on a slope or on dead taxels, or the curves do not hold",
+        "inconclusive": "inconclusive: put it on again, three times or more, each time anew",
+    }[weight.agreement]
+    settled = max(row.settled_s for row in weight.placements)
+    return (
+        f"known weight of {amount(weight.weight_N, 'N')}: {read} is read of it in {len(weight.placements)} placements, "
+        f"settled within {amount(settled, 's')}; {words}"
+    )
+
+
+def _percent(half_width: float | None) -> float | None:
+    return None if half_width is None else 100.0 * half_width
 
 
 def _half_width(deviation: float | None) -> float | None:

@@ -139,6 +139,12 @@ def skin_wrench(
         float | None,
         Option("Area of a taxel, for --method simple; with others the figure has it beside them."),
     ] = None,
+    weight_kg: Annotated[
+        float | None,
+        Option(
+            "Mass of a known weight that was put on the level patch, several times: what is read is held against it."
+        ),
+    ] = None,
     plan: Annotated["Path | None", Option("Drawing of the patch (skinGui .ini), for --method thesis.")] = None,
     written_normals: Annotated[
         bool, Option("Take the normals of the layout, not those of its rebuilt surface.")
@@ -168,6 +174,7 @@ def skin_wrench(
     choice = WrenchChoice(
         method=method,
         taxel_area_mm2=taxel_area_mm2,
+        weight_kg=weight_kg,
         plan=plan,
         written_normals=written_normals,
         rest_s=rest_s,

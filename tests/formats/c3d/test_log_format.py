@@ -14,12 +14,14 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, MissingExtraError, OutputError
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.c3d.c3d_file import is_c3d, read_c3d
 from forcetorque.formats.c3d.conventions import C3dLog
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
 from forcetorque.formats.c3d.log_format import C3dFormat
 from forcetorque.formats.c3d.writing import INTEL, Processor
 from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.inspect import inspect_log
 from tests.formats.c3d import plate_files as files
 
 FLOAT32 = 1e-6
@@ -139,6 +141,7 @@ def test_units_that_are_not_stated_are_asked(
     described = C3dFormat().describe(path)
     assert list(described.undetermined) == key
     assert not [stream for stream in described.reading.streams if "wrench" in stream.signals]
+    assert described.unread_wrenches == ("plate1",)
     np.testing.assert_allclose(_wrench(path, **answer), _expected(), atol=1e3 * FLOAT32)
 
 
@@ -247,6 +250,21 @@ def test_init_asks_what_the_file_leaves_open(tmp_path: Path) -> None:
     draft = draft_experiment(path, tmp_path / "x.toml")
     assert {"origin_from", "measure_direction"} <= {question.key for question in draft.questions}
     assert draft.format == "c3d"
+
+
+def test_a_file_without_units_is_asked_for_them_and_its_plate_is_drafted(tmp_path: Path) -> None:
+    """`inspect` names what lacks, and the draft is complete once that is answered."""
+    path = files.write_plate(tmp_path / "a.c3d", 3, POINT__UNITS=("",))
+    with pytest.raises(FormatError, match="length_unit: expected unit of corners, .*; got none, without which"):
+        inspect_log(path)
+    file = tmp_path / "x.toml"
+    assert {"length_unit", "serial", "measure_direction"} <= {one.key for one in draft_experiment(path, file).questions}
+    text = file.read_text(encoding="utf-8")
+    answers = {"length_unit": "mm", "serial": "FP1", "motion": "none", "measure_direction": "child_to_parent"}
+    for key, answer in answers.items():
+        text = text.replace(f'{key} = "?"', f'{key} = "{answer}"')
+    file.write_text(text.replace('full_scale = "?"', "full_scale = [5e3, 5e3, 1e4, 1e3, 1e3, 1e3]"), encoding="utf-8")
+    assert "wrench" in load_experiment(file).recording.stream("plate1").signals
 
 
 def test_init_drafts_every_plate(tmp_path: Path) -> None:

@@ -162,6 +162,16 @@ def test_lists_of_several_lengths_are_refused_by_their_row(tmp_path: Path) -> No
         _stream(path, replace(OF_LIST, signals=(beyond,)))
 
 
+def test_lists_of_several_lengths_do_not_hide_the_other_columns(tmp_path: Path) -> None:
+    """A list of what a camera saw, beside the time: it has no numbers in the sketch, the time has its own."""
+    seen = [[float(k)] * (1 + k % 3) for k in range(ROWS)]
+    path = tmp_path / "log"
+    pq.write_table(pa.table({"seen": seen, "t": _columns(ROWS)["t"]}), path)
+    *columns, time = sketch_table(path).columns
+    assert [column.smallest for column in columns] == [None]
+    assert (time.name, time.largest) == ("t", _columns(ROWS)["t"].max())
+
+
 def _write_file(path: Path, table: pa.Table) -> None:
     with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_file(sink, table.schema) as writer:
         writer.write_table(table, max_chunksize=70)

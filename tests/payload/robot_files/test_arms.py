@@ -168,6 +168,7 @@ def test_an_unknown_inertia_is_named(tmp_path: Path, form: LoadFormat) -> None:
     text, words = _written(tmp_path, replace(LOAD, inertia=None), form)
     inertia = TARGETS[form](text)[2]
     if inertia is None:
+        assert "it holds no inertia: each 0.001 kg m2 of the load makes 0.001 N m for each rad/s2" in words
         return
     assert "the inertia is not known and written as" in words
     if form in (LoadFormat.URDF, LoadFormat.MJCF):
@@ -198,7 +199,10 @@ def test_a_sensor_on_the_flange_has_a_pose(tmp_path: Path) -> None:
     for form in ARMS:
         with pytest.raises(FormatError, match=rf"{form}: expected --sensor-pose, .* got the frame 'wrist_ft'"):
             _written(tmp_path, sensor, form)
-    _, centre, inertia = _ur(_written(tmp_path, sensor, LoadFormat.UR, pose)[0])
+    text, words = _written(tmp_path, sensor, LoadFormat.UR, pose)
+    assert "each 0.1 kg of a sensor that is mounted on the flange makes 0.98 N" in words
+    assert "mounted" not in _written(tmp_path, LOAD, LoadFormat.UR)[1]
+    _, centre, inertia = _ur(text)
     np.testing.assert_allclose(centre, pose[:3, :3] @ LOAD.centre_of_mass + pose[:3, 3], rtol=1e-7)
     assert inertia is not None
     np.testing.assert_allclose(inertia, pose[:3, :3] @ INERTIA @ pose[:3, :3].T, atol=DIGITS * 0.01)

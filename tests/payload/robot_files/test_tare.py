@@ -78,7 +78,7 @@ def test_the_robot_is_told_the_new_offset(tmp_path: Path) -> None:
 
 
 def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None:
-    """The links of a robot are its load; the offset of the calibration stands beside; no file holds such a load."""
+    """The links of a robot are its load; the offset of the calibration stands beside; no file holds joints."""
     run = interactive_experiment(arm / PARQUET)["arm_ft"]
     calibration = calibrate_sensor(run, code_version="1", created="now")
     (row,) = run.tare("judge", calibration).sensors
@@ -86,7 +86,7 @@ def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None
     np.testing.assert_allclose(row.offset, OFFSET, rtol=0.2)  # as far as the calibration is right
     assert row.offset_before is not None
     assert np.array_equal(row.offset_before, calibration.offset)
-    with pytest.raises(ExperimentError, match=r"expected \[load\], of which a robot is told"):
+    with pytest.raises(ExperimentError, match="expected a rigid load, of which a robot is told, got 'elbow'"):
         robot_load(run, row.bias)
 
 

@@ -68,6 +68,16 @@ def test_objects_are_found_while_they_rest(run: Run, truths: list[ContactTruth])
         assert (text in warnings) == (number > 0)
 
 
+def test_a_known_weight_is_held_against_what_is_read(run: Run, truths: list[ContactTruth]) -> None:
+    """Each object is a placement; objects of several masses are no one weight."""
+    words = (*WRENCH, "--weight-kg", f"{truths[0].contact.mass_kg:g}")
+    weight = run(*words, "--format", "json").result()["weight"]
+    assert len(weight["placements"]) == len(truths)
+    assert weight["placements"][0]["share"] == pytest.approx(1.0, abs=0.2)
+    assert "known weight of" in run(*words).out
+    assert "expected a mass above 0 kg" in run(*WRENCH, "--weight-kg", "0").err
+
+
 def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
     """CSV has a line for each, with its wrench, its place and its taxels."""
     rows = run(*WRENCH, "--format", "csv").rows()

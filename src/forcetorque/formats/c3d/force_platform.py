@@ -57,7 +57,7 @@ class ForcePlate(ArrayRecord):
     @property
     def name(self) -> str:
         """Name of its stream, and of its frame."""
-        return f"plate{self.number}"
+        return _name(self.number)
 
     @property
     def frame(self) -> str:
@@ -121,6 +121,22 @@ def undetermined_keys(file: C3dFile) -> set[str]:
         if plate.origin_is_open:
             keys.add("origin_from")
     return keys
+
+
+def plate_names(file: C3dFile) -> tuple[str, ...]:
+    """Name the plates of a file, whose wrenches may be undetermined yet.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Names of their streams, in the order of the file.
+    """
+    return tuple(_name(plate.number) for plate in _Stated.all(file))
+
+
+def _name(number: int) -> str:
+    return f"plate{number}"
 
 
 def force_plates(file: C3dFile, table: C3dLog) -> tuple[ForcePlate, ...]:

@@ -17,7 +17,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.formats.c3d.c3d_file import C3dFile, is_c3d, read_c3d
 from forcetorque.formats.c3d.conventions import QUESTIONS, C3dLog, factor_of, require_open, stated_unit, unanswered
-from forcetorque.formats.c3d.force_platform import ForcePlate, force_plates, undetermined_keys, zero_frames
+from forcetorque.formats.c3d.force_platform import ForcePlate, force_plates, plate_names, undetermined_keys, zero_frames
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
@@ -44,7 +44,14 @@ class C3dFormat:
         table = checked_tables({"format": "c3d", "path": path}, C3dLog, path)
         undetermined = {key: QUESTIONS[key] for key in unanswered(table, undetermined_keys(file))}
         reading = _reading(file, table, undetermined)
-        return LogDescription(table=table, reading=reading, undetermined=undetermined, sensors_apart=True)
+        read = {stream.name for stream in reading.streams}
+        return LogDescription(
+            table=table,
+            reading=reading,
+            undetermined=undetermined,
+            sensors_apart=True,
+            unread_wrenches=tuple(name for name in plate_names(file) if name not in read),
+        )
 
     def read(self, specified: C3dLog, context: LogContext) -> LogReading:
         """Read the wrenches about the centres of the surfaces, and the markers."""
@@ -68,7 +75,10 @@ def determined_file(path: Path, table: C3dLog) -> C3dFile:
     keys = undetermined_keys(file)
     require_open(table, keys)
     for key in unanswered(table, keys):
-        raise FormatError(f"{path}: {key}: expected {QUESTIONS[key]}; got none")
+        raise FormatError(
+            f"{path}: {key}: expected {QUESTIONS[key]}; got none: state it by {key} of [recording] "
+            f"in an experiment file, by --recording {key}=VALUE of a command without one"
+        )
     return file
 
 

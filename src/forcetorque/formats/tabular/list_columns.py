@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -76,13 +76,27 @@ class FlatColumns:
         """
         return list(dict.fromkeys(self.elements[name][0] if name in self.elements else name for name in columns))
 
-    def flattened(self, batch: Any, columns: Sequence[str], place: Callable[[int], str]) -> Any:
+    def uneven(self, batch: Any) -> frozenset[str]:
+        """Find columns of lists that are of several lengths.
+
+        Args:
+            batch: Rows of all columns.
+
+        Returns:
+            Their names in the file.
+        """
+        return frozenset(name for name in self.lengths if self._row_of_other_length(_column(batch, name), name) >= 0)
+
+    def flattened(
+        self, batch: Any, columns: Sequence[str], place: Callable[[int], str], *, without: Collection[str] = ()
+    ) -> Any:
         """Take the elements of lists apart.
 
         Args:
             batch: Rows of the columns that `sources` names.
             columns: Names from `names`.
             place: Gives the location of a row of the batch, for messages, by its number from 0.
+            without: Columns of lists whose elements are null, whatever they hold.
 
         Returns:
             The same rows, with a column of numbers for each name.
@@ -92,23 +106,28 @@ class FlatColumns:
         """
         wanted = set(columns)
         for name in self.sources([element for element in self.elements if element in wanted]):
-            self._require_length(_column(batch, name), name, place)
-        arrays = [
-            pc.list_element(_column(batch, self.elements[name][0]), self.elements[name][1])
-            if name in self.elements
-            else _column(batch, name)
-            for name in columns
-        ]
+            if name not in without:
+                self._require_length(_column(batch, name), name, place)
+        arrays = [self._flat_column(batch, name, without) for name in columns]
         return pa.RecordBatch.from_arrays(arrays, names=list(columns))
 
+    def _flat_column(self, batch: Any, name: str, without: Collection[str]) -> Any:
+        if name not in self.elements:
+            return _column(batch, name)
+        source, element = self.elements[name]
+        return pa.nulls(len(batch)) if source in without else pc.list_element(_column(batch, source), element)
+
+    def _row_of_other_length(self, column: Any, name: str) -> int:
+        """First row whose list has another length; -1 for none."""
+        other = pc.fill_null(pc.not_equal(pc.list_value_length(column), self.lengths[name]), False)
+        return int(pc.index(other, True).as_py())
+
     def _require_length(self, column: Any, name: str, place: Callable[[int], str]) -> None:
-        length = self.lengths[name]
-        other = pc.fill_null(pc.not_equal(pc.list_value_length(column), length), False)
-        row = pc.index(other, True).as_py()
+        row = self._row_of_other_length(column, name)
         if row >= 0:
             raise FormatError(
-                f"{place(row)}: column {name!r}: expected a list of {length} numbers as in the first rows, got "
-                f"{len(column[row])}"
+                f"{place(row)}: column {name!r}: expected a list of {self.lengths[name]} numbers as in the first rows, "
+                f"got {len(column[row])}"
             )
 
 

@@ -60,7 +60,7 @@ from forcetorque.formats.tabular.table_layout import (
     quote_of,
 )
 from forcetorque.recording.alignment import joined_stream
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream
 
 
@@ -387,10 +387,14 @@ class TabularFormat:
     def read(self, specified: TabularLog, context: LogContext) -> LogReading:
         """Read every file that is specified."""
         context.folder(specified.path)
-        return LogReading.of([_read_stream(k, specified, context) for k in range(len(specified.stream))])
+        read = [_read_stream(k, specified, context) for k in range(len(specified.stream))]
+        return LogReading.of(
+            [reading for reading, _ in read], files={reading.stream.name: files for reading, files in read}
+        )
 
 
-def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamReading:
+def _read_stream(k: int, specified: TabularLog, context: LogContext) -> tuple[StreamReading, tuple[FileRows, ...]]:
+    """The stream, and the files that it was put together of."""
     entry = specified.stream[k]
     names = [name for file in entry.files for name in _matching(file, entry, specified, context)]
     paths = [context.file(specified.path / name) for name in names]
@@ -407,7 +411,8 @@ def _read_stream(k: int, specified: TabularLog, context: LogContext) -> StreamRe
         skipped = Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
         findings.insert(0, skipped)
     findings += [finding for reading in readings for finding in reading.findings]
-    return StreamReading(joined, tuple(findings))
+    files = tuple(FileRows(name=name, rows=len(one)) for name, one in zip(names, segments, strict=True))
+    return StreamReading(joined, tuple(findings)), files
 
 
 def _matching(file: str, entry: TabularStream, specified: TabularLog, context: LogContext) -> list[str]:

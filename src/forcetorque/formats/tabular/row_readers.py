@@ -376,7 +376,8 @@ def first_batch(file: Path) -> Any:
         file: The file.
 
     Returns:
-        A few rows with all columns, the fewer the more columns there are; None where it has none.
+        A few rows with all columns, the fewer the more columns there are, null where lists have several lengths; None
+        where it has none.
 
     Raises:
         FormatError: If it is damaged.
@@ -385,7 +386,9 @@ def first_batch(file: Path) -> Any:
     rows = max(1, _FIRST_CELLS // max(len(flat.names), 1))
     try:
         batch = next(table.iter_batches(batch_size=rows), None)
-        return None if batch is None else flat.flattened(batch, flat.names, lambda row: _row(file, row))
+        if batch is None:
+            return None
+        return flat.flattened(batch, flat.names, lambda row: _row(file, row), without=flat.uneven(batch))
     except FormatError:
         raise
     except _READ_ERRORS as error:

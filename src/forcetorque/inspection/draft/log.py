@@ -125,7 +125,7 @@ def draft_of_description(description: LogDescription, joints: Collection[str] = 
             frame=None if "wrench" not in stream.signals else stream.signals["wrench"].frame,
         )
         for stream in description.reading.streams
-    )
+    ) + tuple(DraftedStream(name=name, quantities=("wrench",), frame=name) for name in description.unread_wrenches)
     table = description.table
     return DraftedLog(paths=(table.path,), format=table.format, streams=streams, description=description)
 

@@ -172,11 +172,11 @@ def not_held(load: FlangeLoad, form: LoadFormat, bias: FloatArray) -> Iterator[s
         size = f"{amount(force, 'N')} and {amount(moment, 'N m')}"
         yield f"it holds no bias: up to {size} stay in the measurement until it is zeroed"
     if form is LoadFormat.XARM:
+        missed = "each 0.001 kg m2 of the load makes 0.001 N m"
         if load.has_inertia:
-            largest = float(np.linalg.eigvalsh(load.inertia)[-1])
-            yield f"it holds no inertia: up to {amount(largest, 'N m')} are missed for each rad/s2"
-        return
-    if not load.has_inertia:
+            missed = f"up to {amount(float(np.linalg.eigvalsh(load.inertia)[-1]), 'N m')} are missed"
+        yield f"it holds no inertia: {missed} for each rad/s2"
+    elif not load.has_inertia:
         written = "written as 0"
         if form in (LoadFormat.URDF, LoadFormat.MJCF):
             written = f"written as {amount(float(_rigid(load)[0, 0]), 'kg m2')}, that of a ball of aluminium"

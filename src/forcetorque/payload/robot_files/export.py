@@ -15,13 +15,16 @@ from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_b
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.formats.logged_wrist import FLANGE
 from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, wrist_loads
+from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
+from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.payload.result import WeighedLoad
 from forcetorque.payload.robot_files.arms import ARMS, arm_text, not_held
 from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.robot_files.held_load import held_load
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.robot_files.robot_load import RobotLoad, flange_load
 from forcetorque.payload.robot_files.ros import (
@@ -135,10 +138,10 @@ def robot_load(
     doubt: str | None = None,
     override: str | None = None,
 ) -> RobotLoad:
-    """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
+    """Give the load of a sensor, estimated or stated, or the links of a robot beyond it, with a bias of the sensor.
 
     Args:
-        run: The wrist sensor.
+        run: The sensor.
         bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
             None where the data leave it open.
         weighed: What several recordings say together, as `weigh_load` gives it; the run alone if None.
@@ -149,66 +152,48 @@ def robot_load(
         The load, to write it for a robot (`export_load`).
 
     Raises:
-        ExperimentError: If the experiment is of a robot with links, has several loads, leaves load or bias open, or if
-            the readings contradict the frames, senses and units by which the load was weighed, or, without a reason,
-            if the load is doubtful.
+        ExperimentError: As of `held_load`, or if the data leave the bias open, or the readings contradict the frames,
+            senses and units by which the load was weighed, or, without a reason, if the load is doubtful.
     """
-    experiment, known = run.experiment, np.array(bias, dtype=np.float64)
-    wrist = wrist_loads(experiment)
-    if wrist is None:
-        raise ExperimentError("expected [load], of which a robot is told, got the links of [robot]")
-    supports = wrist.supports
-    if len(supports) != 1:
-        names = ", ".join(map(repr, supports))
-        raise ExperimentError(
-            f"expected one [[load]], of which a robot is told, got {names}: leave the others, and their intervals, out "
-            "of the experiment file"
-        )
+    known = np.array(bias, dtype=np.float64)
     if not np.isfinite(known).all():
         names = ", ".join(np.array(WRENCH_COMPONENTS)[~np.isfinite(known)])
         raise ExperimentError(
             f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
             "`forcetorque payload` says what to record"
         )
-    if contradiction := next(_contradictions(run, wrist, weighed), None):
+    if contradiction := next(_contradictions(run, weighed), None):
         raise ExperimentError(
             f"expected a load that the readings agree with, of which a robot is told, they say: {contradiction}; mend "
             "that, and weigh again"
         )
-    if weighed is None and not wrist.are_stated and run.has(Use.CALIBRATION):
+    if weighed is None and _is_estimated(run):
         doubt = doubt or reason_to_withhold(weigh_load(run))
     elif weighed is not None:
         doubt = doubt or reason_to_withhold(weighed)
     note = overruled(doubt, override, where=f"load of {run.sensor.name!r}")
-    if weighed is None:
-        (support,) = supports.values()
-        inertia = experiment.model_on(support).links[LOAD_LINK]
-        mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
-        about_centre = inertia.second_moment + mass * skew(centre) @ skew(centre)
-        known_inertia = None if wrist.loads[0].inertia is None else about_centre
-    else:
-        (load,) = weighed.loads
-        if load.mass_kg is None or None in load.centre_of_mass_m:
-            raise ExperimentError(
-                f"expected a load that the recordings determine, of which a robot is told, they leave {load.load!r} "
-                "open: `forcetorque payload` says what to record"
-            )
-        mass, centre = load.mass_kg, np.array(load.centre_of_mass_m, dtype=np.float64)
-        known_inertia = None if load.inertia_kgm2 is None else np.array(load.inertia_kgm2, dtype=np.float64)
-        if known_inertia is not None and not np.isfinite(known_inertia).all():
-            known_inertia = None
+    held = held_load(run, weighed)
+    mass, first = held.inertia.mass, held.inertia.first_moment
+    centre = first / mass if mass else np.zeros(3)
+    about_centre = held.inertia.second_moment + mass * skew(centre) @ skew(centre)
     matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
     return RobotLoad(
         sensor=run.sensor.name,
-        frame=next(iter(experiment.model.links)),
-        direction=wrist.direction,
+        frame=held.frame,
+        direction=held.direction,
         mass=mass,
         centre_of_mass=centre,
-        inertia=known_inertia,
+        inertia=about_centre if held.has_inertia else None,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
         override=note,
     )
+
+
+def _is_estimated(run: SensorRun) -> bool:
+    """Whether a load is estimated by the recording of the run itself."""
+    loads = wrist_loads(run.experiment) or link_loads(run.experiment)
+    return loads is not None and not loads.are_stated and run.has(Use.CALIBRATION)
 
 
 def require_agreeing_logs(weighed: WeighedLoad) -> None:
@@ -221,15 +206,16 @@ def require_agreeing_logs(weighed: WeighedLoad) -> None:
         raise ExperimentError(f"expected a load that the log agrees with, of which a robot is told: {words}")
 
 
-def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
+def _contradictions(run: SensorRun, weighed: WeighedLoad | None) -> Iterator[str]:
     """What says that the load is not what hangs there, or the bias not that of the sensor."""
+    wrist = wrist_loads(run.experiment)
     accounts: Sequence[HypothesisRow] = ()
     if weighed is not None:
         accounts = weighed.hypotheses
-    elif run.has(Use.CALIBRATION) and hanging.table.applied is None:
-        accounts = hanging.solution(run.experiment).hypotheses
+    elif wrist is not None and run.has(Use.CALIBRATION) and wrist.table.applied is None:
+        accounts = wrist.solution(run.experiment).hypotheses
     # a mass that is stated as 0 is no mistake: a robot may be told that nothing hangs there
-    spared = {"no load"} if hanging.are_stated else set()
+    spared = {"no load"} if wrist is not None and wrist.are_stated else set()
     against = (account for account in accounts if account.severity == "contradiction")
     yield from (f"{account.name}: {account.description}" for account in against if account.name not in spared)
     yield from overweight_loads(run)
@@ -263,4 +249,9 @@ def export_load(
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
     if form not in ARMS:
         return form.convention
-    return "; ".join([form.convention, *not_held(flange_load(load, form, body_H_sensor), form, load.bias)])
+    lacks = list(not_held(flange_load(load, form, body_H_sensor), form, load.bias))
+    if load.frame != FLANGE:
+        lacks.append(
+            "it holds what is beyond the sensor: each 0.1 kg of a sensor that is mounted on the flange makes 0.98 N"
+        )
+    return "; ".join([form.convention, *lacks])

@@ -20,103 +20,16 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
 from forcetorque.sensor.bandwidth.decays import DecayCurve, Decays, EventRow, ResponseNumber, free_decays, numbers
-from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, ExcitedRecord, component_index, excited_records
-from forcetorque.sensor.bandwidth.frequency_response import (
-    HIGHEST_SHARE,
-    LEAST_AVERAGES,
-    FrequencyResponse,
-    ResponseCurve,
-    frequency_response,
-    overlapping,
-    require_coherence,
+from forcetorque.sensor.bandwidth.driven import (
+    ChannelResponse,
+    channel_responses,
+    driven_response,
+    gain_unit,
+    response_curve,
 )
-from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter, jackknifed
-
-BEFORE_S = 0.05
-"""Quiet before an event that belongs to its segment; s."""
-SWING_SEGMENTS = 9
-"""Segments of an oscillation, which overlap by half."""
-
-
-def driven_response(
-    records: Sequence[ExcitedRecord],
-    decays: Decays | None,
-    kind: ExcitationKind,
-    component: int | None,
-    mass_kg: float | None,
-) -> tuple[FrequencyResponse, SecondOrder]:
-    """Estimate the response to the measured force, and fit it.
-
-    Args:
-        records: Records with the measured force.
-        decays: Events, where there were any.
-        kind: What was done.
-        component: Component of the wrench; None for that of the decays.
-        mass_kg: Mass that moves with a measured acceleration; kg; None to leave the gain in N by m/s2.
-
-    Returns:
-        Response and fit.
-
-    Raises:
-        FitError: If the force does not explain the reading, or too little was recorded.
-        ExperimentError: If the force has no such component, or an oscillation was recorded in several segments.
-    """
-    direction = np.eye(6)[component] if decays is None else decays.direction
-    name = "; ".join(record.name for record in records)
-    pairs = [(_force_along(record, direction, mass_kg), record.wrench.signals @ direction) for record in records]
-    rate = records[0].wrench.rate_hz
-    highest = min(HIGHEST_SHARE * rate, *(record.highest_hz for record in records))
-    if decays is None:
-        if len(pairs) > 1:
-            raise ExperimentError(
-                f"{name}: expected one segment with an oscillation, got {len(pairs)}; name one by --interval, from "
-                "Python intervals"
-            )
-        segment = 2 * len(pairs[0][0]) // (SWING_SEGMENTS + 1)
-        force, reading = (overlapping(series, segment) for series in pairs[0])
-    else:
-        force, reading = _segments(pairs, decays, rate, name)
-        if kind is ExcitationKind.RELEASE:  # a step does not come back: its slope does, of both
-            force, reading = np.diff(force, axis=1), np.diff(reading, axis=1)
-    events = decays is not None
-    transfer = frequency_response(force, reading, rate, events=events, highest_hz=highest)
-    require_coherence(transfer, name=name)
-    return transfer, jackknifed(transfer, force, reading, rate, events=events, highest_hz=highest, name=name)
-
-
-def _force_along(record: ExcitedRecord, direction: FloatArray, mass_kg: float | None) -> FloatArray:
-    if record.force is None:
-        raise ExperimentError(f"{record.name}: expected a measured force, got none")
-    values = record.force.signals
-    if values.shape[1] == len(direction):
-        return values @ direction
-    if direction[3:].any():
-        raise ExperimentError(
-            f"{record.name}: an acceleration excites forces; choose fx, fy or fz by --component, from Python component"
-        )
-    return (1.0 if mass_kg is None else mass_kg) * (values @ direction[:3])
-
-
-def _segments(
-    pairs: Sequence[tuple[FloatArray, FloatArray]], decays: Decays, rate: float, name: str
-) -> tuple[FloatArray, FloatArray]:
-    """Force and reading from quiet to quiet, an event in each row."""
-    before = round(BEFORE_S * rate)
-    spans = [
-        (k, event.onset - before, event.after - 2 * before if event.after < len(pairs[k][0]) else event.after)
-        for k, one in enumerate(decays.struck)
-        for event in one.events
-        if event.onset >= before
-    ]
-    if len(spans) < LEAST_AVERAGES:
-        raise FitError(
-            f"{name}: no transfer function: expected at least {LEAST_AVERAGES} events with {BEFORE_S:g} s before them, "
-            f"got {len(spans)}"
-        )
-    segment = min(end - start for _, start, end in spans)
-    force, reading = (np.array([pairs[k][side][start : start + segment] for k, start, _ in spans]) for side in (0, 1))
-    return force, reading
-
+from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, component_index, excited_records
+from forcetorque.sensor.bandwidth.frequency_response import FrequencyResponse, ResponseCurve
+from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter
 
 LEAST_VIBRATION = 0.02
 """Share of a vibration that may be left at the end of a segment."""
@@ -155,6 +68,8 @@ class Response(DrawnResult):
     """Natural frequency, damping, gain, bandwidth, by source."""
     curve: ResponseCurve | None = Field(repr=False)
     """Frequency response; null where it is not determined."""
+    channels: tuple[ChannelResponse, ...] = Field(default=(), repr=False)
+    """Response of every component of the wrench whose force was measured and moved."""
     inverse: InverseFilter | None = Field(repr=False)
     """Filter that undoes the response; null where it is not determined well enough."""
     refused: tuple[str, ...]
@@ -178,6 +93,9 @@ class Response(DrawnResult):
                 f"the measured force explains {100 * self.curve.explained_share:.1f} % of the power of the reading "
                 f"({self.curve.averages:.3g} averages)"
             )
+        if len(self.channels) > 1:
+            yield table_of(self.channels, f"{self.sensor} ({self.serial}): every channel to its own measured force")
+            yield from (channel.undetermined for channel in self.channels if channel.undetermined is not None)
         if self.inverse is not None:
             yield table_of([self.inverse], "filter that undoes it")
         yield from self.refused
@@ -282,8 +200,9 @@ def response(
         rate_hz=rate,
         samples=sum(len(record.wrench) for record in records),
         events=() if decays is None else decays.rows,
-        numbers=tuple(numbers(decays, fit if transfer is not None else None, _gain_unit(records, mass_kg))),
-        curve=None if transfer is None else _curve(transfer, fit),
+        numbers=tuple(numbers(decays, fit if transfer is not None else None, gain_unit(records, mass_kg))),
+        curve=None if transfer is None else response_curve(transfer, fit),
+        channels=() if force is None else tuple(channel_responses(records, decays, kind, mass_kg)),
         inverse=inverse,
         refused=tuple(refused),
         decays=() if decays is None else decays.curves,
@@ -325,32 +244,16 @@ def _signal(kind: ExcitationKind, decays: Decays | None) -> str:
     return WRENCH_COMPONENTS[int(decays.direction.argmax())]
 
 
-def _gain_unit(records: Sequence[ExcitedRecord], mass_kg: float | None) -> str:
-    force = records[0].force
-    return "kg" if force is not None and force.signals.shape[1] == 3 and mass_kg is None else "1"
-
-
-def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurve:
-    fitted = None if fit is None else fit.response(transfer.frequency_hz)
-    return ResponseCurve(
-        frequency_hz=transfer.frequency_hz,
-        real=transfer.real,
-        imaginary=transfer.imaginary,
-        fitted_real=None if fitted is None else fitted.real,
-        fitted_imaginary=None if fitted is None else fitted.imag,
-        radius_95=transfer.radius,
-        coherence=transfer.coherence,
-        chance=transfer.chance,
-        driven=transfer.driven.astype(np.float64),
-        explained_share=transfer.explained,
-        averages=transfer.averages,
-    )
-
-
 def _warnings(
     result: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
 ) -> Iterator[str]:
     yield from (row.undetermined for row in result.events if row.undetermined is not None)
+    together = [f"{row.channel} with {row.moves_with}" for row in result.channels if row.moves_with is not None]
+    if together:
+        yield (
+            f"{result.sensor}: measured forces move together ({', '.join(together)}): crosstalk between these channels "
+            "is part of their gain; excite other places and directions too"
+        )
     for row in result.events:
         if row.frequency_hz is not None and row.frequency_hz > FOLDED_SHARE * result.rate_hz:
             yield (

@@ -70,6 +70,11 @@ class FrequencyResponse(ArrayRecord):
         return float(self.frequency_hz[int(slope.argmax())])
 
     @property
+    def lively_coherence(self) -> FloatArray:
+        """Coherence of the driven frequencies up to the liveliest."""
+        return self.coherence[self.driven & (self.frequency_hz <= self.liveliest_hz)]
+
+    @property
     def explained(self) -> float:
         """Share of the power of the reading that the force explains, chance taken off."""
         shared = (self.coherence * self.reading_power)[self.driven].sum() / self.reading_power[self.driven].sum()
@@ -208,8 +213,7 @@ def require_coherence(response: FrequencyResponse, *, name: str) -> None:
         FitError: If the force explains less than `LEAST_EXPLAINED` of the power of the reading, or the coherence of the
             middle frequency up to the liveliest is not surely as much.
     """
-    top = response.liveliest_hz
-    coherence = response.coherence[response.driven & (response.frequency_hz <= top)]
+    top, coherence = response.liveliest_hz, response.lively_coherence
     sure = _sure(float(np.median(coherence)), response.averages)
     if response.explained >= LEAST_EXPLAINED and sure >= LEAST_EXPLAINED:
         return

@@ -7,25 +7,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from forcetorque.base.arrays import IntArray
+from forcetorque.experiment.logged_posture import JointRow, logged_postures
 from forcetorque.experiment.raw_counts import RawCounts
-from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.stream import Stream
-from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Table, Values
 from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange, strongest_samples
-
-
-class JointRow(Row):
-    """Where a joint stood."""
-
-    joint: str
-    """Name of the joint."""
-    position: float | None
-    """Its position; nothing where its stream has a gap."""
-    unit: str
-    """rad or m."""
 
 
 class StrongestRow(Row):
@@ -56,7 +43,7 @@ def strongest_rows(recording: Recording, counts: RawCounts) -> tuple[StrongestRo
     stream = counts.stream
     rows, overall = strongest_samples(counts.values)
     chosen = np.append(rows, overall)
-    postures = _postures(recording, stream, stream.stamp_ns[chosen])
+    postures = logged_postures(recording, stream, stream.stamp_ns[chosen])
     return tuple(
         StrongestRow(
             channel=channel,
@@ -67,19 +54,6 @@ def strongest_rows(recording: Recording, counts: RawCounts) -> tuple[StrongestRo
         )
         for channel, row, posture in zip((*counts.channels, None), chosen.tolist(), postures, strict=True)
     )
-
-
-def _postures(recording: Recording, source: Stream, at_ns: IntArray) -> list[tuple[JointRow, ...]]:
-    """Positions of all logged joints at given instants; joints of another clock cannot be placed and are left out."""
-    postures: list[list[JointRow]] = [[] for _ in at_ns]
-    for joint, (stream, signal) in recording.joint_signals("position").items():
-        if stream.clock != source.clock or len(usable_samples(stream.stamp_ns)) < 2:
-            continue
-        positions = interpolate(stream, signal.column(joint)[:, None], at_ns)[:, 0]
-        unit = signal.units[signal.columns.index(joint)]
-        for posture, position in zip(postures, positions.tolist(), strict=True):
-            posture.append(JointRow(joint=joint, position=finite_or_none(position), unit=unit))
-    return [tuple(posture) for posture in postures]
 
 
 class ResolutionRow(Row):

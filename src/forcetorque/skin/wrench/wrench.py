@@ -27,6 +27,7 @@ from forcetorque.skin.layout.normals import patch_normals
 from forcetorque.skin.surface import unrolled
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.wrench.frames import FrameChoice, SkinFrames, patch_messages, skin_frames
+from forcetorque.skin.wrench.known_weight import KnownWeight, known_weight
 from forcetorque.skin.wrench.operator import WrenchMethod
 from forcetorque.skin.wrench.patch import SkinPatch
 from forcetorque.skin.wrench.result import (
@@ -49,6 +50,8 @@ class WrenchChoice(FrameChoice):
     """Area of a taxel: the simple method needs it; beside another one it is drawn for comparison."""
     plan: Path | None = None
     """Drawing of the patch, for the method of the thesis."""
+    weight_kg: float | None = None
+    """Mass of a known weight that was put on the patch, kept level; None for none."""
     written_normals: bool = False
     """Whether to take the normals that the layout has, and not those of the surface through its taxels."""
 
@@ -141,6 +144,8 @@ class SkinWrench(DrawnResult):
     """The same contacts from their first frame to their last."""
     releases: tuple[ReleaseRow, ...]
     """Contacts that were let go, and what their taxels still read; none where heat was not followed."""
+    weight: KnownWeight | None = None
+    """A known weight against what the patch reads of it; null without one."""
     picture: SkinWrenchPicture = Field(exclude=True, repr=False)
     """Forces over time and a field of pressure, for figures."""
 
@@ -163,6 +168,8 @@ class SkinWrench(DrawnResult):
             f"taxels; touched in {self.frames_with_contact} of {self.frames} means of {self.averaged} messages, with "
             f"{self.mean_force_N:.2f} N on average and {self.largest_force_N:.2f} N at most; heat: {self.temperature}"
         )
+        if self.weight is not None:
+            yield table_of(self.weight.placements, f"{self.patch}: a weight of {self.weight.weight_N:.2f} N")
         if self.releases:
             yield table_of(self.releases[:_SHOWN], "released, and what was left")
         if any(row.re_tare == OFFERED for row in self.releases):
@@ -271,6 +278,7 @@ def _result(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
         contacts=tuple(rows),
         lives=life_rows(read.lives, rows),
         releases=read.releases,
+        weight=None if chosen.weight_kg is None else known_weight(chosen.weight_kg, seconds, force, touched),
         picture=_picture(own.name, skin, seconds, force, read.frames, chosen),
         warnings=(
             *_warnings(rows, read, chosen),

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A known weight shows a cover that reads too much, one that loses load, and pads that lag."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.errors import SkinError
+from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.skin.wrench.known_weight import Agreement, KnownWeight, known_weight
+
+MASS_KG, FRAME_S, REST_S, HOLD_S = 0.8, 0.2, 2.0, 8.0
+SCATTER = 0.04
+"""Standard deviation of what a placement reads over the weight: that of contacts of finite elements is 3 to 4 %."""
+
+
+def _frames(shares: FloatArray, lag_s: float = 0.0) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Times, forces and contacts of placements that each read a share of the weight, by pads of a first-order lag."""
+    hold, rest = round(HOLD_S / FRAME_S), round(REST_S / FRAME_S)
+    rise = np.ones(hold) if lag_s == 0.0 else 1.0 - np.exp(-FRAME_S * (np.arange(hold) + 1.0) / lag_s)
+    one = [np.concatenate([np.zeros(rest), share * rise]) for share in shares]
+    force = MASS_KG * STANDARD_GRAVITY * np.concatenate([*one, np.zeros(rest)])
+    return FRAME_S * np.arange(len(force)), force, force > 0.0
+
+
+def _of(shares: FloatArray, lag_s: float = 0.0) -> KnownWeight:
+    return known_weight(MASS_KG, *_frames(shares, lag_s))
+
+
+@pytest.mark.parametrize(
+    ("share", "agreement", "least"), [(1.31, "too much", 1.0), (0.7, "too little", 1.0), (1.0, "agrees", 0.85)]
+)
+def test_what_is_off_is_named(share: float, agreement: Agreement, least: float) -> None:
+    """Of 200 patches with five placements, whose scatter is that of contacts; seeds are fixed."""
+    rng = np.random.default_rng(7)
+    results = [_of(share + SCATTER * rng.normal(size=5)).agreement for _ in range(200)]
+    assert np.mean([result == agreement for result in results]) >= least
+    # a patch that agrees is never accused
+    if agreement == "agrees":
+        assert set(results) <= {"agrees", "inconclusive"}
+
+
+def test_few_placements_are_inconclusive() -> None:
+    """Two have no interval, whatever they read."""
+    result = _of(np.array([1.3, 1.32]))
+    assert (result.agreement, result.share_half_width_95) == ("inconclusive", None)
+    assert result.share == pytest.approx(1.31)
+    assert [row.share for row in result.placements] == pytest.approx([1.3, 1.32])
+
+
+def test_pads_that_lag_settle_late() -> None:
+    """A lag of a second is within 5 % after three; without one at once. The force at the end is hardly less."""
+    late, prompt = (_of(np.ones(3), lag_s) for lag_s in (1.0, 0.0))
+    assert [row.settled_s for row in late.placements] == pytest.approx([3.0] * 3, abs=2 * FRAME_S)
+    assert [row.settled_s for row in prompt.placements] == [0.0] * 3
+    assert late.share == pytest.approx(1.0, abs=0.02)
+
+
+def test_what_is_no_weight_is_refused() -> None:
+    """A mass that is none, and one that was never left on the patch."""
+    frames = _frames(np.ones(3))
+    with pytest.raises(SkinError, match="expected a mass above 0 kg, got -1"):
+        known_weight(-1.0, *frames)
+    touched = frames[2] & (np.arange(len(frames[2])) % 5 > 0)
+    with pytest.raises(SkinError, match="on the patch for 8 frames in a row or more, got 96 with a contact"):
+        known_weight(MASS_KG, frames[0], frames[1], touched)
