@@ -28,7 +28,7 @@ def _pages() -> dict[str, str]:
 
 def _packages_with_a_door() -> set[str]:
     """As the files have it, without importing them."""
-    found = [path for path in LIBRARY.rglob("__init__.py") if "__all__ = " in path.read_text(encoding="utf-8")]
+    found = [path for path in LIBRARY.rglob("__init__.py") if "__all__" in path.read_text(encoding="utf-8")]
     return {".".join(path.parent.relative_to(LIBRARY).parts) for path in found}
 
 

@@ -12,11 +12,10 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.calibration.doubts import doubts_of_intervals, doubts_of_samples
+from forcetorque.calibration.doubts import doubts_of_intervals, doubts_of_samples, with_estimated_mount
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
-from forcetorque.calibration.mount import with_estimated_mount
 from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
     InformationGain,
@@ -304,7 +303,7 @@ class SensorCalibrations(DrawnResult):
         Raises:
             FitError: If no calibration is a generative fit towards a prior matrix.
         """
-        from forcetorque.calibration.figures.joint import joint_figure
+        from forcetorque.calibration.figures.information import joint_figure
 
         if self.joint is not None:
             return joint_figure(self.joint.residuals)

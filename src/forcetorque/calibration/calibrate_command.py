@@ -217,9 +217,6 @@ def _show(
 def end_with(refusals: Sequence[ForceTorqueError]) -> None:
     """Say what was refused, and leave with exit code 2 if anything was.
 
-    Args:
-        refusals: The errors.
-
     Raises:
         typer.Exit: If there is one.
     """

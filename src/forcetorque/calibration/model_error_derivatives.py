@@ -95,9 +95,6 @@ class UncertainPart:
     def without(self, kind: TermKind) -> UncertainPart:
         """Leave out the terms of a kind.
 
-        Args:
-            kind: The kind.
-
         Returns:
             The part with the others.
         """

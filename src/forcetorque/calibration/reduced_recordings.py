@@ -8,10 +8,8 @@ from pathlib import Path
 from urllib.parse import quote
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.calibration.doubts import SegmentedDoubts
-from forcetorque.calibration.moments import agreeing_moments, load_error_of, moments_of
-from forcetorque.calibration.mount import mount_doubts
-from forcetorque.calibration.segmented_moments import SegmentedMoments
+from forcetorque.calibration.doubts import SegmentedDoubts, mount_doubts
+from forcetorque.calibration.moments import SegmentedMoments, agreeing_moments, load_error_of, moments_of
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments

@@ -109,9 +109,6 @@ def _unmeasured_headings(components: Collection[str]) -> frozenset[str]:
 def smoothing_text(run: SensorRun) -> str:
     """Say whether reading and reference are smoothed before they are compared.
 
-    Args:
-        run: The sensor.
-
     Returns:
         The words.
     """
@@ -335,9 +332,6 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
 
 def at_rest(verdicts: Sequence[CalibrationErrors]) -> tuple[str, ...]:
     """Say where the loads hardly moved while errors were measured.
-
-    Args:
-        verdicts: The errors.
 
     Returns:
         A sentence per sensor where it is so: all its candidates are evaluated on the same samples.

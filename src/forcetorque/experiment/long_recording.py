@@ -128,11 +128,7 @@ def _keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequen
 
 
 def forget_recording(experiment: Experiment) -> None:
-    """Let go of the memory that streams take which are mapped from files.
-
-    Args:
-        experiment: The experiment.
-    """
+    """Let go of the memory that streams take which are mapped from files."""
     for stream in experiment.recording.streams.values():
         forget_pages([stream.stamp_ns, *(signal.values for signal in stream.signals.values())])
 

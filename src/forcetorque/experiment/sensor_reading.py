@@ -148,9 +148,6 @@ class Correction:
     def without_offset(cls, sensor: ExperimentSensor) -> Self:
         """Read by the prior of the experiment, or take the logged wrench, with whatever offset it has.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             The correction.
 

@@ -84,9 +84,6 @@ class SensorRun:
     def has(self, use: Use) -> bool:
         """Tell whether the recording has an interval of a use in which it is known what the sensor must read.
 
-        Args:
-            use: The use.
-
         Returns:
             Whether it has.
         """
@@ -97,9 +94,6 @@ class SensorRun:
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use in which it is known what the sensor must read.
-
-        Args:
-            use: The use.
 
         Returns:
             Intervals in the order of time.
@@ -112,9 +106,6 @@ class SensorRun:
         Where the support stands still a contact is one that may come, such as a hand; where it moves, with an IMU, the
         robot stands on what the file names.
 
-        Args:
-            interval: An interval.
-
         Returns:
             Names of contacts; none where mechanics says what the sensor must read.
         """
@@ -126,9 +117,6 @@ class SensorRun:
 
     def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
         """Name the contacts beyond the sensor that may come while the support stands still.
-
-        Args:
-            interval: An interval.
 
         Returns:
             Names of contacts; none where the support moves, since there they are `touched_beyond`.
@@ -240,9 +228,6 @@ class SensorRun:
 
     def instants(self, interval: Interval) -> EvaluatedInstants:
         """Give the instants at which the sensor is evaluated in an interval.
-
-        Args:
-            interval: The interval.
 
         Returns:
             Instants of all its samples, and those around it that the filter of the experiment takes.

@@ -256,9 +256,6 @@ def outside_row(name: str, calibration: Calibration, applied: Iterable[AppliedRe
 def sentences(rows: Iterable[SamplesOutside]) -> tuple[str, ...]:
     """Say which readings lie outside what was fitted.
 
-    Args:
-        rows: The rows.
-
     Returns:
         The sentences of all rows.
     """

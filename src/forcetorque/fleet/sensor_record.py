@@ -20,8 +20,8 @@ from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.calibration.doubts import SegmentedDoubts
+from forcetorque.calibration.moments import SegmentedMoments
 from forcetorque.calibration.reduced_recordings import recording_moments
-from forcetorque.calibration.segmented_moments import SegmentedMoments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import SensorIdentity

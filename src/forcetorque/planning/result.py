@@ -208,9 +208,6 @@ def posture_tables(rows: Sequence[PlannedPosture]) -> Iterator[Table]:
 def helps(row: PlannedRecording) -> bool:
     """Tell whether a recording lowers an error that matters.
 
-    Args:
-        row: The recording.
-
     Returns:
         Whether the force error or the moment error, where it is limited, falls by enough.
     """
@@ -268,9 +265,6 @@ def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
 
 def of_model(row: PlannedRecording) -> str:
     """Say what errors of the robot model make of the error after a recording.
-
-    Args:
-        row: The recording.
 
     Returns:
         The end of a sentence; empty where it is little.

@@ -80,9 +80,6 @@ def fingerprint(values: FloatArray) -> str:
 def joined_fingerprint(parts: Iterable[str]) -> str:
     """Give the hashes by which consecutive parts of samples are known again, together.
 
-    Args:
-        parts: Fingerprints of the parts.
-
     Returns:
         That of all samples, but for windows in which two parts meet.
     """

@@ -31,7 +31,7 @@ from forcetorque.evaluation.sphere.result import SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, contact_forces
-from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
+from forcetorque.evaluation.validation.validation import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
@@ -276,9 +276,6 @@ class IntervalOverview(Row):
 def stream_overviews(recording: Recording) -> tuple[StreamOverview, ...]:
     """Describe the streams of a recording.
 
-    Args:
-        recording: The recording.
-
     Returns:
         A row per stream.
     """
@@ -295,9 +292,6 @@ def stream_overviews(recording: Recording) -> tuple[StreamOverview, ...]:
 
 def interval_overviews(recording: Recording) -> tuple[IntervalOverview, ...]:
     """Describe the intervals of a recording.
-
-    Args:
-        recording: The recording.
 
     Returns:
         A row per interval, in the order of the file.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From resistance to counts: Wheatstone bridge, amplifier, analogue-to-digital converter, saturation."""
+"""From resistance to counts: Wheatstone bridge, analogue-to-digital converter, saturation; the reference design."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from forcetorque.base.arrays import (
     BoolArray,
     FloatArray,
     array,
-    check_arrays,
     require_last_axis,
     require_shape,
 )
 from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.elastic import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
 from forcetorque.sensor.gauge import ResistiveGauge
 from forcetorque.sensor.number_checks import require_positive
 
@@ -47,25 +47,6 @@ def bridge_ratio(resistances: Any) -> FloatArray:
         raise SensorError(f"resistances: expected numbers above 0 ohm, got {ohms.min():g}")
     r1, r2, r3, r4 = np.moveaxis(ohms, -1, 0)
     return (r1 * r3 - r2 * r4) / ((r1 + r2) * (r3 + r4))
-
-
-def linearised_bridge_ratio(relative_changes: Any) -> FloatArray:
-    """Give the output per input voltage of four resistors that are equal without load, to first order.
-
-    `(c1 - c2 + c3 - c4) / 4`: changes of neighbours subtract, changes of opposite arms add.
-
-    Args:
-        relative_changes: `dR / R` of each arm; shape (..., 4).
-
-    Returns:
-        Output per input voltage; shape (...); wrong by terms of the square of the changes.
-
-    Raises:
-        ShapeError: If there are not four changes.
-    """
-    changes = np.asarray(relative_changes, dtype=np.float64)
-    require_last_axis(changes, name="relative_changes", length=4)
-    return 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,68 +129,6 @@ OPPOSITE_HALF_BRIDGE = Bridge(strain_shares=(1.0, 0.0, 1.0, 0.0), is_gauge=(True
 
 FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
 """Two gauges on each face of a bent beam: four times the output, compensated, and linear without approximation."""
-
-
-_SAME_GAIN = 1e-6
-"""Relative difference up to which a gain is one of the allowed ones: lists print a few digits."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Amplifier(ArrayRecord):
-    """`output = amplifier_gain input + offset`, channel by channel; limits are those of what follows."""
-
-    amplifier_gain: FloatArray = field(metadata=array("c"))
-    """Gain of each channel, above zero; shape (c,)."""
-    offset: FloatArray = field(metadata=array("c"))
-    """Output without input; shape (c,); V."""
-    allowed_gains: tuple[float, ...] | None = None
-    """Gains that the electronics can be set to; any if left out."""
-
-    def __post_init__(self) -> None:
-        check_arrays(self)
-        if not (np.isfinite(self.offset).all() and np.isfinite(self.amplifier_gain).all()):
-            raise SensorError("Amplifier: expected finite gains and offsets in V")
-        for channel, gain in enumerate(self.amplifier_gain):
-            if not gain > 0.0:
-                raise SensorError(f"Amplifier: channel {channel}: expected a gain above 0, got {gain:g}")
-            if (
-                self.allowed_gains is not None
-                and not np.isclose(gain, self.allowed_gains, rtol=_SAME_GAIN, atol=0).any()
-            ):
-                known = ", ".join(f"{allowed:g}" for allowed in sorted(self.allowed_gains))
-                raise SensorError(f"Amplifier: channel {channel}: gain {gain:g} is not one of {known}")
-
-    def output(self, voltage: Any) -> FloatArray:
-        """Amplify.
-
-        Args:
-            voltage: Voltages at the input; shape (..., c); V.
-
-        Returns:
-            Voltages at the output; same shape; V.
-
-        Raises:
-            ShapeError: If there is not one voltage per channel.
-        """
-        volts = np.asarray(voltage, dtype=np.float64)
-        require_last_axis(volts, name="voltage", length=len(self.amplifier_gain))
-        return self.amplifier_gain * volts + self.offset
-
-    def input(self, output: Any) -> FloatArray:
-        """Give the input of an output.
-
-        Args:
-            output: Voltages at the output; shape (..., c); V.
-
-        Returns:
-            Voltages at the input; same shape; V.
-
-        Raises:
-            ShapeError: If there is not one voltage per channel.
-        """
-        volts = np.asarray(output, dtype=np.float64)
-        require_last_axis(volts, name="output", length=len(self.amplifier_gain))
-        return (volts - self.offset) / self.amplifier_gain
 
 
 _MOST_BITS = 32
@@ -349,3 +268,49 @@ def hold_on_saturation(counts: Any, *, lowest: Any, highest: Any) -> HeldCounts:
     last_valid = np.maximum.accumulate(np.where(saturated, -1, np.arange(len(raw))))
     held = np.where((last_valid < 0)[:, None], np.nan, raw[last_valid])
     return HeldCounts(counts=held, saturated=saturated)
+
+
+_SMALL_STRAIN = 1e-7
+"""Strain of a few newtons: the bridge is linear to rounding there."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Electronics:
+    """What every channel of a board is made of."""
+
+    gauge: ResistiveGauge = ResistiveGauge(gauge_factor=130.0, resistance=200.0)
+    """A silicon gauge."""
+    bridge: Bridge = HALF_BRIDGE
+    """Gauges on both faces of an arm."""
+    excitation: float = 2.5
+    """Voltage across the bridge; V."""
+    amplifier_gain: float = 100.0
+    """Gain between bridge and converter."""
+    adc: Adc = Adc(bits=16, reference=1.65, signed=True)
+    """Converter."""
+
+    @property
+    def counts_per_strain(self) -> float:
+        """Change of the count per strain, for small ones; 1/strain."""
+        up, down = (float(self.bridge.ratio(self.gauge, sign * _SMALL_STRAIN)) for sign in (1.0, -1.0))
+        return self.amplifier_gain * self.excitation * (up - down) / (2.0 * _SMALL_STRAIN) / self.adc.step
+
+
+_STEEL = Material.from_poisson_ratio(200e9, 0.3)
+_PLACES = tuple(
+    GaugePlace(arm=arm, position=position, bending=bending)
+    for arm in range(3)
+    for position, bending in ((0.81e-3, Bending.IN_PLANE), (1.96e-3, Bending.OUT_OF_PLANE))
+)
+Y_ELEMENT = ElasticElement(
+    beam=Beam(length=7.4e-3, section=RectangularSection(width=7.4e-3, height=7.0e-3), material=_STEEL),
+    hub_radius=14.9e-3,
+    arm_angles=np.deg2rad([0.0, 120.0, 240.0]),
+    places=_PLACES,
+)
+"""Three arms at 120 degrees; channels 0, 2, 4 bend in the plane, 1, 3, 5 out of it."""
+
+CHANNEL_ANGLES = Y_ELEMENT.arm_angles[[place.arm for place in _PLACES]]
+"""Direction of the arm of every channel about z; shape (6,); rad."""
+IN_PLANE = np.array([place.bending is Bending.IN_PLANE for place in _PLACES])
+"""Whether a channel sees its arm bend in the plane; shape (6,)."""

@@ -200,7 +200,7 @@ def test_the_next_command_has_all_recordings_and_sensors(
     assert shlex.split(json.loads(outcome.out)["stages"][0]["command"]) == list(typed)
     row = ProposalRow(line=None, kind="sign", proposal="turn it", residual_before_N=None, residual_after_N=None)
     draft = Draft(file=PARQUET, format="toml", streams={}, questions=(), proposals=(row,), notes=(), content="")
-    monkeypatch.setattr("forcetorque.inspection.draft.resume.resume_experiment", lambda *_, **__: draft)
+    monkeypatch.setattr("forcetorque.inspection.draft.questions.resume_experiment", lambda *_, **__: draft)
     (stage,) = json.loads(run(*typed, "--no-input", "--format", "json").out)["stages"]
     assert stage["remedy"].endswith(f"forcetorque {shlex.join(typed)} declines them all")
 

@@ -88,10 +88,6 @@ class ExpectedWrenches(tuple[FloatArray, FloatArray]):
     def of(cls, run: SensorRun, interval: Interval) -> Self:
         """Compute them.
 
-        Args:
-            run: The sensor.
-            interval: The interval.
-
         Returns:
             Instants and wrenches.
         """

@@ -77,7 +77,7 @@ class SecondMeans:
                 shape (n, 6), in N and N m; at least one sample in all.
 
         Returns:
-            Their means.
+            The same segment in means of a second, with their mean instants.
         """
         time_s, means, _ = means_of_parts((time, np.hstack([error, load])) for time, error, load in parts)
         return cls(session=session, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
@@ -331,9 +331,6 @@ class ErrorComparison(Row):
 
 def known_interval(ratio: ErrorRatio) -> tuple[float, float] | tuple[None, None]:
     """Give the 95 % interval of a ratio.
-
-    Args:
-        ratio: The ratio.
 
     Returns:
         Its ends; None twice where too few stretches give no upper end.

@@ -396,9 +396,6 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
 def constant_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
     """Put the constant part of contact wrenches into a table, with what tells how much the wrenches are worth.
 
-    Args:
-        rows: The rows.
-
     Returns:
         A line per row.
     """

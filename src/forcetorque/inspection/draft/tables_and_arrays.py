@@ -445,9 +445,6 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
 def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
     """Find the array that looks like the time.
 
-    Args:
-        columns: Arrays.
-
     Returns:
         One that rises as times do, the first that is called so if any is; None for none.
     """

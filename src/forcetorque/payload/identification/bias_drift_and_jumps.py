@@ -108,9 +108,6 @@ def choose_drift(problem: LoadProblem) -> DriftRow:
     from all others, with a constant bias and with one that moves evenly, which is taken if it does better by more than
     a standard error.
 
-    Args:
-        problem: The problem.
-
     Returns:
         The choice.
     """
@@ -172,9 +169,6 @@ _LEAST_LEFT = 1e-3
 
 def strongest_jump(fitted: Fit) -> tuple[int, int] | None:
     """Look for a step of one axis at every row.
-
-    Args:
-        fitted: The fit.
 
     Returns:
         First row after the strongest step, and the component that it is strongest in; None where noise explains it.

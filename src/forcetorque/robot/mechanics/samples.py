@@ -147,11 +147,6 @@ def _same(first: Support | MovingSupport | None, second: Support | MovingSupport
 def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, BoolArray]:
     """Find the samples of an interval that are not to be ignored.
 
-    Args:
-        recording: The recording.
-        source: One of its streams.
-        interval: The interval.
-
     Returns:
         Indices of its samples with increasing stamps, shape (k,), and which samples of the stream are its at all,
         shape (N,).

@@ -1,24 +1,94 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`--view FILE` of commands with a result: what the viewer shows of the same files, with the verdicts of the result."""
+"""Commands as the program has them: they take datasets, and `--view` shows a result or what `live` corrects."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import wraps
+from functools import partial, update_wrapper, wraps
 from inspect import Parameter, cleandoc, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Final, get_args, get_origin, get_type_hints
 
 import typer
+from typer.models import ArgumentInfo
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.experiment.experiment import Experiment
+    from forcetorque.fleet.from_dataset import DatasetLogs
     from forcetorque.results.result import Result
     from forcetorque.viewer.scene_builder import BuiltScene
+
+
+def with_datasets(name: str, command: Callable[..., Result | None]) -> Callable[..., Result | None]:
+    """Let a command take a dataset.
+
+    Args:
+        name: Name of the command.
+        command: The command.
+
+    Returns:
+        The command, of the same signature.
+    """
+    arguments = _arguments(command)
+
+    @wraps(command)
+    def run(**given: Any) -> Result | None:
+        inputs = [path for argument in arguments for path in _paths(given[argument])]
+        folders = [path for path in inputs if path.is_dir()]
+        if folders:
+            from forcetorque.fleet.dataset import is_dataset
+            from forcetorque.fleet.from_dataset import run_from_dataset
+
+            datasets = [path for path in folders if is_dataset(path)]
+            if datasets and len(inputs) > 1:
+                raise ExperimentError(
+                    f"{datasets[0]}: expected a dataset alone, got it beside other files; add these to it with "
+                    "`forcetorque fleet add`"
+                )
+            if datasets:
+                logs = run_from_dataset(name, datasets[0], given)
+                if logs is None:
+                    return None
+                return command(**given | _in_place_of(datasets[0], logs, given, arguments))
+        return command(**given)
+
+    return run
+
+
+def _in_place_of(
+    dataset: Path, logs: DatasetLogs, given: Mapping[str, Any], arguments: Sequence[str]
+) -> dict[str, Any]:
+    """What is typed, with the experiment files of a dataset in its place: all, or the last where there can be one."""
+    values: dict[str, Any] = {"sensor": logs.sensors} if "sensor" in given and logs.sensors else {}
+    for argument in arguments:
+        value = given[argument]
+        if isinstance(value, list | tuple) and dataset in value:
+            values[argument] = type(value)(logs.files)
+        elif value == dataset:
+            values[argument] = logs.files[-1]
+    if "sensor" in values and not isinstance(given["sensor"], list | tuple):
+        (values["sensor"],) = logs.sensors
+    return values
+
+
+def _arguments(command: Callable[..., Any]) -> list[str]:
+    """Names of what is typed without a flag."""
+    hints = get_type_hints(command, include_extras=True)
+    return [
+        name
+        for name, hint in hints.items()
+        if get_origin(hint) is Annotated and any(isinstance(note, ArgumentInfo) for note in get_args(hint))
+    ]
+
+
+def _paths(value: Any) -> list[Path]:
+    values = value if isinstance(value, list | tuple) else [value]
+    return [one for one in values if isinstance(one, Path)]
+
 
 COMMANDS: Final = ("estimate", "evaluate", "payload")
 """Commands that take it."""
@@ -136,3 +206,75 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progr
             contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")
         ),
     )
+
+
+COMMAND: Final = "live"
+_WINDOW_S: Final = 30.0
+
+
+def with_live_view(name: str, command: Callable[..., Any]) -> Callable[..., Any]:
+    """Let `live` show what it does in the browser.
+
+    Args:
+        name: Name of the command.
+        command: The command, which takes as `page` what serves a run.
+
+    Returns:
+        The command with the options of the page if it is `live`, else as it is.
+    """
+    if name != COMMAND:
+        return command
+
+    def run(
+        view: Annotated[
+            bool, typer.Option("--view", help="Show it in the browser, on a page of this machine.")
+        ] = False,
+        view_s: Annotated[
+            float | None, typer.Option("--view-s", help="Time that the page shows, s. Default: 30.")
+        ] = None,
+        port: Annotated[
+            int | None, typer.Option("--port", help="Port of 127.0.0.1 for the page. Default: any that is free.")
+        ] = None,
+        no_browser: Annotated[bool, typer.Option("--no-browser", help="Print its address and open nothing.")] = False,
+        mesh_dir: Annotated[
+            list[Path] | None, typer.Option("--mesh-dir", help="Folder that holds the packages of meshes.")
+        ] = None,
+        **given: Any,
+    ) -> Any:
+        stated = {"--view-s": view_s, "--port": port, "--no-browser": no_browser or None, "--mesh-dir": mesh_dir}
+        useless = [option for option, value in stated.items() if value is not None]
+        if view:
+            from forcetorque.viewer.live_page import live_page
+
+            given["page"] = partial(
+                live_page,
+                window_s=_WINDOW_S if view_s is None else view_s,
+                port=port or 0,
+                mesh_folders=mesh_dir or (),
+                opened=partial(_show_address, open_browser=not no_browser),
+            )
+        elif useless:
+            raise ForceTorqueError(f"{useless[0]} is of the page that --view shows; expected --view too, got none")
+        return command(**given)
+
+    typed = [one for one in _typed_parameters(command) if one.name != "page"]
+    typed += [one for one in _typed_parameters(run) if one.kind is not Parameter.VAR_KEYWORD]
+    update_wrapper(run, command)
+    run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
+    run.__annotations__ = {one.name: one.annotation for one in typed}
+    return run
+
+
+def _typed_parameters(function: Callable[..., Any]) -> list[Parameter]:
+    hints = get_type_hints(function, include_extras=True)
+    return [one.replace(annotation=hints[one.name]) for one in signature(function).parameters.values()]
+
+
+def _show_address(url: str, *, open_browser: bool) -> None:
+    from forcetorque.results.terminal.output import start_logging
+    from forcetorque.viewer.page import open_in_browser
+
+    log = start_logging()
+    log.info("page: %s", url)
+    if open_browser and not open_in_browser(url):
+        log.warning("no browser could be opened; open the address yourself")
