@@ -19,6 +19,7 @@ from forcetorque.sensor.electronics import (
     QUARTER_BRIDGE_WITH_DUMMY,
     Bridge,
     bridge_ratio,
+    linearised_bridge_ratio,
 )
 from forcetorque.sensor.gauge import ResistiveGauge
 
@@ -28,12 +29,6 @@ COMPENSATED = (QUARTER_BRIDGE_WITH_DUMMY, HALF_BRIDGE, FULL_BRIDGE)
 
 ROUNDING = 1e-15
 """Rounding of a ratio below 1."""
-
-
-def _linearised(changes: np.ndarray) -> np.ndarray:
-    """Output of four equal resistors to first order: changes of neighbours subtract, of opposite arms add."""
-    return 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
-
 
 RESISTANCES = st.floats(1.0, 1e5)
 
@@ -60,6 +55,7 @@ def test_both_printed_forms_agree(r1: float, r2: float, r3: float, r4: float) ->
 def test_output_by_hand() -> None:
     """One arm a percent up: (1.01 - 1) / (2.01 * 2) = 2.4876e-3, close to the linear quarter of a percent."""
     assert bridge_ratio([101.0, 100.0, 100.0, 100.0]) == pytest.approx(1.0 / 402.0, rel=1e-13)
+    assert linearised_bridge_ratio([0.01, 0.0, 0.0, 0.0]) == pytest.approx(2.5e-3, rel=1e-13)
 
 
 def test_linearisation_is_the_slope() -> None:
@@ -70,7 +66,8 @@ def test_linearisation_is_the_slope() -> None:
         for arm in np.eye(4)
     ]
     truncation = step**2
-    np.testing.assert_allclose(slopes, _linearised(np.eye(4)), rtol=0, atol=truncation)
+    np.testing.assert_allclose(slopes, linearised_bridge_ratio(np.eye(4)), rtol=0, atol=truncation)
+    np.testing.assert_array_equal(linearised_bridge_ratio(np.eye(4)), [0.25, -0.25, 0.25, -0.25])
 
 
 @given(st.floats(-0.01, 0.01))
@@ -78,7 +75,7 @@ def test_linearisation_is_wrong_by_squares_only(strain: float) -> None:
     """The error of the linear form is below the square of the changes, in every kind of bridge."""
     for bridge in ALL:
         changes = bridge.relative_changes(GAUGE, strain)
-        error = bridge.ratio(GAUGE, strain) - _linearised(changes)
+        error = bridge.ratio(GAUGE, strain) - linearised_bridge_ratio(changes)
         assert abs(error) <= (changes**2).sum() + ROUNDING
 
 

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.sensor.elastic import Beam, Material, RectangularSection
-from forcetorque.sensor.electronics import FULL_BRIDGE, QUARTER_BRIDGE, Adc, Bridge, hold_on_saturation
+from forcetorque.sensor.elastic import Beam, Material, RectangularSection, y_shaped_element
+from forcetorque.sensor.electronics import FULL_BRIDGE, QUARTER_BRIDGE, Adc, Amplifier, Bridge, hold_on_saturation
 from forcetorque.sensor.full_scale import RawLimits, axis_resolution, coverage, reachable_full_scale
 from forcetorque.sensor.gauge import ResistiveGauge
-from tests.sensor.spokes import y_shaped_element
 
 ELEMENT = y_shaped_element(
     beam=Beam(
@@ -24,15 +23,13 @@ ELEMENT = y_shaped_element(
 )
 GAUGE = ResistiveGauge(gauge_factor=100.0, resistance=1000.0, temperature_coefficient=9e-4)
 SUPPLY = 3.0
-AMPLIFIER_GAIN = 24.0
-AMPLIFIER_OFFSET = 0.05
-"""Output of an amplifier without input; V."""
+AMPLIFIER = Amplifier(amplifier_gain=np.full(6, 24.0), offset=np.full(6, 0.05))
 ADC = Adc(bits=16, reference=2.5, signed=True)
 
 
 def _counts(wrench: FloatArray, *, bridge: Bridge = FULL_BRIDGE, warming: float = 0.0) -> FloatArray:
     strain = wrench @ ELEMENT.strain_matrix().T
-    return ADC.counts(AMPLIFIER_GAIN * SUPPLY * bridge.ratio(GAUGE, strain, warming) + AMPLIFIER_OFFSET)
+    return ADC.counts(AMPLIFIER.output(SUPPLY * bridge.ratio(GAUGE, strain, warming)))
 
 
 def _loads(count: int) -> FloatArray:
@@ -42,9 +39,9 @@ def _loads(count: int) -> FloatArray:
 
 def _matrix() -> tuple[FloatArray, FloatArray]:
     """Matrix and offset by hand: a full bridge gives gauge factor times strain of the supply."""
-    counts_per_strain = SUPPLY * GAUGE.gauge_factor * AMPLIFIER_GAIN / ADC.step
+    counts_per_strain = SUPPLY * GAUGE.gauge_factor * 24.0 / ADC.step
     matrix = np.linalg.inv(counts_per_strain * ELEMENT.strain_matrix())
-    return matrix, -matrix @ np.full(6, AMPLIFIER_OFFSET / ADC.step)
+    return matrix, -matrix @ np.full(6, 0.05 / ADC.step)
 
 
 def test_the_matrix_of_the_parts_tells_the_load() -> None:

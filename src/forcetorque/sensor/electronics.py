@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From resistance to counts: Wheatstone bridge, analogue-to-digital converter, saturation; the reference design."""
+"""From resistance to counts: Wheatstone bridge, amplifier, analogue-to-digital converter, saturation."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from forcetorque.base.arrays import (
     BoolArray,
     FloatArray,
     array,
+    check_arrays,
     require_last_axis,
     require_shape,
 )
@@ -47,6 +48,25 @@ def bridge_ratio(resistances: Any) -> FloatArray:
         raise SensorError(f"resistances: expected numbers above 0 ohm, got {ohms.min():g}")
     r1, r2, r3, r4 = np.moveaxis(ohms, -1, 0)
     return (r1 * r3 - r2 * r4) / ((r1 + r2) * (r3 + r4))
+
+
+def linearised_bridge_ratio(relative_changes: Any) -> FloatArray:
+    """Give the output per input voltage of four resistors that are equal without load, to first order.
+
+    `(c1 - c2 + c3 - c4) / 4`: changes of neighbours subtract, changes of opposite arms add.
+
+    Args:
+        relative_changes: `dR / R` of each arm; shape (..., 4).
+
+    Returns:
+        Output per input voltage; shape (...); wrong by terms of the square of the changes.
+
+    Raises:
+        ShapeError: If there are not four changes.
+    """
+    changes = np.asarray(relative_changes, dtype=np.float64)
+    require_last_axis(changes, name="relative_changes", length=4)
+    return 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,6 +149,68 @@ OPPOSITE_HALF_BRIDGE = Bridge(strain_shares=(1.0, 0.0, 1.0, 0.0), is_gauge=(True
 
 FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
 """Two gauges on each face of a bent beam: four times the output, compensated, and linear without approximation."""
+
+
+_SAME_GAIN = 1e-6
+"""Relative difference up to which a gain is one of the allowed ones: lists print a few digits."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Amplifier(ArrayRecord):
+    """`output = amplifier_gain input + offset`, channel by channel; limits are those of what follows."""
+
+    amplifier_gain: FloatArray = field(metadata=array("c"))
+    """Gain of each channel, above zero; shape (c,)."""
+    offset: FloatArray = field(metadata=array("c"))
+    """Output without input; shape (c,); V."""
+    allowed_gains: tuple[float, ...] | None = None
+    """Gains that the electronics can be set to; any if left out."""
+
+    def __post_init__(self) -> None:
+        check_arrays(self)
+        if not (np.isfinite(self.offset).all() and np.isfinite(self.amplifier_gain).all()):
+            raise SensorError("Amplifier: expected finite gains and offsets in V")
+        for channel, gain in enumerate(self.amplifier_gain):
+            if not gain > 0.0:
+                raise SensorError(f"Amplifier: channel {channel}: expected a gain above 0, got {gain:g}")
+            if (
+                self.allowed_gains is not None
+                and not np.isclose(gain, self.allowed_gains, rtol=_SAME_GAIN, atol=0).any()
+            ):
+                known = ", ".join(f"{allowed:g}" for allowed in sorted(self.allowed_gains))
+                raise SensorError(f"Amplifier: channel {channel}: gain {gain:g} is not one of {known}")
+
+    def output(self, voltage: Any) -> FloatArray:
+        """Amplify.
+
+        Args:
+            voltage: Voltages at the input; shape (..., c); V.
+
+        Returns:
+            Voltages at the output; same shape; V.
+
+        Raises:
+            ShapeError: If there is not one voltage per channel.
+        """
+        volts = np.asarray(voltage, dtype=np.float64)
+        require_last_axis(volts, name="voltage", length=len(self.amplifier_gain))
+        return self.amplifier_gain * volts + self.offset
+
+    def input(self, output: Any) -> FloatArray:
+        """Give the input of an output.
+
+        Args:
+            output: Voltages at the output; shape (..., c); V.
+
+        Returns:
+            Voltages at the input; same shape; V.
+
+        Raises:
+            ShapeError: If there is not one voltage per channel.
+        """
+        volts = np.asarray(output, dtype=np.float64)
+        require_last_axis(volts, name="output", length=len(self.amplifier_gain))
+        return (volts - self.offset) / self.amplifier_gain
 
 
 _MOST_BITS = 32

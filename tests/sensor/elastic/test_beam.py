@@ -8,8 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.sensor.elastic import Beam, Material, RectangularSection
-from tests.sensor.spokes import bending_strain
+from forcetorque.sensor.elastic import Beam, Material, RectangularSection, bending_strain, direct_strain
 
 MATERIAL = Material(young_modulus=200e9, shear_modulus=78e9)
 SECTION = RectangularSection(width=0.003, height=0.005)
@@ -106,7 +105,7 @@ def test_strain_by_hand() -> None:
     # pushed up at its free end, the beam is pressed on its upper face at the clamp
     assert upper == pytest.approx(-bending_strain(40.0 * BEAM.length, SECTION, MATERIAL), rel=ROUNDING)
     pushed = BEAM.strain([40.0, 0, 0, 0, 0, 0], position=0.01, y=0.001, z=0.001)
-    assert pushed == pytest.approx(-40.0 / (200e9 * 0.003 * 0.005), rel=ROUNDING)
+    assert pushed == pytest.approx(-direct_strain(40.0, SECTION, MATERIAL), rel=ROUNDING)
 
 
 def test_faces_bend_oppositely() -> None:

@@ -19,8 +19,10 @@ from forcetorque.sensor.elastic import (
     GaugePlace,
     Material,
     RectangularSection,
+    bending_strain,
+    cross_shaped_element,
+    y_shaped_element,
 )
-from tests.sensor.spokes import bending_strain, cross_shaped_element, y_shaped_element
 
 MATERIAL = Material.from_poisson_ratio(200e9, 0.3)
 SECTION = RectangularSection(width=0.004, height=0.005)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converters: by hand, inverses, rounding, limits."""
+"""Amplifiers and converters: by hand, inverses, rounding, limits."""
 
 from __future__ import annotations
 
@@ -10,15 +10,51 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.base.errors import SensorError
-from forcetorque.sensor.electronics import Adc, Rounding
+from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.sensor.electronics import Adc, Amplifier, Rounding
 
+STRAIN_2 = Amplifier(amplifier_gain=np.array([8.0, 24, 24, 10, 10, 24]), offset=np.array([0.0, 0.1, 0, 0, 0, -0.2]))
 SIGNED = Adc(bits=16, reference=2.5, signed=True)
 UNSIGNED = Adc(bits=8, reference=5.0, signed=False)
 DOWN = dataclasses.replace(SIGNED, rounding=Rounding.DOWN)
 
 ROUNDING = 1e-13
 """Rounding of volts of a few units after a difference, in V."""
+
+
+def test_gain_and_offset_by_hand() -> None:
+    """10 mV on each channel times its gain, plus its offset."""
+    np.testing.assert_allclose(STRAIN_2.output(np.full(6, 0.01)), [0.08, 0.34, 0.24, 0.1, 0.1, 0.04], atol=ROUNDING)
+
+
+def test_input_undoes_output() -> None:
+    """Samples come back, channel by channel."""
+    volts = np.random.default_rng(1).normal(size=(7, 6))
+    np.testing.assert_allclose(STRAIN_2.input(STRAIN_2.output(volts)), volts, rtol=0, atol=ROUNDING)
+    shuffled = STRAIN_2.output(volts)[:, ::-1]
+    assert np.abs(STRAIN_2.input(shuffled) - volts).max() > 0.1  # negative control: channels have their own gain
+
+
+def test_gains_that_the_electronics_lacks_are_refused() -> None:
+    """A list of allowed gains is enforced, and the message lists it."""
+    with pytest.raises(SensorError, match="channel 1: gain 25 is not one of 8, 10, 24"):
+        dataclasses.replace(
+            STRAIN_2, amplifier_gain=np.array([8.0, 25, 24, 10, 10, 24]), allowed_gains=(8.0, 24.0, 10.0)
+        )
+    allowed = dataclasses.replace(STRAIN_2, allowed_gains=(8.0, 24.0, 10.0))
+    assert allowed.allowed_gains == (8.0, 24.0, 10.0)
+
+
+def test_bad_amplifiers_are_refused() -> None:
+    """A gain of zero, an offset too many, a channel too many."""
+    with pytest.raises(SensorError, match="channel 0: expected a gain above 0, got 0"):
+        Amplifier(amplifier_gain=np.zeros(1), offset=np.zeros(1))
+    with pytest.raises(ShapeError, match=r"offset: expected an array of shape \(1\), got \(2,\)"):
+        Amplifier(amplifier_gain=np.ones(1), offset=np.zeros(2))
+    with pytest.raises(SensorError, match="finite"):
+        Amplifier(amplifier_gain=np.ones(1), offset=np.array([np.nan]))
+    with pytest.raises(ShapeError, match=r"voltage: expected shape \(\.\.\., 6\)"):
+        STRAIN_2.output(np.zeros((3, 5)))
 
 
 def test_limits_and_step_by_hand() -> None:
