@@ -45,7 +45,7 @@ from forcetorque.inspection.findings import inspect_patches, inspect_recording, 
 from forcetorque.inspection.segmented_findings import inspect_segments
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
 
@@ -85,10 +85,11 @@ ToCalibrate = Literal["sensor", "skin"] | None
 """What an experiment file states to be calibrated."""
 
 
-class Inspection(Result):
+class Inspection(DrawnResult):
     """Contents of a log, and findings."""
 
     answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
+    drawn_by: ClassVar[str] = "forcetorque.inspection.figure:findings_figure"
 
     of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor", "times")
 
