@@ -125,10 +125,8 @@ export class Column {
     // the farthest block first: few others are then unpacked
     const spans: { start: number; stop: number; reach: number }[] = [];
     for (let start = first, stop = first; start < end; start = stop) {
-      const k = Math.floor(start / block);
-      stop = Math.min(end, (k + 1) * block);
-      // a block at an edge of the span reaches no farther than the whole of it, which is known
-      const { low, high, count } = (k + 1) * block <= this.samples ? this.ofBlock(k) : this.summary(start, stop);
+      stop = Math.min(end, (Math.floor(start / block) + 1) * block);
+      const { low, high, count } = this.summary(start, stop);
       if (count > 0) spans.push({ start, stop, reach: Math.max(-low, high) });
     }
     spans.sort((a, b) => b.reach - a.reach || a.start - b.start);

@@ -64,15 +64,13 @@ export class StatisticsPanel implements Drawable {
     ];
   }
 
-  /** Numbers of a window; which sample is the worst is looked for when someone asks, for it must be unpacked. */
   private cells(column: Column, first: number, end: number): HTMLElement[] {
-    const { low, high, sum, squares, count } = column.summary(first, end);
-    const worst = (): number => column.farthest(first, end) ?? first;
-    const go = button(this.shown(-low > high ? low : high), () => this.store.set({ sample: worst(), playing: false }), {
+    const { sum, squares, count } = column.summary(first, end);
+    const worst = column.farthest(first, end) ?? first;
+    const go = button(this.shown(column.at(worst)), () => this.store.set({ sample: worst, playing: false }), {
       class: "link",
+      title: `at ${(this.data.time[worst] ?? 0).toFixed(3)} s`,
     });
-    const tell = (): void => void (go.title = `at ${(this.data.time[worst()] ?? 0).toFixed(3)} s`);
-    for (const event of ["pointerenter", "focus"]) go.addEventListener(event, tell, { once: true });
     const values = [Math.sqrt(squares / count), sum / count].map((value) => el("td", {}, this.shown(value)));
     return [...values, el("td", {}, go)];
   }
