@@ -123,8 +123,8 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
     def run(view: Path | None = None, **given: Any) -> Result | None:
         if view is None:
             return command(**given)
+        from forcetorque.base.output_file import existing_files_replaced_last
         from forcetorque.experiment.kept_experiments import kept_experiments
-        from forcetorque.experiment.loading import Purpose, load_experiment
 
         files = _declared(view, given)
 
@@ -133,10 +133,7 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
 
         # estimates of many recordings let one go after the other
         one_by_one = name == "estimate" and len(files) > 1
-        if one_by_one and any(file.exists() for file in files.values()):
-            for path in files:  # what is written first may be an input of what is read last
-                load_experiment(path, Purpose.FORCES)
-        with kept_experiments(f"--view {view}", write if one_by_one else None) as known:
+        with existing_files_replaced_last(), kept_experiments(f"--view {view}", write if one_by_one else None) as known:
             result = command(**given)
         if result is not None and not one_by_one:
             for path in files:

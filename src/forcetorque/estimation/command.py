@@ -80,12 +80,12 @@ def estimate(
     Returns:
         The `Result` that is shown, without samples.
     """
-    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.base.output_file import declare_outputs, existing_files_replaced_last
     from forcetorque.estimation.result import estimates_of_recordings
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import file_of_each, stated_in
     from forcetorque.experiment.kept_experiments import experiment_finished
-    from forcetorque.experiment.loading import Purpose, load_experiment
+    from forcetorque.experiment.loading import Purpose
     from forcetorque.formats.sample_table import SUFFIXES
     from forcetorque.results.terminal.output import refuse_ending, refuse_figure
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
@@ -97,27 +97,25 @@ def estimate(
     files, figures = file_of_each(experiments, output), {} if figure is None else file_of_each(experiments, figure)
     written = [*files.values(), *(file for file in figures.values() if file != figure)]
     declare_outputs(*written, force=force)
-    if len(experiments) > 1 and any(file.exists() for file in written):
-        for path in experiments:  # what is written first may be an input of what is read last
-            load_experiment(path, Purpose.FORCES)
     calibrations = read_calibrations(calibration)
     summaries = {}
-    for path, file in files.items():
-        # a recording goes when its estimates are written: there may be more of them than memory holds
-        content = read_experiment(path, log, Purpose.FORCES)
-        with stated_in(str(path)):
-            summary = summaries[str(path)] = _estimated(
-                content,
-                calibrations,
-                contacts,
-                length_scale,
-                file,
-                log,
-                offset=offset,
-                fuse=fuse,
-                figure=figures.get(path),
-            )
-        experiment_finished(path, content, summary)
+    with existing_files_replaced_last():  # what is written first may be an input of what is read last
+        for path, file in files.items():
+            # a recording goes when its estimates are written: there may be more of them than memory holds
+            content = read_experiment(path, log, Purpose.FORCES)
+            with stated_in(str(path)):
+                summary = summaries[str(path)] = _estimated(
+                    content,
+                    calibrations,
+                    contacts,
+                    length_scale,
+                    file,
+                    log,
+                    offset=offset,
+                    fuse=fuse,
+                    figure=figures.get(path),
+                )
+            experiment_finished(path, content, summary)
     several = len(summaries) > 1
     result = estimates_of_recordings(summaries) if several else summaries[str(experiments[0])]
     show(result, output_format, details=details, experiments=experiments)

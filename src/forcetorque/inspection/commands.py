@@ -150,7 +150,7 @@ def _resume(file: Path, output_format: Format, *, no_input: bool, yes: bool, det
         raise typer.Exit(OPEN_QUESTIONS)
 
 
-@command()
+@command("when each kind of finding is there, and what is in use")
 def inspect(
     log: Annotated["Path | str", Option("Experiment file, or a log that is recognised, such as a YARP dumper folder.")],
     *,

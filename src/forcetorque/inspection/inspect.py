@@ -46,7 +46,7 @@ from forcetorque.inspection.findings import inspect_experiment, inspect_patches,
 from forcetorque.inspection.postures import PostureRow, posture_tables, unexplained_postures
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
 
@@ -120,10 +120,11 @@ ToCalibrate = Literal["sensor", "skin", "standing"] | None
 """What an experiment file states to be calibrated, or `standing` for vertical forces of soles alone."""
 
 
-class Inspection(Result):
+class Inspection(DrawnResult):
     """Contents of a log, and findings."""
 
     answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
+    drawn_by: ClassVar[str] = "forcetorque.inspection.figure:findings_figure"
 
     of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor", "times")
 
