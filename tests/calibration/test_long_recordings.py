@@ -91,7 +91,7 @@ def test_a_long_recording_is_reduced_once(recorded: Path, monkeypatch: pytest.Mo
             ),
         )
 
-    monkeypatch.setattr("forcetorque.calibration.doubts.inspect_experiment", found)
+    monkeypatch.setattr("forcetorque.calibration.interval_and_mount_doubts.inspect_experiment", found)
     with short_segments():
         (run,) = _runs(recorded, CALIBRATION[0])
         (moments,) = recording_moments(run, block_s=60.0)

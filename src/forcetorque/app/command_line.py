@@ -13,7 +13,7 @@ from forcetorque.app.wrapped_commands import with_datasets, with_live_view, with
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
-from forcetorque.results.terminal.command import command_function
+from forcetorque.results.terminal.command_from_signature import command_function
 from forcetorque.results.terminal.options import WholeSentences
 from forcetorque.results.terminal.output import print_messages, report_error, spell_missing_letters
 

@@ -12,8 +12,12 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.calibration.doubts import doubts_of_intervals, doubts_of_samples, with_estimated_mount
 from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.interval_and_mount_doubts import (
+    doubts_of_intervals,
+    doubts_of_samples,
+    with_estimated_mount,
+)
 from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments

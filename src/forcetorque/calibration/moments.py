@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, RecordingError
 from forcetorque.base.rows_on_disk import RowsOnDisk
 from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
-from forcetorque.calibration.doubts import mount_doubts
+from forcetorque.calibration.interval_and_mount_doubts import mount_doubts
 from forcetorque.calibration.model_error_derivatives import model_columns
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.model_error import ErrorTerm

@@ -19,7 +19,7 @@ from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts
-from forcetorque.calibration.doubts import SegmentedDoubts
+from forcetorque.calibration.interval_and_mount_doubts import SegmentedDoubts
 from forcetorque.calibration.moments import SegmentedMoments
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum

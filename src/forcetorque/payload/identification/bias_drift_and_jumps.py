@@ -9,10 +9,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
+from forcetorque.payload.identification.estimate_under_noise import noise_sizes
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import BiasTestRow, DriftRow, six
 from forcetorque.payload.identification.measurement_model import expected, masses
-from forcetorque.payload.identification.noise_model import noise_sizes
 from forcetorque.payload.identification.parameter_vector import Kind, places
 from forcetorque.payload.identification.robust_fit import Fit, fit, plain_fit
 from forcetorque.results.number_text import finite_or_none
