@@ -60,6 +60,7 @@ def answer(entries: Entries) -> Contest:
 def test_the_planted_one_wins_and_the_others_are_equal(entries: Entries) -> None:
     """Of the bare three; its error is a third lower, of force and moment over the loads."""
     result = contest(entries)
+    assert result.comparable
     assert result.winner == OURS
     by_name = {row.contestant: row for row in result.contestants}
     assert result.contestants[0].contestant == OURS
@@ -69,6 +70,17 @@ def test_the_planted_one_wins_and_the_others_are_equal(entries: Entries) -> None
     assert pair.conclusion == "no difference"
     assert f"{OURS} errs least, significantly" in str(result)
     assert result.loads_kg == JUDGED
+
+
+def test_unlike_loads_have_no_winner(entries: Entries, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same stack, were moments about unlike levers no one load: errors in % of the loads of all rank nobody."""
+    monkeypatch.setattr("forcetorque.contests.ranking._ONE_STACK", 1.2)
+    result = contest(entries)
+    assert (result.comparable, result.winner) == (False, None)
+    assert next(iter(result.answers())).verdict == "NOT COMPARABLE"
+    assert "not comparable: the contestants do not carry one load" in str(result)
+    (words,) = (words for words in result.warnings if "one load" in words)
+    assert "errs less in N m" in words
 
 
 def test_methods_meet_and_what_lacks_something_is_named(answer: Contest) -> None:

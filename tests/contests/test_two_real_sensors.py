@@ -67,4 +67,6 @@ def test_sensors_of_one_leg_do_not_carry_one_load(data_dir: Path, tmp_path: Path
     answer = contest(read_entries(tmp_path / "contest.toml"))
     judged = {row.contestant: row.judged_N for row in answer.contestants}
     assert 3.0 * judged["foot"] < judged["leg"] < 5.0 * judged["foot"]
-    assert any("they do not carry one load" in words for words in answer.warnings)
+    assert sum("they do not carry one load" in words for words in answer.warnings) == 2  # in N, in N m
+    assert (answer.comparable, answer.winner) == (False, None)
+    assert next(iter(answer.answers())).verdict == "NOT COMPARABLE"

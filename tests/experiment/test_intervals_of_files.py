@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,9 @@ import pytest
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.streams import RecordedLog, load_recorded
+from forcetorque.locomotion.standing.foot_wrenches import FootForces, load_foot_forces
+from forcetorque.skin.experiment import PatchExperiment, load_patches
 from tests.payload.test_wrist_load import TEXT
 
 INTERVALS = """\
@@ -52,6 +56,60 @@ def test_every_file_has_its_intervals(tmp_path: Path) -> None:
         "2 fit": [0, 1, 2], "7 fit": [6, 7, 8], "10 fit": [10, 11, 12],
         "2 judge": [3, 4, 5], "7 judge": [9], "10 judge": [13, 14],
     }  # fmt: skip
+
+
+ALONE = """\
+schema = "forcetorque/experiment/1"
+name = "without a force-torque sensor"
+
+[recording]
+format = "tabular"
+path = "."
+
+[[recording.stream]]
+name = "poses"
+file = "raw/*.csv"
+stamp = "row"
+signal = [SIGNALS]
+
+"""
+FOOT = """\
+[[sole]]
+frame = "sole"
+stream = "poses"
+
+"""
+SKIN = """\
+[[patch]]
+name = "palm"
+serial = "P1"
+counts = "poses"
+pressure = "poses"
+
+"""
+OF_FOOT = '{ quantity = "vertical_force", columns = ["a"], units = ["N"] }'
+OF_SKIN = """\
+{ quantity = "taxel_counts", columns = ["a", "b"], units = ["counts", "counts"] },
+{ quantity = "pressure", columns = ["c"], units = ["kPa"] }"""
+
+
+@pytest.mark.parametrize(
+    ("load", "source", "signals"),
+    [(load_foot_forces, FOOT, OF_FOOT), (load_patches, SKIN, OF_SKIN), (load_recorded, "", OF_FOOT)],
+)
+def test_files_have_their_intervals_without_a_sensor(
+    tmp_path: Path, load: Callable[[Path], FootForces | PatchExperiment | RecordedLog], source: str, signals: str
+) -> None:
+    """Feet with vertical forces, skin and a log alone are cut as a sensor is."""
+    path = _write(tmp_path)
+    path.write_text(ALONE.replace("SIGNALS", signals.replace("\n", " ")) + source + INTERVALS)
+    loaded = load(path)
+    stamps = loaded.recording.stream("poses").stamp_ns
+    held = [int(((stamps >= one.start_ns) & (stamps < one.end_ns)).sum()) for one in loaded.intervals]
+    assert [one.label for one in loaded.intervals] == [
+        "2 fit", "7 fit", "10 fit", "2 judge", "7 judge", "10 judge",
+    ]  # fmt: skip
+    assert held == [3, 3, 3, 3, 1, 2]
 
 
 @pytest.mark.parametrize(

@@ -57,10 +57,11 @@ def contest_answer(contest: "Contest") -> Answer:
     loads = ", ".join(f"{load:g}" for load in contest.loads_kg)
     lacking = len(contest.left_out)
     left = f"; {lacking} could not take part" if lacking else ""
+    won = f"LEAST ERROR: {contest.winner}" if contest.winner is not None else "NONE ERRS LEAST"
     return Answer(
         subject=f"{contest.contest}, loads of {loads} kg",
-        verdict=f"LEAST ERROR: {contest.winner}" if contest.winner is not None else "NONE ERRS LEAST",
-        why=(f"error in % of the loads: {errors}{more}", f"{_ratios(contest)}{left}"),
+        verdict=won if contest.comparable else "NOT COMPARABLE",
+        why=(f"error in % of the loads of all: {errors}{more}", f"{_ratios(contest)}{left}"),
         written=(contest.figure_file,),
         concern=Concern.NONE if contest.winner is not None else Concern.UNCERTAIN,
     )

@@ -44,11 +44,13 @@ class ContestantRow(Row):
     """Loads that it was fitted on; kg."""
     rank: Annotated[int, Shown("rank")]
     """Rank by force and moment together: one more than the number of contestants with significantly smaller errors."""
-    error_percent: Annotated[float, Shown("error", "% of the loads", digits=2)]
+    error_percent: Annotated[float, Shown("error", "% of the loads of all", digits=2)]
     """Root mean square error of force over the judged force and of moment over the judged moment of all contestants,
     together; %."""
     judged_N: Annotated[float, Shown("judged", "N", digits=1)]
     """Root mean square force about its mean that this contestant was judged by."""
+    judged_Nm: float
+    """The same of the moment; N m."""
     force_error_N: Annotated[float, Shown("force", "N", digits=3)]
     """Root mean square norm of the force error."""
     rank_force: Annotated[int, Shown("rank, force")]
@@ -120,7 +122,7 @@ def contestant_row(
     common: BoolArray,
     *,
     scale: tuple[float, float],
-    judged_N: float,
+    judged: tuple[float, float],
     ranks: tuple[int, int, int],
 ) -> ContestantRow:
     """Compute the scores of a contestant.
@@ -131,7 +133,7 @@ def contestant_row(
         squares: Their squared errors by `mean_squares`; shape (loads, q, 6).
         common: Phases that all runs have; shape (p,).
         scale: Root mean square force and moment that were judged; N, N m.
-        judged_N: Its own judged force; N.
+        judged: Its own judged force and moment; N, N m.
         ranks: Its ranks by wrench, force and moment.
 
     Returns:
@@ -154,7 +156,8 @@ def contestant_row(
         fitted_loads_kg=reader.fitted_loads_kg,
         rank=ranks[0],
         error_percent=100.0 * float(np.hypot(force / scale[0], moment / scale[1])),
-        judged_N=judged_N,
+        judged_N=judged[0],
+        judged_Nm=judged[1],
         force_error_N=force,
         rank_force=ranks[1],
         moment_error_Nm=moment,
@@ -247,8 +250,11 @@ class Contest(DrawnResult):
     """Phases of the motion that all runs have."""
     loads_kg: tuple[float, ...]
     """Validation loads, on which no contestant was fitted; kg."""
+    comparable: bool
+    """Whether all carry one load: the forces that judge them differ by 25 % at most, the moments by a factor of 2."""
     winner: str | None
-    """The contestant with significantly smaller errors than every other, by force and moment together; else none."""
+    """The contestant with significantly smaller errors than every other, by force and moment together; none where there
+    is none, or they are not comparable."""
     contestants: tuple[ContestantRow, ...]
     """Contestants, the best first."""
     loads: tuple[ContestLoadRow, ...]
@@ -277,7 +283,9 @@ class Contest(DrawnResult):
 
     def _verdict(self) -> Iterator[str]:
         best = [row.contestant for row in self.contestants if row.rank == 1]
-        if self.winner is not None:
+        if not self.comparable:
+            yield "not comparable: the contestants do not carry one load, and errors are in % of the loads of all"
+        elif self.winner is not None:
             yield f"{self.winner} errs least, significantly"
         else:
             yield f"no contestant wins significantly; in the first place: {'; '.join(best)}"
@@ -341,24 +349,26 @@ def ranking(entries: Entries, *, code_version: str, created: str) -> Contest:
             squares[name],
             common,
             scale=scale,
-            judged_N=judged[name][0],
+            judged=judged[name],
             ranks=ranks[name],
         )
         for reader in readers
         for name in [reader.entry.name]
     ]
     rows.sort(key=lambda row: (row.rank, row.error_percent))
+    unlike = tuple(_unlike(rows))
     return Contest(
         contest=entries.name,
         offset=entries.offset.value,
         phases=int(common.sum()),
         loads_kg=judged_loads,
-        winner=winner,
+        comparable=not unlike,
+        winner=None if unlike else winner,
         contestants=tuple(rows),
         loads=tuple(row for name in squares for row in load_rows(name, loads[name], squares[name])),
         pairs=tuple(pairs),
         left_out=tuple(left_out),
-        warnings=tuple(_warnings(rows)),
+        warnings=(*unlike, *_warnings(rows)),
     )
 
 
@@ -416,15 +426,24 @@ def _judged(trials: Sequence[Trial], common: BoolArray) -> tuple[float, float]:
 
 _ONE_LOAD = 1.25
 """Ratio of judged forces up to which sensors carry one load: errors that differ by as much count as equal."""
+_ONE_STACK = 2.0
+"""Ratio of judged moments up to which they do: sensors of one stack have unlike levers, by which it is 1.6 on the
+device of the thesis."""
+
+
+def _unlike(rows: Sequence[ContestantRow]) -> Iterator[str]:
+    """How forces and moments that judge the contestants differ; nothing where they carry one load."""
+    for judged, unit, most_unlike in (("judged_N", "N", _ONE_LOAD), ("judged_Nm", "N m", _ONE_STACK)):
+        least, *_, most = sorted(rows, key=lambda row: float(getattr(row, judged)))
+        low, high = getattr(least, judged), getattr(most, judged)
+        if high > most_unlike * low:
+            yield (
+                f"{most.contestant} is judged by {high:.3g} {unit}, {least.contestant} by {low:.3g} {unit}: they do "
+                f"not carry one load, and who carries less errs less in {unit}; mount them where they carry the same"
+            )
 
 
 def _warnings(rows: Sequence[ContestantRow]) -> Iterator[str]:
-    least, *_, most = sorted(rows, key=lambda row: row.judged_N)
-    if most.judged_N > _ONE_LOAD * least.judged_N:
-        yield (
-            f"{most.contestant} is judged by {most.judged_N:.3g} N, {least.contestant} by {least.judged_N:.3g} N: they "
-            "do not carry one load, and who carries less errs less in N; mount them where they carry the same"
-        )
     if all(row.repeatability is None for row in rows):
         yield "no load was repeated: precision and drift are unobservable; repeat a run"
     without = [row.contestant for row in rows if row.full_scale is None]

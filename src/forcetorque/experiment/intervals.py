@@ -11,6 +11,7 @@ from forcetorque.base.arrays import BoolArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.mechanics.root_motion import imu_frame, imu_streams
 from forcetorque.robot.model import RobotModel
@@ -211,10 +212,11 @@ def read_spans(parsed: schema.ExperimentFile, file: Path, recording: Recording) 
         recording: The streams.
 
     Returns:
-        The spans in the order of the file.
+        The spans in the order of the file, one for each file of an interval with `files`.
     """
     with stated_in(f"{file}: recording"):
         first, last = recording.span_ns
+    parsed = with_intervals_of_files(parsed, file, recording)
     spans = []
     for index, span in enumerate(parsed.interval):
         start_ns, end_ns = span_ns(f"{file}: interval[{index}] {span.label!r}", span, first, last)

@@ -19,7 +19,6 @@ from forcetorque.experiment.core_tables import Sensor
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import ExperimentContext, Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
-from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.sensors import declare_sensors
 from forcetorque.formats.array_file.log_format import array_streams
 from forcetorque.formats.array_file.streams import ArrayLog
@@ -182,7 +181,6 @@ def load_recorded(path: Path | str) -> RecordedLog:
     # of a robot only its joints matter here, which are in rad or in m
     model = None if parsed.robot is None else read_urdf(inputs.robot(parsed.robot.urdf))
     recording = read_streams(parsed, file, model, inputs)
-    parsed = with_intervals_of_files(parsed, file, recording)
     return RecordedLog(name=parsed.name, recording=recording, intervals=read_spans(parsed, file, recording))
 
 

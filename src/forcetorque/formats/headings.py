@@ -83,11 +83,11 @@ def read_heading(text: str) -> Heading:
     Returns:
         Name and unit.
     """
-    plain = text.strip().strip("\"'")  # some programs put headings in quotes, which readers take as they are
-    bracketed = _BRACKETED.match(plain)
-    if bracketed is not None:
-        unit = _SPELLINGS.get(bracketed["unit"].strip().lower())
-        return Heading(text, bracketed["name"] if unit else plain, unit)
+    plain = _unquoted(text)
+    short, inside = without_bracket(text)
+    if inside is not None:
+        unit = _SPELLINGS.get(inside.lower())
+        return Heading(text, short if unit else plain, unit)
     name, _, last = plain.rpartition("_")
     small = last.lower()
     # `_N` is newton and `_n` may be a number
@@ -95,6 +95,23 @@ def read_heading(text: str) -> Heading:
     if name and (specified or (small in _TIMES and name.lower() in _TIME_NAMES)):
         return Heading(text, name, _SPELLINGS[small])
     return Heading(text, plain, None)
+
+
+def without_bracket(text: str) -> tuple[str, str | None]:
+    """Take the bracket at the end of a heading off, whether or not a unit is in it.
+
+    Args:
+        text: As the table has it.
+
+    Returns:
+        What is before it, and what is in it; None where there is none.
+    """
+    bracketed = _BRACKETED.match(_unquoted(text))
+    return (_unquoted(text), None) if bracketed is None else (bracketed["name"], bracketed["unit"].strip())
+
+
+def _unquoted(text: str) -> str:
+    return text.strip().strip("\"'")  # some programs put headings in quotes, which readers take as they are
 
 
 def headings_of(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...] | None:

@@ -115,9 +115,11 @@ def _weight(weight: KnownWeight) -> str:
         "inconclusive": "inconclusive: put it on again, three times or more, each time anew",
     }[weight.agreement]
     settled = max(row.settled_s for row in weight.placements)
+    touches = ", ".join(f"{row.from_s:.1f}-{row.to_s:.1f} s" for row in weight.left_out)
+    left = f" (left out: {touches}, less than half of the median)" if touches else ""
     return (
-        f"known weight of {amount(weight.weight_N, 'N')}: {read} is read of it in {len(weight.placements)} placements, "
-        f"settled within {amount(settled, 's')}; {words}"
+        f"known weight of {amount(weight.weight_N, 'N')}: {read} is read of it in {len(weight.placements)} placements"
+        f"{left}, settled within {amount(settled, 's')}; {words}"
     )
 
 

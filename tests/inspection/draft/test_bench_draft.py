@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -96,6 +97,21 @@ def test_what_is_not_known_is_asked(tmp_path: Path) -> None:
         loads=tmp_path / "own.csv",
     )
     assert [one.key for one in named.questions][-3:] == ["channels", "known", "known_units"]
+
+
+def test_loads_of_units_that_are_not_known_are_asked(tmp_path: Path) -> None:
+    """They stay loads; what is named like a load twice is named as not taken."""
+    channels = [f"ch{k}" for k in range(1, 7)]
+    loads = ["known_fx [N]", "known_fy [N]", "known_fz [kN]", "known_tx [N m]", "known_ty [mN m]", "known_tz"]
+    rows = np.hstack([_readings(), thesis_loads().wrench])
+    draft = draft_experiment([_write(tmp_path / "fit.csv", [*channels, *loads], rows)])
+    assert tomllib.loads(draft.content)["measurements"]["known"] == loads
+    (question,) = [one.question for one in draft.questions if one.key == "known_units"]
+    assert question == 'unit of each, as ["N", "N", "kN", "N m", "?", "N m"]; not known: known_ty [mN m]'
+    twice = [f"{word}_f{axis}" for word in ("known", "applied") for axis in "xyz"]
+    content = draft_experiment([_write(tmp_path / "twice.csv", [*channels, *twice], rows)]).content
+    assert tomllib.loads(content)["measurements"]["known"] == twice[:3]
+    assert "# named like a load, and not taken: applied_fx, applied_fy, applied_fz" in content
 
 
 def test_a_log_with_times_is_no_bench(tmp_path: Path, beside_loads: Path) -> None:

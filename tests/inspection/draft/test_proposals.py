@@ -273,6 +273,41 @@ def test_intervals_in_one_line_are_changed_by_hand(pushed: Path) -> None:
     assert not any("nothing is left to ask" in block for block in draft.blocks() if isinstance(block, str))
 
 
+def test_intervals_of_files_are_cut_by_hand(pushed: Path) -> None:
+    """Each file has its own parts free of contact, which one table for all files cannot state."""
+    recording = read_recording(pushed / "recording")
+    joints, readings = recording.stream("joints"), recording.stream("arm_ft")
+    seconds = (readings.stamp_ns - recording.start_ns) * 1e-9
+    angles = joints.signal("position").values
+    moved = [np.interp(readings.stamp_ns, joints.stamp_ns, column) for column in angles.T]
+    rows = np.column_stack([seconds, *moved, readings.signal("raw").values])
+    channels = [f"ch{k}" for k in range(1, 7)]
+    names = ["t", *JOINTS, *channels]
+    (pushed / "raw").mkdir()
+    for number, own in enumerate((seconds < 12.0, seconds >= 12.0), start=1):
+        table = pushed / "raw" / f"{number}.csv"
+        np.savetxt(table, rows[own], delimiter=",", header=",".join(names), comments="", fmt="%.9g")
+    text = (pushed / "all.toml").read_text(encoding="utf-8")
+    log = (
+        'format = "tabular"\npath = "."\n\n[[recording.stream]]\nname = "arm_ft"\nfile = "raw/*.csv"\n'
+        'stamp = { column = "t", unit = "s" }\nsignal = [\n'
+        f'{{ quantity = "position", columns = {list(JOINTS)}, units = {["rad"] * 5}, names = {list(JOINTS)} }},\n'
+        f'{{ quantity = "raw", columns = {channels}, units = {["counts"] * 6} }},\n]\n'
+    )
+    text = text.replace('format = "parquet"\npath = "recording"\n', log).replace(
+        'label = "all"  # not cut yet\nstart_s = 0.0\n', 'label = "{file}"\nfiles = "arm_ft"\n'
+    )
+    file = pushed / "files.toml"
+    file.write_text(text, encoding="utf-8")
+    (row,) = resume_experiment(file, accepts=lambda _: True).proposals
+    assert row.line is None
+    assert "write label, start_s, end_s and use of each in interval by hand" in row.proposal
+    assert row.residual_before_N is not None
+    assert row.residual_after_N is not None
+    assert row.residual_after_N < 0.5 * row.residual_before_N
+    assert file.read_text(encoding="utf-8") == text
+
+
 @pytest.mark.long
 def test_a_file_is_complete_once_its_proposal_is_accepted(pushed: Path, run: Run) -> None:
     """Listed with exit code 4; then nothing is left."""

@@ -9,6 +9,7 @@ import pytest
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.skin.answers import _weight
 from forcetorque.skin.wrench.known_weight import Agreement, KnownWeight, known_weight
 
 MASS_KG, FRAME_S, REST_S, HOLD_S = 0.8, 0.2, 2.0, 8.0
@@ -58,11 +59,31 @@ def test_pads_that_lag_settle_late() -> None:
     assert late.share == pytest.approx(1.0, abs=0.02)
 
 
+def test_frames_without_a_contact_part_no_placement() -> None:
+    """One in seven is lost, and forces of the others are the same as with all; two seconds part placements."""
+    whole = _of(np.array([1.0, 1.02, 0.98]))
+    seconds, force, touched = _frames(np.array([1.0, 1.02, 0.98]))
+    lost = touched & (np.arange(len(touched)) % 7 == 0)
+    result = known_weight(MASS_KG, seconds, np.where(lost, 0.0, force), touched & ~lost)
+    assert [row.share for row in result.placements] == pytest.approx([row.share for row in whole.placements])
+    assert [row.settled_s for row in result.placements] == [0.0] * 3
+    assert (result.agreement, result.left_out) == (whole.agreement, ())
+
+
+def test_a_light_touch_is_no_placement() -> None:
+    """A hand with a fifth of the weight is left out and named; a patch that reads 60 % of it is not."""
+    result = _of(np.array([1.0, 0.2, 1.02, 0.98, 0.99]))
+    assert [row.share for row in result.left_out] == pytest.approx([0.2])
+    assert (len(result.placements), result.agreement) == (4, "agrees")
+    assert "left out: 12.0-19.8 s, less than half of the median" in _weight(result)
+    assert _of(np.array([0.6, 1.0, 0.61])).left_out == ()
+
+
 def test_what_is_no_weight_is_refused() -> None:
     """A mass that is none, and one that was never left on the patch."""
     frames = _frames(np.ones(3))
     with pytest.raises(SkinError, match="expected a mass above 0 kg, got -1"):
         known_weight(-1.0, *frames)
-    touched = frames[2] & (np.arange(len(frames[2])) % 5 > 0)
-    with pytest.raises(SkinError, match="on the patch for 8 frames in a row or more, got 96 with a contact"):
+    touched = frames[2] & (np.arange(len(frames[2])) % 12 < 5)
+    with pytest.raises(SkinError, match=r"on the patch for 8 frames or more at a time, got \d+ with a contact"):
         known_weight(MASS_KG, frames[0], frames[1], touched)

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.formats.headings import read_heading
+from forcetorque.formats.headings import read_heading, without_bracket
 from forcetorque.formats.log_format import LogSketch
 from forcetorque.inspection.draft.streams import DraftedLog, column_matches, relative, time_column
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
@@ -157,12 +157,21 @@ def _columns_lines(
         yield question("known_units", 'unit of each, as ["N", "N", "N", "N m", "N m", "N m"]')
         return
     yield line("known", list(known.values()), "columns of the load")
+    taken = {names[k] for k in channels}
+    if unused := [name for name in rest if name not in taken and _KNOWN.match(name)]:
+        yield remark(f"named like a load, and not taken: {listed(unused)}")
     units = [read_heading(name).unit for name in known.values()]
     if all(units):
         yield line("known_units", units)
-    else:
-        usual = [unit for name, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True) if name in known]
-        yield question("known_units", f"unit of each, as {toml_value(usual)}", usual)
+        return
+    usual = [unit for name, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True) if name in known]
+    strange = [name for name in known.values() if read_heading(name).unit is None and without_bracket(name)[1]]
+    likely = [
+        unit or ("?" if name in strange else other)
+        for name, unit, other in zip(known.values(), units, usual, strict=True)
+    ]
+    of = f"; not known: {listed(strange)}" if strange else ""
+    yield question("known_units", f"unit of each, as {toml_value(likely)}{of}", None if strange else likely)
 
 
 def _headings(table: LogSketch) -> list[Any]:
@@ -173,7 +182,7 @@ def _known_columns(table: LogSketch) -> dict[str, str]:
     """Columns of the load by component, in the order of a wrench; none without a force."""
     found: dict[str, str] = {}
     for heading in _headings(table):
-        named = _KNOWN.match(heading.name)
+        named = _KNOWN.match(without_bracket(heading.name)[0])  # also of a unit that is not known: it is asked
         parts = None if named is None else _COMPONENT.match(named["rest"])
         if parts is not None:
             kind = "f" if parts["kind"].lower() in _FORCES else "t"

@@ -19,6 +19,8 @@ import numpy as np
 
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison
@@ -143,7 +145,11 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     if touched_ns < _TOUCHED_S * 1e9 and not _lacks_validation(used):
         return None
     content = tomllib.loads(text)
+    parsed = parse_experiment(file)
+    cut = with_intervals_of_files(parsed, file, experiment.recording)
     tables = tables_of(content, "interval")
+    if cut is not parsed:  # each file has its own parts free of contact
+        tables = [one.model_dump(mode="json", exclude_unset=True, exclude_none=True) for one in cut.interval]
     changes = [_changes(one, pieces.get(one["label"], ()), experiment) for one in tables]
     content["interval"] = [{**one, **change} for one, own in zip(tables, changes, strict=True) for change in own]
     changed = experiment_of(file, content)
@@ -162,7 +168,7 @@ def _interval_proposal(file: Path, text: str, experiment: Experiment, runs: Sequ
     )
     by = f" for {', '.join(free.sensors)}" if free.left_out else ""
     what = "intervals free of contact" if improved else "no interval validates the fit; one of both uses"
-    edit = interval_edit(text, changes)
+    edit = interval_edit(text, changes) if cut is parsed else None
     edit = edit if edit is not None and edit.results_in(content, text) else None
     flat = [piece for own_pieces in pieces.values() for piece in own_pieces]
     if _lacks_validation(used) and not all(load.moves(flat) for load in loads):

@@ -12,7 +12,7 @@ from typing import Annotated, Final, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import SkinError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.base.units import STANDARD_GRAVITY
@@ -25,6 +25,10 @@ LEAST_PLACEMENTS: Final = 3
 """Placements of which an interval is computed."""
 _LEAST_FRAMES: Final = 8
 """Frames of a placement, of which the middle half is taken: a weight that is put on or taken off is no known load."""
+_APART_S: Final = 1.0
+"""Time without a contact from which on the weight was put on anew; s: contacts are lost for a frame or two."""
+_LEAST_SHARE: Final = 0.5
+"""Part of the median force of all placements below which one is another touch, as of a hand (a heuristic)."""
 _SETTLED: Final = 0.05
 """Share of its final force within which a placement has settled."""
 
@@ -53,6 +57,8 @@ class KnownWeight(Row):
     """The weight; N."""
     placements: tuple[PlacementRow, ...]
     """Each time that it was put on."""
+    left_out: tuple[PlacementRow, ...] = ()
+    """Touches of less than half of the median force of all, which are not taken for the weight."""
     share: float
     """Mean force over the weight."""
     share_half_width_95: float | None
@@ -80,16 +86,29 @@ def known_weight(mass_kg: float, seconds: FloatArray, force_N: FloatArray, touch
         raise SkinError(f"known weight: expected a mass above 0 kg, got {mass_kg:g}")
     weight = mass_kg * STANDARD_GRAVITY
     edges = np.flatnonzero(np.diff(np.concatenate([[False], touched, [False]])))
-    spans = [(first, end) for first, end in edges.reshape(-1, 2).tolist() if end - first >= _LEAST_FRAMES]
-    if not spans:
+    spans = [np.arange(first, end) for first, end in edges.reshape(-1, 2).tolist()]
+    joined: list[IntArray] = []
+    for span in spans:
+        if joined and seconds[span[0]] - seconds[joined[-1][-1]] < _APART_S:
+            joined[-1] = np.concatenate([joined[-1], span])
+        else:
+            joined.append(span)
+    touches = [_placement(seconds[span], force_N[span], weight) for span in joined if len(span) >= _LEAST_FRAMES]
+    if not touches:
         raise SkinError(
-            f"known weight: expected it on the patch for {_LEAST_FRAMES} frames in a row or more, got "
-            f"{int(touched.sum())} with a contact, none so long; leave it there for some seconds, or lower --average"
+            f"known weight: expected it on the patch for {_LEAST_FRAMES} frames or more at a time, got "
+            f"{int(touched.sum())} with a contact, never so many; leave it there for some seconds, or lower --average"
         )
-    placements = tuple(_placement(seconds[first:end], force_N[first:end], weight) for first, end in spans)
+    least = _LEAST_SHARE * float(np.median([row.force_N for row in touches]))
+    placements = tuple(row for row in touches if row.force_N >= least)
     share, half, agreement = agreement_of(np.array([row.share for row in placements]))
     return KnownWeight(
-        weight_N=weight, placements=placements, share=share, share_half_width_95=half, agreement=agreement
+        weight_N=weight,
+        placements=placements,
+        left_out=tuple(row for row in touches if row.force_N < least),
+        share=share,
+        share_half_width_95=half,
+        agreement=agreement,
     )
 
 
