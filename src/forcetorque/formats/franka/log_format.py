@@ -97,6 +97,7 @@ class FrankaFormat:
 
     table = FrankaLog
     sign = "robot states of libfranka (Franka)"
+    controller = "franka"
 
     def recognises(self, path: Path) -> bool:
         """Look at the first line."""
@@ -165,7 +166,7 @@ def _torques(table: FrankaLog, states: LoggedStates) -> LoggedTorques | None:
     elif end_effector[:, 0].any():
         assumed.append(f"beyond the end effector of {end_effector[-1, 0]:g} kg of Desk")
     return LoggedTorques(
-        controller="franka",
+        controller=FrankaFormat.controller,
         joints=table.joints,
         stamp_ns=states.stamp_ns,
         position=position,
@@ -294,7 +295,7 @@ def _wrist(table: FrankaLog, states: LoggedStates) -> LoggedWrist:
     if (end_effector := states.values.get("m_ee")) is not None and end_effector[:, 0].any():
         assumed.append(f"beyond the end effector of {end_effector[-1, 0]:g} kg of Desk")
     return LoggedWrist(
-        controller="franka",
+        controller=FrankaFormat.controller,
         stream=WRIST,
         sensor=WRIST,
         measure_direction=_DIRECTION,

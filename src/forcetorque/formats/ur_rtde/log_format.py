@@ -108,6 +108,7 @@ class UrRtdeFormat:
 
     table = UrRtdeLog
     sign = "a recording of RTDE (Universal Robots)"
+    controller = "ur"
 
     def recognises(self, path: Path) -> bool:
         """Look at the names in the first line."""
@@ -330,7 +331,7 @@ def _wrist(table: UrRtdeLog, fields: RecordedFields, flange: _Flange) -> LoggedW
         agrees = ", as ft_raw_wrench in the log" if flange.agreeing is table.moment_about else ""
         assumed.append(f"moment about the {table.moment_about}{agrees}")
     return LoggedWrist(
-        controller="ur",
+        controller=UrRtdeFormat.controller,
         stream=WRIST,
         sensor=WRIST,
         measure_direction=MeasureDirection.CHILD_TO_PARENT,
