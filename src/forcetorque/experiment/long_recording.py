@@ -32,22 +32,25 @@ _WINDOW_NS, _ROUNDING_NS = round(WINDOW_S * 1e9), round(WINDOW_S * WINDOW_ROUNDI
 _GOES_ON: Final = " (in one segment; it goes on in the next)"
 
 
-def recorded_segments(experiment: Experiment, *, length_s: float | None = None) -> list[Segment]:
+def recorded_segments(
+    experiment: Experiment, *, length_s: float | None = None, weighing: bool = False
+) -> list[Segment]:
     """Divide the recording of an experiment.
 
     Args:
         experiment: The experiment.
         length_s: Length of a segment; s; `SEGMENT_S` if None.
+        weighing: Whether the segments are what a load is estimated by, together.
 
     Returns:
-        Segments; one of the whole recording where it is short, or where a load is to be estimated, by all of it.
+        Segments; one of the whole recording where it is short, or where a load is still to be estimated, by all of it.
     """
     longest = experiment.processing.derivative_window.doubled()
     windows = [longest.window_s, longest.widest_s]
     if experiment.processing.smoothing is not None:
         windows.append(experiment.processing.smoothing.window_s)
     longest_s = SEGMENT_S if length_s is None else length_s
-    if experiment.loads is not None and not experiment.loads.are_stated:
+    if experiment.loads is not None and not experiment.loads.are_stated and not weighing:
         longest_s = np.inf
     return segments_of(experiment.recording, length_s=longest_s, margin_s=max(_LEAST_MARGIN_S, _WINDOWS * max(windows)))
 

@@ -346,7 +346,7 @@ def _session_means(run: SensorRun, intervals: Sequence[EvaluatedSamples]) -> Ite
         groups.setdefault(run.experiment.roles[samples.interval.label].session, []).append(samples)
     for session, own in groups.items():
         channels = own[0].channels
-        time_s, means = means_of_parts(_timed_parts(own, run.experiment.recording.start_ns))
+        time_s, means, _ = means_of_parts(_timed_parts(own, run.experiment.recording.start_ns))
         variables = means[:, channels + 6 :]
         yield SessionMeans(
             session=session,

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.noise.means import means_over
+from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
@@ -201,7 +202,10 @@ def _assumed_gravity(experiment: Experiment, wrist: WristLoads) -> float | None:
     """The size of gravity that is not measured; m/s2. Beside an orientation, gravity is what its reader made of it."""
     streams = [experiment.recording.stream(name) for name in wrist.table.motion or ()]
     turned = next((stream for stream in streams if {"orientation", "gravity"} <= set(stream.signals)), None)
-    return None if turned is None else float(np.nanmax(np.linalg.norm(turned.signal("gravity").values, axis=1)))
+    if turned is None:
+        return None
+    blocks = row_blocks(turned.signal("gravity").values)
+    return max(float(np.linalg.norm(np.nan_to_num(rows), axis=1).max()) for (rows,) in blocks)
 
 
 def _require_weight(weighed: WeighedLoad) -> None:

@@ -89,7 +89,7 @@ def _means(
 
 def means_of_parts(
     parts: Iterable[tuple[FloatArray, FloatArray]], window_s: float = WINDOW_S
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """Average samples that come in parts, as `means_over` does all of them.
 
     Args:
@@ -97,7 +97,7 @@ def means_of_parts(
         window_s: Length of a window; s.
 
     Returns:
-        Mean instants of the windows, shape (m,), in s; means of the signals, shape (m, k).
+        As of `means_over`.
 
     Raises:
         FitError: As of `means_over`, or if there is no sample.
@@ -119,7 +119,8 @@ def means_of_parts(
     if rest is None or origin is None:
         raise FitError("means over windows: expected at least one sample, got none")
     means.append(_means(*rest, origin, window_s))
-    return np.concatenate([one[0] for one in means]), np.concatenate([one[1] for one in means])
+    middle, values, counts = (np.concatenate(arrays) for arrays in zip(*means, strict=True))
+    return middle, values, counts
 
 
 def joined_times(instants: Sequence[FloatArray]) -> FloatArray:
