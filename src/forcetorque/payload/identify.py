@@ -29,6 +29,7 @@ from forcetorque.payload.load_warnings import (
 )
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
+from forcetorque.payload.robot_files.held_load import held_load
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none, plus_minus
 from forcetorque.robot.mounting import rotation_vector
@@ -195,7 +196,15 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         words for run in campaign.runs for words in (*overweight_loads(run), *reversed_sense(run), *load_doubts(run))
     )
     doubts = (*payload_doubts(result), *of_runs)
-    return result.model_copy(update={"warnings": doubts})
+    return result.model_copy(update={"warnings": doubts, "no_robot_file": _no_robot_file(first, result)})
+
+
+def _no_robot_file(run: SensorRun, weighed: WeighedLoad) -> str:
+    try:
+        held_load(run, weighed)
+    except ExperimentError as error:
+        return str(error)
+    return ""
 
 
 def _assumed_gravity(experiment: Experiment, wrist: WristLoads) -> float | None:
