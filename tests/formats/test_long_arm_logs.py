@@ -38,7 +38,7 @@ _LOGS: dict[str, Callable[[Path], LogDescription]] = {
     "text": lambda path: _UR.describe(write_text(path, _repeated())),
     "binary": lambda path: _UR.describe(write_binary(path, _repeated())),
     "point by motion": lambda path: _UR.describe_specified(
-        write_text(path, about_tcp(simulated(701, declared_shares=(0.0,))).columns), {"moment_about": "flange"}
+        write_binary(path, about_tcp(simulated(701, declared_shares=(0.0,))).columns), {"moment_about": "flange"}
     ),
     "states": lambda path: _FRANKA.describe(write_states(path, states(declared=0.2, poses=6, samples=9))),
     "table": lambda path: _FRANKA.describe(write_table(path, states(poses=6, samples=9))),

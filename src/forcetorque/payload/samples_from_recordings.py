@@ -230,8 +230,8 @@ def _parts(
 ) -> Iterator[tuple[IntArray, FloatArray]]:
     """As of `_columns`, segment by segment."""
     for segment in segments:
-        for part in segment.intervals(interval.use):
-            if part.label == interval.label:
+        for part in segment.recording.intervals:
+            if (part.label, part.use) == (interval.label, interval.use):
                 yield _columns(segment, sensor, part)
                 if segment is not experiment:
                     forget_recording(experiment)
