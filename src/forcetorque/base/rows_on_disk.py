@@ -191,7 +191,7 @@ def rows_where(kept: npt.NDArray[np.bool_], arrays: Sequence[npt.NDArray[Any]]) 
     return tuple(rows.mapped() for rows in chosen)
 
 
-def _rows_like(count: int, arrays: Sequence[npt.NDArray[Any]]) -> list[RowsInMemory] | list[RowsOnDisk]:
+def _rows_like(count: int, arrays: Sequence[npt.NDArray[Any]]) -> list[RowsInMemory | RowsOnDisk]:
     """Places for rows such as those of arrays."""
     if count * sum(array.dtype.itemsize * math.prod(array.shape[1:]) for array in arrays) > IN_MEMORY:
         return [RowsOnDisk(array.shape[1:], array.dtype) for array in arrays]

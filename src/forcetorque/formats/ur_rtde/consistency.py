@@ -101,7 +101,7 @@ def require_gravity_as_felt(path: Path, felt: FloatArray | None, base_R_flange: 
     count, total, sizes = 0, np.zeros(3), 0.0
     for own, turn in row_blocks(felt, base_R_flange):
         finite = np.isfinite(own).all(axis=1) & np.isfinite(turn[:, 0, 0])
-        count += np.count_nonzero(finite)
+        count += int(np.count_nonzero(finite))
         total += np.einsum("nij,nj->i", turn[finite], own[finite])
         sizes += float(np.linalg.norm(own[finite], axis=1).sum())
     if not count:

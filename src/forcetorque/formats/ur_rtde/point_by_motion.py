@@ -74,11 +74,12 @@ def _centre_by_force(
     if not usual > 0.0:
         return None
     k = max(round(_STEP_S / usual), 1)
-    rows, triangle = 0, np.zeros((0, 8))  # of all rows of the design with the force, by QR decomposition
-    for block in row_blocks(stamp_ns, base_R_flange, base_p_flange, force, overlap=4 * k):
-        equations = _equations(*block, gravity, k, usual)
+    rows = 0
+    triangle: FloatArray = np.zeros((0, 8))  # of all rows of the design with the force, by QR decomposition
+    for stamps, turns, places, forces in row_blocks(stamp_ns, base_R_flange, base_p_flange, force, overlap=4 * k):
+        equations = _equations(stamps, turns, places, forces, gravity, k, usual)
         rows += len(equations)
-        triangle = np.linalg.qr(np.vstack([triangle, equations]), mode="r")
+        triangle = np.asarray(np.linalg.qr(np.vstack([triangle, equations]), mode="r"), dtype=np.float64)
     if rows < 3 * _FEWEST:
         return None
     design, values = triangle[:, :7], triangle[:, 7]
@@ -88,7 +89,7 @@ def _centre_by_force(
         return None
     left = values - design @ solution
     variance = _CORRELATED * float(left @ left) / rows * np.diag(np.linalg.inv(design.T @ design))
-    return moment / mass, float(np.sqrt(variance[1:4].max())) / mass
+    return np.asarray(moment / mass, dtype=np.float64), float(np.sqrt(variance[1:4].max())) / mass
 
 
 def _equations(
