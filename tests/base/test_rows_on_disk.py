@@ -16,7 +16,7 @@ import pytest
 from forcetorque.base import rows_on_disk
 from forcetorque.base.arrays import FloatArray, IntArray, is_frozen
 from forcetorque.base.errors import OutputError
-from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated, forget_pages
+from forcetorque.base.rows_on_disk import RowsOnDisk, computed_rows, concatenated, forget_pages, row_blocks, rows_where
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.int64])
@@ -35,6 +35,26 @@ def test_rows_are_those_that_were_written(monkeypatch: pytest.MonkeyPatch, dtype
     forget_pages([mapped, view, written])
     assert np.array_equal(mapped, written)
     assert np.array_equal(view, written[100:200])
+
+
+@pytest.mark.parametrize("count", [1, 6, 7, 8, 50])
+def test_rows_are_computed_and_chosen_block_by_block(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    """As all at once, in memory and in files; blocks with an overlap have every pair of neighbours once."""
+    numbers = np.random.default_rng(count).normal(size=(count, 3))
+    stamps, kept = np.arange(count), numbers[:, 0] > 0.0
+    monkeypatch.setattr(rows_on_disk, "_BLOCK_ROWS", 7)
+    for limit in (1 << 24, 1):
+        monkeypatch.setattr(rows_on_disk, "IN_MEMORY", limit)
+        double, sums = computed_rows(lambda rows, k: (2.0 * rows, rows.sum(axis=1) + k), numbers, stamps)
+        assert np.array_equal(double, 2.0 * numbers)
+        assert np.array_equal(sums, numbers.sum(axis=1) + stamps)
+        assert is_frozen(double)
+        for one, other in zip(rows_where(kept, [numbers, stamps]), (numbers, stamps), strict=True):
+            assert one.dtype == other.dtype
+            assert np.array_equal(one, other[kept])
+    assert rows_where(np.ones(count, dtype=bool), [numbers])[0] is numbers
+    steps = [np.diff(rows) for (rows,) in row_blocks(stamps**2, overlap=1)]
+    assert np.array_equal(np.concatenate([np.zeros(0, dtype=np.int64), *steps]), np.diff(stamps**2))
 
 
 def test_few_rows_need_no_file(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,6 +21,8 @@ IN_MEMORY: Final = 1 << 24
 """Bytes of a stream up to which it is held in memory."""
 BLOCK_ROWS: Final = 1 << 19
 """Rows of a block: 87 min at 100 Hz."""
+_FEW_ROWS: Final = 1 << 14
+"""The same of rows with many columns."""
 _WITHOUT_FILE: Final = 1 << 20
 """Bytes of rows up to which they need no file, of which a process may have a limited number open."""
 
@@ -150,6 +152,24 @@ def written(
     return rows.mapped()
 
 
+def row_blocks(
+    *arrays: npt.NDArray[Any], rows: int = _FEW_ROWS, overlap: int = 0
+) -> Iterator[tuple[npt.NDArray[Any], ...]]:
+    """Give arrays some rows at a time, and let go of the memory that mapped ones take.
+
+    Args:
+        arrays: At least one; all of n rows.
+        rows: Rows of a block.
+        overlap: Rows that each block has in common with the next.
+
+    Yields:
+        The same rows of each array; of at most `overlap` rows nothing.
+    """
+    for start in range(0, len(arrays[0]) - overlap, rows):
+        yield tuple(array[start : start + rows + overlap] for array in arrays)
+        forget_pages(arrays)
+
+
 def in_blocks(*arrays: npt.NDArray[Any]) -> Iterator[tuple[npt.NDArray[Any], ...]]:
     """Give arrays block by block, and let go of the memory that each block takes where it is mapped.
 
@@ -159,9 +179,7 @@ def in_blocks(*arrays: npt.NDArray[Any]) -> Iterator[tuple[npt.NDArray[Any], ...
     Yields:
         The same rows of all arrays; one block of arrays with at most `BLOCK_ROWS` rows.
     """
-    for start in range(0, max(len(arrays[0]), 1), BLOCK_ROWS):
-        yield tuple(array[start : start + BLOCK_ROWS] for array in arrays)
-        forget_pages(arrays)
+    yield from row_blocks(*arrays, rows=BLOCK_ROWS) if len(arrays[0]) else [arrays]
 
 
 def mean_over_rows(compute: Callable[..., npt.NDArray[Any]], *arrays: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -175,6 +193,54 @@ def mean_over_rows(compute: Callable[..., npt.NDArray[Any]], *arrays: npt.NDArra
         The mean over the rows.
     """
     return np.asarray(sum(compute(*block).sum(axis=0) for block in in_blocks(*arrays)) / len(arrays[0]))
+
+
+def computed_rows(
+    compute: Callable[..., tuple[npt.NDArray[Any], ...]], *arrays: npt.NDArray[Any]
+) -> tuple[npt.NDArray[Any], ...]:
+    """Compute rows of rows, some at a time; they are in a temporary file where they are large.
+
+    Args:
+        compute: Gives float64 arrays with a row for each row of its arguments.
+        arrays: Its arguments; all of n rows, at least one.
+
+    Returns:
+        What it gives, for all rows, read-only.
+    """
+    count, all_rows = len(arrays[0]), None
+    for blocks in row_blocks(*arrays):
+        computed = compute(*blocks)
+        if all_rows is None:
+            all_rows = _rows_like(count, computed)
+        for rows, block in zip(all_rows, computed, strict=True):
+            rows.append(block)
+    return tuple(rows.mapped() for rows in all_rows or ())
+
+
+def rows_where(kept: npt.NDArray[np.bool_], arrays: Sequence[npt.NDArray[Any]]) -> tuple[npt.NDArray[Any], ...]:
+    """Leave rows out.
+
+    Args:
+        kept: Rows to keep; shape (n,).
+        arrays: Arrays of n rows.
+
+    Returns:
+        The others, read-only where some are left out; in a temporary file where they are large.
+    """
+    if kept.all():
+        return tuple(arrays)
+    chosen = _rows_like(int(kept.sum()), arrays)
+    for is_kept, *blocks in row_blocks(kept, *arrays):
+        for rows, block in zip(chosen, blocks, strict=True):
+            rows.append(block[is_kept])
+    return tuple(rows.mapped() for rows in chosen)
+
+
+def _rows_like(count: int, arrays: Sequence[npt.NDArray[Any]]) -> list[RowsInMemory | RowsOnDisk]:
+    """Places for rows such as those of arrays."""
+    if count * sum(array.dtype.itemsize * math.prod(array.shape[1:]) for array in arrays) > IN_MEMORY:
+        return [RowsOnDisk(array.shape[1:], array.dtype) for array in arrays]
+    return [RowsInMemory(count, array.shape[1:], array.dtype) for array in arrays]
 
 
 @contextmanager

@@ -26,22 +26,25 @@ _LEAST_MARGIN_S, _WINDOWS = 10.0, 4.0
 _GOES_ON: Final = " (in one segment; it goes on in the next)"
 
 
-def recorded_segments(experiment: Experiment, *, length_s: float | None = None) -> list[Segment]:
+def recorded_segments(
+    experiment: Experiment, *, length_s: float | None = None, weighing: bool = False
+) -> list[Segment]:
     """Divide the recording of an experiment.
 
     Args:
         experiment: The experiment.
         length_s: Length of a segment; s; `SEGMENT_S` if None.
+        weighing: Whether the segments are what a load is estimated by, together.
 
     Returns:
-        Segments; one of the whole recording where it is short, or where a load is to be estimated, by all of it.
+        Segments; one of the whole recording where it is short, or where a load is still to be estimated, by all of it.
     """
     longest = experiment.processing.derivative_window.doubled()
     windows = [longest.window_s, longest.widest_s]
     if experiment.processing.smoothing is not None:
         windows.append(experiment.processing.smoothing.window_s)
     longest_s = SEGMENT_S if length_s is None else length_s
-    if experiment.loads is not None and not experiment.loads.are_stated:
+    if experiment.loads is not None and not experiment.loads.are_stated and not weighing:
         longest_s = np.inf
     return segments_of(experiment.recording, length_s=longest_s, margin_s=max(_LEAST_MARGIN_S, _WINDOWS * max(windows)))
 
@@ -91,7 +94,7 @@ def segment_runs(run: SensorRun) -> Iterator[SensorRun]:
         qualities.append(sample_quality(experiment, run.sensor))
         del experiment, shared
         forget_recording(run.experiment)
-    _keep_quality(run, segments, qualities)
+    keep_quality(run, segments, qualities)
 
 
 def first_segment(run: SensorRun, use: Use) -> SensorRun:
@@ -111,8 +114,14 @@ def first_segment(run: SensorRun, use: Use) -> SensorRun:
     return next((part for part in parts if part.has(use)), run)
 
 
-def _keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequence[SampleQuality]) -> None:
-    """Let the recording know which samples of a sensor say nothing of its load, as its segments showed."""
+def keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequence[SampleQuality]) -> None:
+    """Let the recording know which samples of a sensor say nothing of its load, as its segments showed.
+
+    Args:
+        run: The sensor in the whole recording.
+        segments: The segments.
+        qualities: What is wrong with each sample of its stream in every segment.
+    """
     stamps, name = run.stream.stamp_ns, run.sensor.stream
     marks = {kind: np.zeros(len(stamps), dtype=bool) for kind in ("frozen", "saturated", "repeated")}
     for segment, quality in zip(segments, qualities, strict=True):

@@ -167,8 +167,8 @@ def _nearer(stream: str, frame: FixedFrame, other: FixedFrame) -> int:
 
 
 @runtime_checkable
-class ArmLoggingFormat(Protocol):
-    """A format whose logs have the wrench at the flange of an arm, whose frame and sign the format fixes."""
+class SpecifiableFormat(Protocol):
+    """A format whose logs may leave keys of the `[recording]` table open."""
 
     def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
         """Read a log without an experiment file, with what is known beside it.
@@ -178,11 +178,20 @@ class ArmLoggingFormat(Protocol):
             specified: Values of keys of the `[recording]` table, those that `undetermined` of a description names.
 
         Returns:
-            As of `describe`, with `wrist` or `wrist_lacks`.
+            As of `describe`; of an arm with `wrist` or `wrist_lacks`.
 
         Raises:
             ForceTorqueError: If nothing of it can be read, or a value is none of its key.
         """
+
+
+@runtime_checkable
+class ArmLoggingFormat(SpecifiableFormat, Protocol):
+    """A format whose logs have the wrench at the flange of an arm, whose frame and sign the format fixes."""
+
+    @property
+    def controller(self) -> str:
+        """Kind of the controller, as of `LoggedWrist`."""
 
 
 @runtime_checkable

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
+from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream_faults import true_runs
@@ -131,8 +132,11 @@ def declared_loads(stamp_ns: IntArray, mass: FloatArray, centre_of_mass: FloatAr
     Returns:
         The loads in the order of time.
     """
-    values = np.column_stack([mass, centre_of_mass])
-    changes = np.flatnonzero((values[1:] != values[:-1]).any(axis=1)) + 1
+    changed = [
+        (masses[1:] != masses[:-1]) | (centres[1:] != centres[:-1]).any(axis=1)
+        for masses, centres in row_blocks(mass, centre_of_mass, overlap=1)
+    ]
+    changes = np.flatnonzero(np.concatenate([np.zeros(0, dtype=bool), *changed])) + 1
     starts = [0, *changes.tolist()]
     # a border lies between two samples, so that seconds with a rounding error hold the same samples
     borders = [int(stamp_ns[0]), *((stamp_ns[changes - 1] + stamp_ns[changes]) // 2).tolist(), int(stamp_ns[-1]) + 1]
@@ -157,12 +161,8 @@ def motions(stamp_ns: IntArray, base_R_flange: FloatArray, base_p_flange: FloatA
     """
     if len(stamp_ns) < 2:
         return ()
-    step_s = 1e-9 * np.diff(stamp_ns)
-    # the norm of the difference of two close rotations is sqrt(2) times the angle between them
-    angle = np.linalg.norm(np.diff(base_R_flange, axis=0), axis=(1, 2)) / np.sqrt(2.0)
-    shift = np.linalg.norm(np.diff(base_p_flange, axis=0), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        is_moving = (angle > _MOVING_RAD_S * step_s) | (shift > _MOVING_M_S * step_s)
+    blocks = row_blocks(stamp_ns, base_R_flange, base_p_flange, overlap=1)
+    is_moving = np.concatenate([_moving(*rows) for rows in blocks])
     spans: list[tuple[int, int]] = []
     for first, end_row in true_runs(is_moving):
         last = end_row + 1
@@ -173,3 +173,14 @@ def motions(stamp_ns: IntArray, base_R_flange: FloatArray, base_p_flange: FloatA
                 span = (spans.pop()[0], span[1])
             spans.append(span)
     return tuple(spans)
+
+
+def _moving(stamp_ns: IntArray, base_R_flange: FloatArray, base_p_flange: FloatArray) -> BoolArray:
+    """Whether the flange moves from each row to the next; shape (n - 1,)."""
+    step_s = 1e-9 * np.diff(stamp_ns)
+    # the norm of the difference of two close rotations is sqrt(2) times the angle between them
+    angle = np.linalg.norm(np.diff(base_R_flange, axis=0), axis=(1, 2)) / np.sqrt(2.0)
+    shift = np.linalg.norm(np.diff(base_p_flange, axis=0), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        is_moving: BoolArray = (angle > _MOVING_RAD_S * step_s) | (shift > _MOVING_M_S * step_s)
+    return is_moving

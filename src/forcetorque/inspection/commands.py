@@ -16,6 +16,7 @@ from forcetorque.results.terminal.options import (
     ForceOption,
     FormatOption,
     LoadsOption,
+    RecordingOption,
     between_commas,
 )
 from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
@@ -47,6 +48,7 @@ def init(
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
     ] = None,
     column_names: ColumnNamesOption = None,
+    recording: RecordingOption = None,
     sensor: Annotated[
         list[str] | None,
         typer.Option("--sensor", help="Sensor to draft, by its name or stream; repeat for more. Default: all."),
@@ -84,6 +86,7 @@ def init(
             "--output": output,
             "--log-format": log_format,
             "--column-names": column_names,
+            "--recording": recording,
             "--sensor": sensor,
             "--matrices": matrices,
             "--loads": loads,
@@ -104,6 +107,7 @@ def init(
         urdf=urdf,
         log_format=log_format,
         column_names=between_commas(column_names),
+        recording=recording or (),
         sensors=sensor or (),
         matrices=matrices,
         loads=loads,
@@ -157,6 +161,10 @@ def inspect(
     log_format: Annotated[
         str | None, Option("Format of a log, such as ros or hdf5, as in [recording]. Default: by what is there.")
     ] = None,
+    recording: Annotated[
+        Collection[str],
+        Option("What a log lacks, as moment_about=flange or payload_kg=0; repeat for more.", "--recording"),
+    ] = (),
     calibration: Annotated[
         "Path | str | None",
         Option("Calibration that reads its sensor. Default: the prior, or as logged.", "--calibration", "-c"),
@@ -175,4 +183,6 @@ def inspect(
     """
     from forcetorque.inspection.inspect import inspect_log
 
-    return inspect_log(log, log_format=log_format, calibration=calibration, sensors=sensors, progress=progress)
+    return inspect_log(
+        log, log_format=log_format, recording=recording, calibration=calibration, sensors=sensors, progress=progress
+    )

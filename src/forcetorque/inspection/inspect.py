@@ -27,6 +27,7 @@ from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, 
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
+from forcetorque.formats.specified_keys import description_of, specified_keys
 from forcetorque.inspection.draft.first_look import first_look_at_sensor
 from forcetorque.inspection.draft.log import likely_quantities
 from forcetorque.inspection.draft.logged_robot import robot_findings
@@ -211,6 +212,7 @@ def inspect_log(
     path: Path | str,
     *,
     log_format: str | None = None,
+    recording: Collection[str] = (),
     calibration: Path | str | None = None,
     sensors: Collection[str] = (),
     progress: Progress = lambda _: None,
@@ -220,6 +222,7 @@ def inspect_log(
     Args:
         path: Experiment file, folder or file of a log, or file of the calibration of a maker.
         log_format: Name of the format of a log; recognised from the files if left out.
+        recording: Keys that a log lacks, each as `moment_about=flange`.
         calibration: File of the calibration that reads its sensor; priors, or the logged wrench, if left out.
         sensors: Names of the sensors of the experiment to inspect; all if empty.
         progress: Called with what is read and, of a log that takes longer than a few seconds, the time that is left.
@@ -232,13 +235,14 @@ def inspect_log(
     """
     source = Path(path)
     progress(f"reading {source}")
-    unread = _without_experiment(source, log_format)
+    specified = specified_keys(recording)
+    unread = None if specified else _without_experiment(source, log_format)
     of_log = calibration is None and not sensors
     if unread is None and of_log:
-        read, findings, to_calibrate = _recorded(source, log_format, progress)
+        read, findings, to_calibrate = _recorded(source, log_format, specified, progress)
         experiment = read if isinstance(read, Experiment) else None
-        recording = read if isinstance(read, Recording) else read.recording
-        return _inspection(str(source), recording, findings, to_calibrate=to_calibrate, experiment=experiment)
+        streams = read if isinstance(read, Recording) else read.recording
+        return _inspection(str(source), streams, findings, to_calibrate=to_calibrate, experiment=experiment)
     if unread is not None and of_log:
         return unread
     if unread is not None or log_format is not None or recognised_format(source) is not None:
@@ -344,14 +348,14 @@ def _prior(source: Path) -> PriorFile:
 
 
 def _recorded(
-    source: Path, name: str | None, progress: Progress
+    source: Path, name: str | None, specified: Mapping[str, object], progress: Progress
 ) -> tuple[Recording | Experiment, tuple[Finding, ...], ToCalibrate]:
     """Recording of a log, or experiment with sensors, its findings, and as of `Inspection.to_calibrate`."""
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
     log_format = recognised_format(source) if name is None else format_named(name)
     if log_format is not None:
-        description = log_format.describe(source)
+        description = description_of(log_format, source, specified)
         reading = description.reading
         if not any(map(len, reading.streams)):
             for key, words in description.undetermined.items():
@@ -366,6 +370,10 @@ def _recorded(
         return recording, findings, "sensor"
     if source.is_dir():
         raise not_recognised(source)
+    if specified:
+        raise ExperimentError(
+            f"{source}: --recording: expected a log, got an experiment file; state the keys in its [recording]"
+        )
     parsed = _parsed(source)
     patches = load_patches(source) if parsed.table(PATCHES) else None
     if patches is not None and not parsed.sensor:

@@ -191,6 +191,8 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
         return words, typed("inspect", FIRST_EXPERIMENT)
     if weighed.undetermined:
         return "record more postures, which turn the load about other axes", ""
+    if weighed.no_robot_file:
+        return f"no file for a robot holds it: {weighed.no_robot_file}", ""
     step = "write it to a file that the robot reads"
     specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
     if not weighed.arms and weighed.log_format in _PROGRAMS:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -19,6 +18,7 @@ from forcetorque.results.terminal.options import (
     ExperimentArgument,
     ForceOption,
     FormatOption,
+    RecordingOption,
     SensorOption,
 )
 from forcetorque.results.terminal.output import (
@@ -128,14 +128,7 @@ def payload(
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
     override: OverrideOption = None,
-    recording: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--recording",
-            help="What a log lacks, as moment_about=flange, payload_kg=0 or measure_direction=parent_to_child; repeat "
-            "for more.",
-        ),
-    ] = None,
+    recording: RecordingOption = None,
     save_experiment: Annotated[
         Path | None,
         typer.Option("--save-experiment", help="Experiment file to write of a log; - for standard output."),
@@ -164,6 +157,7 @@ def payload(
     from forcetorque.experiment.loading import load_experiment
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.formats.kept_parts import parts_kept
+    from forcetorque.formats.specified_keys import specified_keys
     from forcetorque.payload.identify import weigh_load
     from forcetorque.payload.load_of_log import (
         described_log,
@@ -178,7 +172,7 @@ def payload(
     _declare_experiment_file(experiments, save_experiment, output, output_format, force=force)
     refuse_load_file(output, to, output_format, override, force=force)
     refuse_a_file_twice(experiments)
-    specified = _specified(recording or ())
+    specified = specified_keys(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
     _refuse_without_log(logs, specified, save_experiment)
     refuse_a_log_twice(logs)
@@ -227,20 +221,6 @@ def payload(
     else:
         show(load, output_format, details=details, experiments=experiments)
     return load
-
-
-def _specified(entries: Sequence[str]) -> dict[str, object]:
-    """Values by key, as TOML has them; a word needs no quotes."""
-    values: dict[str, object] = {}
-    for entry in entries:
-        key, equals, text = entry.partition("=")
-        if not (equals and key.strip().isidentifier() and text.strip()):
-            raise ForceTorqueError(f"--recording: expected KEY=VALUE, as moment_about=flange, got {entry!r}")
-        try:
-            values[key.strip()] = tomllib.loads(f"value = {text}")["value"]
-        except tomllib.TOMLDecodeError:
-            values[key.strip()] = text.strip()
-    return values
 
 
 def _declare_experiment_file(

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.noise.means import means_over
+from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
@@ -28,6 +29,7 @@ from forcetorque.payload.load_warnings import (
 )
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
+from forcetorque.payload.robot_files.held_load import held_load
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none, plus_minus
 from forcetorque.robot.mounting import rotation_vector
@@ -191,14 +193,25 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         words for run in campaign.runs for words in (*overweight_loads(run), *reversed_sense(run), *load_doubts(run))
     )
     doubts = (*payload_doubts(result), *of_runs)
-    return result.model_copy(update={"warnings": doubts})
+    return result.model_copy(update={"warnings": doubts, "no_robot_file": _no_robot_file(first, result)})
+
+
+def _no_robot_file(run: SensorRun, weighed: WeighedLoad) -> str:
+    try:
+        held_load(run, weighed)
+    except ExperimentError as error:
+        return str(error)
+    return ""
 
 
 def _assumed_gravity(experiment: Experiment, wrist: WristLoads) -> float | None:
     """The size of gravity that is not measured; m/s2. Beside an orientation, gravity is what its reader made of it."""
     streams = [experiment.recording.stream(name) for name in wrist.table.motion or ()]
     turned = next((stream for stream in streams if {"orientation", "gravity"} <= set(stream.signals)), None)
-    return None if turned is None else float(np.nanmax(np.linalg.norm(turned.signal("gravity").values, axis=1)))
+    if turned is None:
+        return None
+    blocks = row_blocks(turned.signal("gravity").values)
+    return max(float(np.linalg.norm(np.nan_to_num(rows), axis=1).max()) for (rows,) in blocks)
 
 
 def _require_weight(weighed: WeighedLoad) -> None:

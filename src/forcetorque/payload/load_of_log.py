@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.errors import ExperimentError, MissingFileError
+from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import InMemory, sha256_of
 from forcetorque.experiment.loading import load_tables
@@ -100,10 +101,6 @@ def described_log(path: Path, specified: Mapping[str, object]) -> LogDescription
         FormatError: If it is damaged, or contradicts itself.
         ExperimentError: If its format does not fix frame and sign of a wrench, or a key is undetermined.
     """
-    if fixed := [key for key in ("format", "path") if key in specified]:
-        raise ExperimentError(
-            f"{path}: --recording: expected keys that the log lacks, got {fixed[0]}, which is the log's"
-        )
     if not path.exists():
         raise MissingFileError(f"{path}: expected an experiment file or a log, there is none")
     known = _format_of(path)
@@ -223,8 +220,9 @@ def _load_lines(wrist: LoggedWrist) -> Sequence[str]:
 
 def _assumed(path: Path, wrist: LoggedWrist, experiment: Experiment) -> Sequence[str]:
     gravity = experiment.recording.stream(wrist.stream).signal("gravity").values
-    known = gravity[np.isfinite(gravity).all(axis=1)]  # readings before the first pose have none
-    size = float((known[0] ** 2).sum() ** 0.5)
+    # readings before the first pose have none
+    known = next(row for (rows,) in row_blocks(gravity) for row in rows[np.isfinite(rows).all(axis=1)][:1])
+    size = float((known**2).sum() ** 0.5)
     masses = list(dict.fromkeys(declared.mass for declared in wrist.declared if declared.mass > 0.0))
     declared_masses = ", ".join(amount(mass, "kg") for mass in masses)
     words = [*wrist.assumed, gravity_words(size)]

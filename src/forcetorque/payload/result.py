@@ -405,6 +405,8 @@ class WeighedLoad(Result):
     """Gravity where orientations of the sensor give its direction alone; null where it was logged, or of a robot."""
     robot_file: str | None = Field(default=None, exclude=True, repr=False)
     """File for a robot that was written; None for none."""
+    no_robot_file: str = Field(default="", exclude=True, repr=False)
+    """Why no file for a robot can hold it; empty where one can."""
     recordings: tuple[RecordingLoadRow, ...] = ()
     """What each of several recordings says by itself."""
     disagreements: tuple[str, ...] = ()

@@ -7,19 +7,22 @@ gives what each of the ten adds.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import means_over, window_for
+from forcetorque.base.noise.means import means_of_parts, means_over, window_for
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import reading_sign, wrench_matrix
 from forcetorque.experiment.calibration.assumptions import FLATTENED
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.long_recording import forget_recording, keep_quality, recorded_segments
 from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.measurement_model import inertial_columns
 from forcetorque.payload.toml_tables import Load as LoadTable
@@ -80,13 +83,18 @@ def weighing_means(time_s: FloatArray, values: FloatArray) -> tuple[FloatArray, 
     Returns:
         Middles of the windows, shape (w,), s; means, shape (w, k); and the number of samples of each, shape (w,).
     """
+    return means_over(time_s, values, _window_s(time_s))
+
+
+def _window_s(time_s: FloatArray) -> float:
     length = float(time_s[-1] - time_s[0]) if len(time_s) else 0.0
-    return means_over(time_s, values, max(window_for(time_s), length / MOST_ROWS))
+    return max(window_for(time_s), length / MOST_ROWS)
 
 
-_ENDS = np.cumsum([6, 3, 3, 9, 9])
-"""Last columns of wrench, proper acceleration, angular acceleration, products of the angular velocity, orientation."""
-_MOTION_END = int(_ENDS[3])
+_ENDS = np.cumsum([6, 3, 1, 3, 9, 9])
+"""Last columns of wrench, proper acceleration and its size, angular acceleration, products of the angular velocity,
+orientation."""
+_MOTION_END = int(_ENDS[4])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -131,7 +139,8 @@ def load_problem(
         ExperimentError: If there is no such interval, the sensor has raw readings and no prior, or nothing is left.
     """
     intervals = sorted(experiment.intervals(use), key=lambda interval: interval.start_ns)
-    blocks = [_wrist_means(experiment, sensor, interval) for interval in intervals]
+    segments = _segments(experiment, sensor)
+    blocks = [_wrist_means(experiment, segments, sensor, interval) for interval in intervals]
     if not sum(len(block.time_s) for block in blocks):
         raise ExperimentError(
             f'sensor {sensor.name!r}: expected samples in an interval with use = "{use}", with a reading and a '
@@ -141,13 +150,14 @@ def load_problem(
     sessions = tuple(dict.fromkeys(names))
     lengths = [len(block.time_s) for block in blocks]
     means = np.concatenate([block.means for block in blocks])
-    wrench, acceleration, turning, products, turned, values = np.split(means, _ENDS, axis=1)
+    wrench, acceleration, size, turning, products, turned, values = np.split(means, _ENDS, axis=1)
     variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in sensor.variables)
     turns = bool(turning.any() or products.any())
     usual = np.median(np.concatenate([block.counts for block in blocks]))
     rows = LoadRows(
         wrench=wrench,
         proper_acceleration=acceleration,
+        acceleration_size=size[:, 0],
         angular_velocity_products=products.reshape(-1, 3, 3) if turns else None,
         angular_acceleration=turning if turns else None,
         time_s=np.concatenate([block.time_s for block in blocks]),
@@ -191,32 +201,76 @@ def samples_left_out(experiment: Experiment, sensor: ExperimentSensor) -> int:
     Returns:
         Their number.
     """
+    segments = _segments(experiment, sensor)
     return sum(
-        int((~np.isfinite(_columns(experiment, sensor, interval)[1][:, :_MOTION_END]).all(axis=1)).sum())
+        int((~np.isfinite(columns[:, :_MOTION_END]).all(axis=1)).sum())
         for interval in experiment.intervals(Use.CALIBRATION)
+        for _, columns in _parts(experiment, segments, sensor, interval)
     )
 
 
-def _wrist_means(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> _IntervalMeans:
-    stamps, columns = _columns(experiment, sensor, interval)
-    numbers = np.searchsorted(experiment.recording.stream(sensor.stream).stamp_ns, stamps)
-    needed = np.r_[0:_MOTION_END, _ENDS[-1] : columns.shape[1]]
-    complete = np.isfinite(columns[:, needed]).all(axis=1)
-    time = seconds_since(stamps[complete], experiment.recording.start_ns)
-    middle, means, counts = weighing_means(time, np.nan_to_num(columns[complete]))
-    if not np.isfinite(columns[complete]).all():
+def _segments(experiment: Experiment, sensor: ExperimentSensor) -> Sequence[Experiment]:
+    """The experiment in segments of its recording; itself where that is not long."""
+    segments = recorded_segments(experiment, weighing=True)
+    if len(segments) == 1:
+        return [experiment]
+    experiments = [replace(experiment, recording=segment.recording) for segment in segments]
+    if sensor.name not in experiment.qualities:
+        qualities = [sample_quality(one, sensor) for one in experiments]
+        keep_quality(SensorRun(experiment, sensor), segments, qualities)
+    return experiments
+
+
+def _parts(
+    experiment: Experiment, segments: Sequence[Experiment], sensor: ExperimentSensor, interval: Interval
+) -> Iterator[tuple[IntArray, FloatArray]]:
+    """As of `_columns`, segment by segment."""
+    for segment in segments:
+        for part in segment.recording.intervals:
+            if (part.label, part.use) == (interval.label, interval.use):
+                yield _columns(segment, sensor, part)
+                if segment is not experiment:
+                    forget_recording(experiment)
+
+
+def _wrist_means(
+    experiment: Experiment, segments: Sequence[Experiment], sensor: ExperimentSensor, interval: Interval
+) -> _IntervalMeans:
+    start_ns, stamps = experiment.recording.start_ns, experiment.recording.stream(sensor.stream).stamp_ns
+    is_whole, left_out, instants = True, 0, [np.zeros(0, dtype=np.int64)]
+
+    def complete_parts() -> Iterator[tuple[FloatArray, FloatArray]]:
+        nonlocal is_whole, left_out
+        for at_ns, columns in _parts(experiment, segments, sensor, interval):
+            needed = np.r_[0:_MOTION_END, _ENDS[-1] : columns.shape[1]]
+            complete = np.isfinite(columns[:, needed]).all(axis=1)
+            at_ns, columns = at_ns[complete], columns[complete]
+            is_whole, left_out = is_whole and bool(np.isfinite(columns).all()), left_out + int((~complete).sum())
+            instants.append(at_ns)
+            yield seconds_since(at_ns, start_ns), np.nan_to_num(columns)
+
+    parts = complete_parts()
+    first = next(parts)
+    if len(segments) > 1:  # a segment may have no sample
+        first = next((part for part in chain([first], parts) if len(part[0])), first)
+    if len(segments) == 1 or not len(first[0]):
+        middle, means, counts = weighing_means(*first)
+    else:
+        window_s = _window_s(seconds_since(stamps[interval.holds(stamps)], start_ns))
+        middle, means, counts = means_of_parts(chain([first], parts), window_s)
+    if not is_whole:
         means[:, _MOTION_END : _ENDS[-1]] = np.nan
     single = counts.max(initial=1) == 1
     names = (
-        tuple(f"{sensor.stream} {number + 1}" for number in numbers[complete])
+        tuple(f"{sensor.stream} {number + 1}" for number in np.searchsorted(stamps, np.concatenate(instants)))
         if single
         else tuple(f"{interval.label} at {instant:.2f} s" for instant in middle)
     )
-    return _IntervalMeans(time_s=middle, means=means, counts=counts, names=names, left_out=int((~complete).sum()))
+    return _IntervalMeans(time_s=middle, means=means, counts=counts, names=names, left_out=left_out)
 
 
 def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[IntArray, FloatArray]:
-    """Instants of the samples of an interval, shape (n,), and all columns at these, shape (n, 30 + variables)."""
+    """Instants of the samples of an interval, shape (n,), and all columns at these, shape (n, 31 + variables)."""
     recording = experiment.recording
     at_ns, reading = weighing_readings(experiment, sensor, interval)
     if interval.support is None:
@@ -242,7 +296,9 @@ def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interva
     products = (velocity[:, :, None] * velocity[:, None, :]).reshape(-1, 9)
     variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
     orientation = _orientation(recording, interval, at_ns)
-    return at_ns, np.hstack([reading, motion.proper_acceleration, turning, products, orientation, *variables])
+    acceleration = motion.proper_acceleration
+    size = np.linalg.norm(acceleration, axis=1, keepdims=True)
+    return at_ns, np.hstack([reading, acceleration, size, turning, products, orientation, *variables])
 
 
 def _orientation(recording: Recording, interval: Interval, at_ns: IntArray) -> FloatArray:

@@ -16,6 +16,7 @@ from forcetorque.formats.c3d.c3d_file import C3dFile
 from forcetorque.formats.c3d.conventions import C3dLog, factor_of, stated_unit
 from forcetorque.formats.c3d.force_platform import EDGE_M, ForcePlate, force_plates
 from forcetorque.formats.c3d.log_format import determined_file
+from forcetorque.formats.specified_keys import specified_keys
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -71,11 +72,7 @@ def read_plates(path: Path | str, stated: Collection[str] = ()) -> PlateFile:
         FormatError: If the file is damaged, has no plate, leaves something open that is not stated, or the unit of
             length that is stated makes no edge one of a plate.
     """
-    entries = [entry.partition("=") for entry in stated]
-    for entry, (key, equals, value) in zip(stated, entries, strict=True):
-        if not (equals and key.strip() and value.strip()) or key.strip() in ("format", "path"):
-            raise FormatError(f"--recording: expected KEY=VALUE, as origin_from=surface, got {entry!r}")
-    content = {"format": "c3d", "path": Path(path), **{key.strip(): value.strip() for key, _, value in entries}}
+    content = {"format": "c3d", "path": Path(path), **specified_keys(stated)}
     table = checked_tables(content, C3dLog, Path(path))
     file = determined_file(Path(path), table)
     plates = force_plates(file, table)

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import yaml
+from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
@@ -18,12 +19,13 @@ from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.robot_files.export import export_load, robot_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.robot.dynamics import expected_wrenches
-from forcetorque.robot.model import JointType, RobotModel, SensorFrame
+from forcetorque.robot.model import Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from tests.scenes.experiments import PARQUET
@@ -126,6 +128,69 @@ def test_a_load_that_changes_or_is_not_known_is_refused(arm: Path) -> None:
     experiment = load_experiment(arm / "hand.toml")
     with pytest.raises(ExperimentError, match="expected a support inboard of 'arm_ft', .* got 'hand', which is beyond"):
         robot_load(SensorRun(experiment, experiment.sensor("arm_ft")), np.zeros(6))
+
+
+_POSTURE = {"elbow": 0.7, "wrist": -0.4}
+"""rad."""
+
+
+def _turn(joint: Joint, angle: float) -> FloatArray:
+    turn: FloatArray = Rotation.from_rotvec(angle * joint.axis).as_matrix()
+    return turn
+
+
+def _stilled(run: SensorRun, move: float = 0.0) -> SensorRun:
+    """The sensor with elbow and wrist in one posture throughout, but for a slow move; rad."""
+    stream, signal = run.experiment.recording.joint_signals("position")["elbow"]
+    values = signal.values.copy()
+    for joint, position in _POSTURE.items():
+        values[:, signal.columns.index(joint)] = position + np.linspace(0.0, move, len(values))
+    still = replace(stream, signals={**stream.signals, "position": replace(signal, values=values)})
+    streams = {**run.experiment.recording.streams, stream.name: still}
+    recording = replace(run.experiment.recording, streams=streams)
+    return SensorRun(replace(run.experiment, recording=recording), run.sensor)
+
+
+def test_joints_that_stand_still_are_part_of_the_load(arm: Path, tmp_path: Path) -> None:
+    """As of the robot whose joints are fixed there, which another posture contradicts; the file names the posture."""
+    run = _run(arm)
+    load, joints = robot_load(_stilled(run, move=0.004), np.zeros(6)), run.experiment.model.joints
+    posed = {
+        name: replace(joint, parent_H_child=joint.parent_H_child @ make_pose(_turn(joint, _POSTURE[name]), np.zeros(3)))
+        if name in _POSTURE
+        else joint
+        for name, joint in joints.items()
+    }
+    fixed = _rigid(SensorRun(replace(run.experiment, model=replace(run.experiment.model, joints=posed)), run.sensor))
+    expected, other = robot_load(fixed, np.zeros(6)), robot_load(_rigid(run), np.zeros(6))
+    assert (load.mass, load.frame, load.direction) == (pytest.approx(expected.mass), expected.frame, expected.direction)
+    assert load.inertia is not None
+    assert expected.inertia is not None
+    assert other.inertia is not None
+    centre, inertia = expected.centre_of_mass, expected.inertia
+    np.testing.assert_allclose(load.centre_of_mass, centre, rtol=0, atol=2e-3)  # 2 mrad of a metre
+    exact = robot_load(_stilled(run), np.zeros(6))
+    np.testing.assert_allclose(exact.centre_of_mass, centre, rtol=0, atol=ROUNDING)
+    assert exact.inertia is not None
+    np.testing.assert_allclose(exact.inertia, inertia, rtol=0, atol=ROUNDING)
+    assert np.abs(other.centre_of_mass - centre).max() > 0.01
+    words = export_load(exact, tmp_path / "load.yaml", LoadFormat.FT_TOOLS)
+    assert words.endswith("it holds with elbow at 0.7 rad, wrist at -0.4 rad alone")
+    assert "# with elbow at 0.7 rad, wrist at -0.4 rad\n" in (tmp_path / "load.yaml").read_text()
+
+
+def test_what_no_file_holds_is_not_proposed(arm: Path) -> None:
+    """Of a load beyond joints that move the answer says why; of joints that stand still it has the command."""
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    stated = '\n[[load]]\nlink = "tool"\nmass_kg = 0.5\ncentre_of_mass_m = [0.0, 0.0, 0.05]\n'
+    (arm / "loaded.toml").write_text(text + stated, encoding="utf-8")
+    experiment = load_experiment(arm / "loaded.toml")
+    run = SensorRun(experiment, experiment.sensor("arm_ft"))
+    for still, proposed in ((_stilled(run, move=0.006), False), (_stilled(run), True)):
+        weighed = weigh_load(still).model_copy(update={"hypotheses": (), "disagreeing": ()})
+        (answer,) = payload_answers(weighed)
+        assert (answer.command != "") is proposed
+        assert ("got 'elbow', 'wrist' beyond it, which move or are not logged" in answer.step) is not proposed
 
 
 @pytest.mark.long

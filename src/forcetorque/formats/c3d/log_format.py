@@ -40,8 +40,13 @@ class C3dFormat:
 
     def describe(self, path: Path) -> LogDescription:
         """Read all of it; without wrenches where a unit is open, about the sensor where the sign of ORIGIN is."""
+        return self.describe_specified(path, {})
+
+    def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
+        """Read all of it, with keys of the table that the file leaves open."""
         file = read_c3d(path)
-        table = checked_tables({"format": "c3d", "path": path}, C3dLog, path)
+        table = checked_tables({"format": "c3d", "path": path, **specified}, C3dLog, path)
+        require_open(table, undetermined_keys(file))
         undetermined = {key: QUESTIONS[key] for key in unanswered(table, undetermined_keys(file))}
         reading = _reading(file, table, undetermined)
         read = {stream.name for stream in reading.streams}

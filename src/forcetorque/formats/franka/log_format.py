@@ -11,7 +11,7 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -19,8 +19,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
+from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError
+from forcetorque.base.rows_on_disk import computed_rows, row_blocks
 from forcetorque.base.toml_file import Text, checked_tables
 from forcetorque.base.wrench import FORCE, MOMENT, MeasureDirection, transform_wrench
 from forcetorque.formats.arm_log import ArmLogTable
@@ -47,6 +48,8 @@ JOINTS = tuple(f"joint_{k}" for k in range(1, 8))
 """Joints in the order of `q`; URDFs put the name of the arm in front, which no state has."""
 _DIRECTION = MeasureDirection.PARENT_TO_CHILD
 """The robot acts on its environment."""
+_POSES = ("O_T_EE", "F_T_EE", "EE_T_K")
+"""Fields of the poses from the base to the stiffness frame."""
 _LAST_ROW = (3, 7, 11)
 """Places of zeros in a pose column by column; a translation row by row."""
 _ROUNDING = 1e-3
@@ -97,6 +100,7 @@ class FrankaFormat:
 
     table = FrankaLog
     sign = "robot states of libfranka (Franka)"
+    controller = "franka"
 
     def recognises(self, path: Path) -> bool:
         """Look at the first line."""
@@ -112,11 +116,12 @@ class FrankaFormat:
         table = checked_tables({"format": "franka", "path": path, **specified}, FrankaLog, path)
         undetermined = {key: _QUESTIONS[key] for key in _undetermined(table, states)}
         has_wrench = _has_wrench(states)
+        flange = _flange(table, states, undetermined) if has_wrench else None
         return LogDescription(
             table=table,
-            reading=_reading(table, states, undetermined),
+            reading=_reading(table, states, flange, undetermined),
             undetermined=undetermined,
-            wrist=_wrist(table, states) if has_wrench else None,
+            wrist=None if flange is None else _wrist(table, states, flange),
             wrist_lacks="" if has_wrench else _LACKS_WRENCH,
             torques=None if has_wrench else _torques(table, states),
         )
@@ -126,7 +131,8 @@ class FrankaFormat:
         states = read_states(context.file(specified.path))
         for key in _undetermined(specified, states):
             raise FormatError(f"{specified.path}: recording: {key}: expected {_QUESTIONS[key]}; got none")
-        return _reading(specified, states, {})
+        flange = _flange(specified, states, {}) if _has_wrench(states) else None
+        return _reading(specified, states, flange, {})
 
 
 def _has_wrench(states: LoggedStates) -> bool:
@@ -141,7 +147,11 @@ def _undetermined(table: FrankaLog, states: LoggedStates) -> list[str]:
     lacking = [key for key in ("F_T_EE", "EE_T_K") if key not in states.values and getattr(table, key) is None]
     if "m_load" not in states.values and table.payload_kg is None:
         lacking.append("payload_kg")
-    elif "F_x_Cload" not in states.values and table.payload_cog_m is None and _payload(table, states)[0].any():
+    elif (
+        "F_x_Cload" not in states.values
+        and table.payload_cog_m is None
+        and any(mass.any() for (mass,) in row_blocks(_payload(table, states)[0]))
+    ):
         lacking.append("payload_cog_m")
     return lacking
 
@@ -165,7 +175,7 @@ def _torques(table: FrankaLog, states: LoggedStates) -> LoggedTorques | None:
     elif end_effector[:, 0].any():
         assumed.append(f"beyond the end effector of {end_effector[-1, 0]:g} kg of Desk")
     return LoggedTorques(
-        controller="franka",
+        controller=FrankaFormat.controller,
         joints=table.joints,
         stamp_ns=states.stamp_ns,
         position=position,
@@ -195,36 +205,73 @@ def _payload(table: FrankaLog, states: LoggedStates) -> tuple[FloatArray, FloatA
     """Mass, shape (n,), and centre of mass, shape (n, 3), of `setLoad`; zero where nothing is said."""
     count = len(states.stamp_ns)
     known = states.values.get("m_load")
-    mass = np.full(count, table.payload_kg or 0.0) if known is None else known[:, 0]
+    mass = np.broadcast_to(table.payload_kg or 0.0, (count,)) if known is None else known[:, 0]
     stated = np.zeros(3) if table.payload_cog_m is None else table.payload_cog_m
     return mass, states.values.get("F_x_Cload", np.broadcast_to(stated, (count, 3)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Poses:
-    """Poses of the frames of the wrench."""
+class _Flange:
+    """The flange in the base, and the wrench at it."""
 
-    base_H_flange: FloatArray
-    """Shape (n, 4, 4); m."""
-    flange_H_k: FloatArray
-    """Pose of the stiffness frame; shape (n, 4, 4); m."""
-
-
-def _poses(table: FrankaLog, states: LoggedStates) -> _Poses:
-    base_H_ee, flange_H_ee, ee_H_k = (_pose(table, states, field) for field in ("O_T_EE", "F_T_EE", "EE_T_K"))
-    inverse = np.zeros_like(flange_H_ee)
-    inverse[:, :3, :3] = flange_H_ee[:, :3, :3].transpose(0, 2, 1)
-    inverse[:, :3, 3] = -np.einsum("nji,nj->ni", flange_H_ee[:, :3, :3], flange_H_ee[:, :3, 3])
-    inverse[:, 3, 3] = 1.0
-    return _Poses(base_H_flange=base_H_ee @ inverse, flange_H_k=flange_H_ee @ ee_H_k)
+    base_R_flange: FloatArray
+    """Orientations; shape (n, 3, 3)."""
+    base_p_flange: FloatArray
+    """Positions; shape (n, 3); m."""
+    gravity: FloatArray
+    """Along the axes of the flange; shape (n, 3); m/s2."""
+    wrench: FloatArray | None
+    """Of the robot on the load beyond the flange, declared load included; shape (n, 6); N, N m; None where the table
+    leaves a key open."""
 
 
-def _pose(table: FrankaLog, states: LoggedStates, field: str) -> FloatArray:
-    """Matrices of a field, of the table where the log lacks it, the identity where that does too; shape (n, 4, 4)."""
+_WRENCHES = ("O_F_ext_hat_K", "K_F_ext_hat_K")
+
+
+def _flange(table: FrankaLog, states: LoggedStates, undetermined: Mapping[str, str]) -> _Flange:
+    fields = [field for field in _WRENCHES if field in states.values and not undetermined]
+    rows = np.arange(len(states.stamp_ns))
+    poses = [_pose_numbers(table, states, field) for field in _POSES]
+
+    def compute(row: IntArray, *numbers: FloatArray) -> tuple[FloatArray, ...]:
+        base_H_ee, flange_H_ee, ee_H_k = (
+            _pose(table, field, values, row) for field, values in zip(_POSES, numbers[:3], strict=True)
+        )
+        inverse = np.zeros_like(flange_H_ee)
+        inverse[:, :3, :3] = flange_H_ee[:, :3, :3].transpose(0, 2, 1)
+        inverse[:, :3, 3] = -np.einsum("nji,nj->ni", flange_H_ee[:, :3, :3], flange_H_ee[:, :3, 3])
+        inverse[:, 3, 3] = 1.0
+        base_H_flange = base_H_ee @ inverse
+        gravity = np.einsum("nji,j->ni", base_H_flange[:, :3, :3], table.world_gravity)
+        parts = base_H_flange[:, :3, :3], base_H_flange[:, :3, 3], gravity
+        if not fields:
+            return parts
+        mass, centre, *wrenches = numbers[3:]
+        logged = dict(zip(fields, wrenches, strict=True))
+        wrench, squares = _flange_wrench(logged, base_H_flange, flange_H_ee @ ee_H_k)
+        wrench -= weight_of(mass, centre, gravity)  # the robot holds up the weight
+        wrench[_is_lost(wrenches)] = np.nan
+        return *parts, wrench, squares
+
+    loads = [*_payload(table, states), *(states.values[field] for field in fields)]
+    turn, place, gravity, *others = computed_rows(compute, rows, *poses, *loads)
+    if others:
+        with np.errstate(over="ignore"):  # damaged files hold huge numbers
+            _require_agreement(table.path, others[1].sum(axis=0))
+    return _Flange(base_R_flange=turn, base_p_flange=place, gravity=gravity, wrench=others[0] if others else None)
+
+
+def _pose_numbers(table: FrankaLog, states: LoggedStates, field: str) -> FloatArray:
+    """Numbers of a field, of the table where the log lacks it, the identity where that does too; shape (n, 16)."""
     stated = getattr(table, field, None)
     numbers = states.values.get(field)
     if numbers is None:
         numbers = np.broadcast_to(np.eye(4).ravel() if stated is None else stated, (len(states.stamp_ns), 16))
+    return numbers
+
+
+def _pose(table: FrankaLog, field: str, numbers: FloatArray, row: IntArray) -> FloatArray:
+    """Matrices of numbers of a field, in these rows of the log; shape (n, 4, 4)."""
     if np.any(numbers[:, _LAST_ROW]) and not np.any(numbers[:, 12:15]):
         raise FormatError(
             f"{table.path}: {field}: expected 16 numbers column by column, as libfranka has them, got them row by row: "
@@ -236,49 +283,48 @@ def _pose(table: FrankaLog, states: LoggedStates, field: str) -> FloatArray:
     rotation = matrices[:, :3, :3]
     with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
         off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
-    for row in np.flatnonzero(~(off < _ROUNDING))[:1]:
+    for k in np.flatnonzero(~(off < _ROUNDING))[:1]:
         raise FormatError(
-            f"{table.path}: state {row + 1}: {field}: expected a rotation in the first three rows, got one that is off "
-            f"by {off[row]:.3g}"
+            f"{table.path}: state {row[k] + 1}: {field}: expected a rotation in the first three rows, got one that is "
+            f"off by {off[k]:.3g}"
         )
     return matrices
 
 
-def _lost(states: LoggedStates) -> BoolArray:
-    """States whose wrench was not estimated: all six numbers are exactly zero; shape (n,)."""
-    fields = [states.values[field] for field in ("K_F_ext_hat_K", "O_F_ext_hat_K") if field in states.values]
-    lost: BoolArray = (np.hstack(fields) == 0.0).all(axis=1)
+def _is_lost(wrenches: Sequence[FloatArray]) -> BoolArray:
+    """States whose wrench was not estimated: all numbers are exactly zero; shape (n,)."""
+    lost: BoolArray = (np.hstack(wrenches) == 0.0).all(axis=1)
     return lost
 
 
-def _flange_wrench(table: FrankaLog, states: LoggedStates, poses: _Poses) -> FloatArray:
-    """Wrench of the robot on the load beyond the flange, declared load included; shape (n, 6); N, N m."""
-    base_R_k = poses.base_H_flange[:, :3, :3] @ poses.flange_H_k[:, :3, :3]
-    along_k = states.values.get("K_F_ext_hat_K")
-    along_base = states.values.get("O_F_ext_hat_K")
+def _lost_count(states: LoggedStates) -> int:
+    fields = [states.values[field] for field in _WRENCHES if field in states.values]
+    return sum(int(_is_lost(wrenches).sum()) for wrenches in row_blocks(*fields))
+
+
+def _flange_wrench(
+    logged: Mapping[str, FloatArray], base_H_flange: FloatArray, flange_H_k: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Wrench of the robot, (n, 6), and squares of the difference of its two forms and of the force, (n, 2), or zero."""
+    along_base, along_k = (logged.get(field) for field in _WRENCHES)
+    squares = np.zeros((len(flange_H_k), 2))
     if along_base is not None:
+        base_R_k = base_H_flange[:, :3, :3] @ flange_H_k[:, :3, :3]
         turned = np.hstack([np.einsum("nji,nj->ni", base_R_k, along_base[:, part]) for part in (FORCE, MOMENT)])
         if along_k is not None:
-            _require_agreement(table.path, turned, along_k)
+            with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
+                parts = (turned[:, FORCE] - along_k[:, FORCE], along_k[:, FORCE])
+                squares = np.column_stack([(part**2).sum(axis=1) for part in parts])
         along_k = turned if along_k is None else along_k
-    if along_k is None:
-        raise FormatError(f"{table.path}: expected O_F_ext_hat_K or K_F_ext_hat_K, got none")
-    wrench = transform_wrench(poses.flange_H_k, along_k)
-    mass, centre = _payload(table, states)
-    gravity = np.einsum("nji,j->ni", poses.base_H_flange[:, :3, :3], table.world_gravity)
-    wrench = wrench - weight_of(mass, centre, gravity)  # the robot holds up the weight
-    wrench[_lost(states)] = np.nan
-    return wrench
+    return transform_wrench(flange_H_k, along_k), squares
 
 
 _DISAGREES = 0.5
 """Share of the force by which its two forms may differ (heuristic); a transposed rotation makes more."""
 
 
-def _require_agreement(path: Path, turned: FloatArray, along_k: FloatArray) -> None:
-    with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
-        parts = (turned[:, FORCE] - along_k[:, FORCE], along_k[:, FORCE])
-        difference, size = (float((part**2).sum()) for part in parts)
+def _require_agreement(path: Path, squares: FloatArray) -> None:
+    difference, size = map(float, squares)
     if difference > _DISAGREES**2 * size:
         share = f"by {100 * np.sqrt(difference / size):.0f} %" if size else "where the second is zero throughout"
         raise FormatError(
@@ -287,34 +333,32 @@ def _require_agreement(path: Path, turned: FloatArray, along_k: FloatArray) -> N
         )
 
 
-def _wrist(table: FrankaLog, states: LoggedStates) -> LoggedWrist:
-    poses = _poses(table, states)
+def _wrist(table: FrankaLog, states: LoggedStates, flange: _Flange) -> LoggedWrist:
     mass, centre = _payload(table, states)
     assumed = ["F_ext_hat_K is the force of the robot on the load"]
     if (end_effector := states.values.get("m_ee")) is not None and end_effector[:, 0].any():
         assumed.append(f"beyond the end effector of {end_effector[-1, 0]:g} kg of Desk")
     return LoggedWrist(
-        controller="franka",
+        controller=FrankaFormat.controller,
         stream=WRIST,
         sensor=WRIST,
         measure_direction=_DIRECTION,
         declared=declared_loads(states.stamp_ns, mass, centre),
-        moving=motions(states.stamp_ns, poses.base_H_flange[:, :3, :3], poses.base_H_flange[:, :3, 3]),
+        moving=motions(states.stamp_ns, flange.base_R_flange, flange.base_p_flange),
         assumed=tuple(assumed),
     )
 
 
-def _reading(table: FrankaLog, states: LoggedStates, undetermined: Mapping[str, str]) -> LogReading:
+def _reading(
+    table: FrankaLog, states: LoggedStates, flange: _Flange | None, undetermined: Mapping[str, str]
+) -> LogReading:
     streams: dict[str, dict[str, Signal]] = {}
-    if _has_wrench(states) and not undetermined:
-        poses = _poses(table, states)
-        orientation = poses.base_H_flange[:, :3, :3]
-        gravity = np.einsum("nji,j->ni", orientation, table.world_gravity)
+    if flange is not None and flange.wrench is not None:
         streams[WRIST] = {
-            "wrench": Signal.of_fixed("wrench", _flange_wrench(table, states, poses), frame=FLANGE),
-            "orientation": Signal.of_fixed("orientation", orientation.reshape(-1, 9), frame=FLANGE),
-            "gravity": Signal.of_fixed("gravity", gravity, frame=FLANGE),
-            "translation": Signal.of_fixed("translation", poses.base_H_flange[:, :3, 3], frame=FLANGE),
+            "wrench": Signal.of_fixed("wrench", flange.wrench, frame=FLANGE),
+            "orientation": Signal.of_fixed("orientation", flange.base_R_flange.reshape(-1, 9), frame=FLANGE),
+            "gravity": Signal.of_fixed("gravity", flange.gravity, frame=FLANGE),
+            "translation": Signal.of_fixed("translation", flange.base_p_flange, frame=FLANGE),
         }
     elif _has_wrench(states):
         field, frame = ("O_F_ext_hat_K", "base") if "O_F_ext_hat_K" in states.values else ("K_F_ext_hat_K", "stiffness")
@@ -352,6 +396,6 @@ def _findings(states: LoggedStates, undetermined: Mapping[str, str], stream: str
     yield from repeats_finding(stream, states.repeated)
     if states.is_cut:
         yield Finding(stream=stream, kind="cut_row", message="the last state is cut, and left out", count=1)
-    if _has_wrench(states) and (count := int(_lost(states).sum())):
+    if _has_wrench(states) and (count := _lost_count(states)):
         message = f"{count} wrench(es) of exactly zero, which the controller did not estimate, near a singularity"
         yield Finding(stream=stream, kind="lost_samples", message=message, count=count)

@@ -21,8 +21,10 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file
+from forcetorque.base.rows_on_disk import RowsOnDisk, rows_where
+from forcetorque.formats.kept_parts import kept
 from forcetorque.formats.logged_wrist import first_of_repeats
-from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table import read_numbers
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 
 LENGTHS = {
@@ -113,7 +115,7 @@ def is_logged_states(path: Path) -> bool:
 
 
 def read_states(path: Path) -> LoggedStates:
-    """Read states.
+    """Read states; their numbers are in temporary files where they are many.
 
     Args:
         path: The file.
@@ -126,6 +128,10 @@ def read_states(path: Path) -> LoggedStates:
         FormatError: If it has no states, one is damaged, or time goes back.
     """
     require_file(path, "a log of robot states of libfranka")
+    return kept(path, "states", lambda: _read_states(path))
+
+
+def _read_states(path: Path) -> LoggedStates:
     line = _first_line(path)
     if fields := _object_fields(line):
         time_ms, numbers, is_cut = _objects(path, fields)
@@ -140,25 +146,36 @@ def read_states(path: Path) -> LoggedStates:
             f"{path}: expected states of libfranka, an object of JSON with O_T_EE in each line or a table with "
             "state.tau_J[0], got another file"
         )
-    kept = first_of_repeats(stamp_ns, path)
-    ends = np.cumsum([LENGTHS[field] for field in fields])[:-1]
-    values = dict(zip(fields, np.split(numbers[kept], ends, axis=1), strict=True))
-    return LoggedStates(stamp_ns=stamp_ns[kept], values=values, repeated=int((~kept).sum()), is_cut=is_cut)
+    is_first = first_of_repeats(stamp_ns, path)
+    stamps, *values = rows_where(is_first, [stamp_ns, *numbers])
+    return LoggedStates(
+        stamp_ns=stamps,
+        values=dict(zip(fields, values, strict=True)),
+        repeated=int((~is_first).sum()),
+        is_cut=is_cut,
+    )
 
 
-def _table(path: Path, fields: Sequence[str]) -> tuple[IntArray, FloatArray]:
-    columns = tuple(name for field in fields for name in _headings(field))
-    signal = TableSignal(quantity="scalar", columns=columns, units=("1",) * len(columns))
-    layout = TableLayout(stamp=StampColumn(column=_TIME, unit="ms"), signals=(signal,))
-    (stream,) = read_table(path, layout, stream="states", clock="controller").streams
-    return stream.stamp_ns, stream.signal("scalar").values
+def _table(path: Path, fields: Sequence[str]) -> tuple[IntArray, list[FloatArray]]:
+    signals = tuple(
+        TableSignal(quantity=field, columns=_headings(field), units=("1",) * LENGTHS[field]) for field in fields
+    )
+    return read_numbers(path, TableLayout(stamp=StampColumn(column=_TIME, unit="ms"), signals=signals))
 
 
-def _objects(path: Path, fields: Sequence[str]) -> tuple[FloatArray, FloatArray, bool]:
-    """Times, shape (n,), ms; numbers, shape (n, k); and whether the last line is cut."""
-    blocks: list[FloatArray] = []
+def _objects(path: Path, fields: Sequence[str]) -> tuple[FloatArray, list[FloatArray], bool]:
+    """Times, shape (n,), ms; numbers of each field, shape (n, k); and whether the last line is cut."""
+    columns = [RowsOnDisk((1,)), *(RowsOnDisk((LENGTHS[field],)) for field in fields)]
+    ends = np.cumsum([1, *(LENGTHS[field] for field in fields)])[:-1]
     rows: list[list[float]] = []
     is_cut = False
+
+    def write() -> None:
+        if rows:
+            for column, numbers in zip(columns, np.split(np.array(rows), ends, axis=1), strict=True):
+                column.append(numbers)
+            rows.clear()
+
     with path.open("rb") as file:
         for number, line in enumerate(iter(lambda: file.readline(_LONGEST_LINE), b""), start=1):
             if not line.strip():
@@ -174,10 +191,10 @@ def _objects(path: Path, fields: Sequence[str]) -> tuple[FloatArray, FloatArray,
                     f"{' '.join(str(error).split())[:120]}; remove the line"
                 ) from error
             if len(rows) == _BLOCK:
-                blocks.append(np.array(rows))
-                rows = []
-    table = np.concatenate([*blocks, *([np.array(rows)] if rows else [])])
-    return table[:, 0], table[:, 1:], is_cut
+                write()
+    write()
+    time, *values = (column.mapped() for column in columns)
+    return time[:, 0], values, is_cut
 
 
 def _numbers(state: Any, fields: Sequence[str]) -> list[float]:

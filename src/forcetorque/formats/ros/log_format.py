@@ -9,6 +9,7 @@ from pathlib import Path
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.formats.kept_parts import parts_kept
 from forcetorque.formats.log_format import LogContext, LogDescription, LoggedRobot, LogReading, StreamReading
+from forcetorque.formats.logged_wrist import BAG
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.formats.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUATERNION_TYPE
 from forcetorque.formats.ros.robot_topics import is_description, is_static, robot_of_bag
@@ -24,6 +25,7 @@ class RosFormat:
 
     table = RosLog
     sign = "a bag of ROS"
+    controller = BAG
 
     def recognises(self, path: Path) -> bool:
         """Look at the first bytes, or for the index of a folder."""

@@ -63,6 +63,22 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     return read_rows(rows, layout, stream=stream, clock=clock)
 
 
+def read_numbers(path: Path, layout: TableLayout) -> tuple[IntArray, list[FloatArray]]:
+    """Read a text table whose columns a format knows.
+
+    Args:
+        path: The file; it exists.
+        layout: Its columns; quantities are names of its signals, and units are not looked at.
+
+    Returns:
+        Stamps, shape (n,), ns; and the columns of each signal as they are in the table, shape (n, k), read-only.
+
+    Raises:
+        FormatError: As of `read_table`.
+    """
+    return _numbers(text_rows(path, layout), layout, [()] * len(layout.signals))
+
+
 def table_columns(path: Path) -> list[str]:
     """Name the columns of a table.
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.base.wrench import FORCE
+from forcetorque.base.rows_on_disk import row_blocks
 
 _WITHOUT_SENSOR = 5e3
 """`ft_raw_wrench` of an arm without a sensor is a constant near 1e4; N."""
@@ -44,8 +44,9 @@ def agreeing_point(raw: FloatArray | None, by_point: Mapping[str, FloatArray]) -
     if raw is None or not _is_of_sensor(raw):
         return None
     shares = {}
-    for point, wrench in by_point.items():
-        force, moment = _shares_left(wrench, raw)
+    scatter = scatter_of(raw, *by_point.values())
+    for number, point in enumerate(by_point, start=1):
+        force, moment = (_share_left(scatter, 6 * number + first, first) for first in (0, 3))
         if not force < _AGREES:
             return None
         shares[point] = moment
@@ -68,19 +69,18 @@ def turned_by(raw: FloatArray | None, wrench: FloatArray) -> FloatArray | None:
 
     if raw is None or not _is_of_sensor(raw):
         return None
-    finite = np.isfinite(raw).all(axis=1) & np.isfinite(wrench).all(axis=1)
-    with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
-        own, other = _about_mean(wrench[finite, FORCE]), _about_mean(raw[finite, FORCE])
-        product = own.T @ other
-    if not np.isfinite(product).all():
+    scatter = scatter_of(wrench[:, :3], raw[:, :3])
+    product = scatter[:3, 3:]
+    if not np.isfinite(scatter).all():
         return None
     left, sizes, right = np.linalg.svd(product)
     if not sizes[1] > _AGREES * sizes[0] > 0.0:  # the force moves along one line
         return None
     turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
     vector: FloatArray = np.rad2deg(Rotation.from_matrix(turn).as_rotvec())
-    (left_over,) = _shares_left(own, other @ turn.T)
-    explained = left_over < _AGREES
+    axes = np.eye(6)
+    axes[3:, 3:] = turn
+    explained = _share_left(axes @ scatter @ axes.T, 0, 3) < _AGREES
     return vector if explained and float(np.linalg.norm(vector)) > _TURNED_DEG else None
 
 
@@ -96,13 +96,20 @@ def require_gravity_as_felt(path: Path, felt: FloatArray | None, base_R_flange: 
     Raises:
         FormatError: If things fall in another direction.
     """
-    finite = () if felt is None else np.flatnonzero(np.isfinite(felt).all(axis=1) & np.isfinite(base_R_flange[:, 0, 0]))
-    if felt is None or not len(finite):
+    if felt is None:
         return
-    up = np.einsum("nij,nj->ni", base_R_flange[finite], felt[finite]).mean(axis=0)
+    count, total, sizes = 0, np.zeros(3), 0.0
+    for own, turn in row_blocks(felt, base_R_flange):
+        finite = np.isfinite(own).all(axis=1) & np.isfinite(turn[:, 0, 0])
+        count += int(np.count_nonzero(finite))
+        total += np.einsum("nij,nj->i", turn[finite], own[finite])
+        sizes += float(np.linalg.norm(own[finite], axis=1).sum())
+    if not count:
+        return
+    up = total / count
     size = float(np.linalg.norm(up))
     # of an accelerometer with other axes, or of an arm that moves, the mean says nothing
-    alike = size > _SAME_AXES * float(np.linalg.norm(felt[finite], axis=1).mean())
+    alike = size > _SAME_AXES * sizes / count
     if alike and _GRAVITY[0] < size < _GRAVITY[1] and float(-up @ down) < _ALONG * size:
         raise FormatError(
             f"{path}: gravity_direction: expected {(np.round(-up / size, 2) + 0.0).tolist()}, in which things fall by "
@@ -111,22 +118,39 @@ def require_gravity_as_felt(path: Path, felt: FloatArray | None, base_R_flange: 
 
 
 def _is_of_sensor(raw: FloatArray) -> bool:
-    return bool(np.abs(raw[:, FORCE]).max(initial=0.0) < _WITHOUT_SENSOR)
+    return all(np.abs(forces).max() < _WITHOUT_SENSOR for (forces,) in row_blocks(raw[:, :3]))
 
 
-def _shares_left(values: FloatArray, other: FloatArray) -> list[float]:
-    """What the difference changes by, over what the other changes by, of each three columns."""
+def scatter_of(*arrays: FloatArray) -> FloatArray:
+    """Give the products of columns about their means, of the rows without a gap.
+
+    Args:
+        arrays: Columns; shapes (n, k), (n, l), ...
+
+    Returns:
+        Their sums; shape (k + l + ..., k + l + ...); not finite where a column has huge numbers.
+    """
+    width = sum(array.shape[1] for array in arrays)
+    count, mean, scatter = 0, np.zeros(width), np.zeros((width, width))
     with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
-        left = values - other
-        finite = np.isfinite(left).all(axis=1)
-        if not finite.all():
-            left, other = left[finite], other[finite]
-        squares = (np.einsum("nk,nk->k", part, part).reshape(-1, 3) for part in map(_about_mean, (left, other)))
-        changes, of_other = (part.sum(axis=1) for part in squares)
-        return [
-            float(np.sqrt(k / change)) if change > 0.0 else np.inf for k, change in zip(changes, of_other, strict=True)
-        ]
+        for blocks in row_blocks(*arrays):
+            rows = np.hstack(blocks)
+            finite = np.isfinite(rows).all(axis=1)
+            rows = rows if finite.all() else rows[finite]
+            if not len(rows):
+                continue
+            own, total = rows.mean(axis=0), count + len(rows)
+            about, step = rows - own, own - mean
+            scatter += about.T @ about + np.outer(step, step) * (count * len(rows) / total)
+            mean += step * (len(rows) / total)
+            count = total
+    return scatter
 
 
-def _about_mean(values: FloatArray) -> FloatArray:
-    return values - values.mean(axis=0) if len(values) else values
+def _share_left(scatter: FloatArray, first: int, other: int) -> float:
+    """What the difference of three columns to three others changes by, over what the others change by."""
+    one, two = slice(first, first + 3), slice(other, other + 3)
+    with np.errstate(over="ignore", invalid="ignore"):
+        own, change = np.trace(scatter[one, one]), np.trace(scatter[two, two])
+        left = max(own - 2.0 * np.trace(scatter[one, two]) + change, 0.0)
+        return float(np.sqrt(left / change)) if change > 0.0 else np.inf

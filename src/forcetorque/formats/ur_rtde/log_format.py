@@ -22,6 +22,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
+from forcetorque.base.rows_on_disk import computed_rows, row_blocks
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.arm_log import ArmLogTable
@@ -107,6 +108,7 @@ class UrRtdeFormat:
 
     table = UrRtdeLog
     sign = "a recording of RTDE (Universal Robots)"
+    controller = "ur"
 
     def recognises(self, path: Path) -> bool:
         """Look at the names in the first line."""
@@ -119,13 +121,17 @@ class UrRtdeFormat:
     def describe_specified(self, path: Path, specified: Mapping[str, object]) -> LogDescription:
         """Read all of it, with keys of the table that the log lacks."""
         fields = read_fields(path)
-        table = _described_table(path, fields, specified)
+        reading = "actual_TCP_force" if "actual_TCP_force" in fields.values else "ft_raw_wrench"
+        table = checked_tables({"format": "ur_rtde", "path": path, "reading": reading, **specified}, UrRtdeLog, path)
         undetermined = {key: _QUESTIONS[key] for key in _undetermined(table, fields)}
+        flange = _flange(table, fields)  # without a tcp_offset that of the TCP, which moves when the flange does
+        if list(undetermined) == ["moment_about"] and flange.agreeing is not None:
+            table, undetermined = table.model_copy(update={"moment_about": flange.agreeing}), {}
         return LogDescription(
             table=table,
-            reading=_reading(table, fields, undetermined),
+            reading=_reading(table, fields, flange, undetermined),
             undetermined=undetermined,
-            wrist=_wrist(table, fields),
+            wrist=_wrist(table, fields, flange),
         )
 
     def read(self, specified: UrRtdeLog, context: LogContext) -> LogReading:
@@ -134,19 +140,7 @@ class UrRtdeFormat:
         if undetermined := _undetermined(specified, fields):
             key = undetermined[0]
             raise FormatError(f"{specified.path}: recording: {key}: expected {_QUESTIONS[key]}; got none")
-        return _reading(specified, fields, {})
-
-
-def _described_table(path: Path, fields: RecordedFields, specified: Mapping[str, object]) -> UrRtdeLog:
-    reading = "actual_TCP_force" if "actual_TCP_force" in fields.values else "ft_raw_wrench"
-    content = {"format": "ur_rtde", "path": path, "reading": reading, **specified}
-    table = checked_tables(content, UrRtdeLog, path)
-    if table.moment_about is not None or {"tcp_offset", "payload_kg", "payload_cog_m"} & set(
-        _undetermined(table, fields)
-    ):
-        return table
-    points = _points(table, fields, _flange_pose(table, fields))
-    return table.model_copy(update={"moment_about": _agreeing_point(fields, points)})
+        return _reading(specified, fields, _flange(specified, fields), {})
 
 
 def _undetermined(table: UrRtdeLog, fields: RecordedFields) -> list[str]:
@@ -166,12 +160,12 @@ def _undetermined(table: UrRtdeLog, fields: RecordedFields) -> list[str]:
     if offset is None:
         lacking.append("tcp_offset")
     if table.reading == "actual_TCP_force":
-        has_distance = offset is None or bool(np.any(np.atleast_2d(offset)[:, :3]))
+        has_distance = offset is None or any(rows[:, :3].any() for (rows,) in row_blocks(np.atleast_2d(offset)))
         if table.moment_about is None and has_distance:
             lacking.append("moment_about")
         if "payload" not in fields.values and table.payload_kg is None:
             lacking.append("payload_kg")
-        elif "payload_cog" not in fields.values and table.payload_cog_m is None and _payload(table, fields)[0].any():
+        elif "payload_cog" not in fields.values and table.payload_cog_m is None and _has_payload(table, fields):
             lacking.append("payload_cog_m")
     return lacking
 
@@ -180,8 +174,9 @@ def _payload(table: UrRtdeLog, fields: RecordedFields) -> tuple[FloatArray, Floa
     """Mass, shape (n,), and centre of mass, shape (n, 3), that the controller subtracts; zero where nothing is said."""
     count = len(fields.stamp_ns)
     if table.reading == "ft_raw_wrench":
-        return np.zeros(count), np.zeros((count, 3))
-    mass = fields.values["payload"][:, 0] if "payload" in fields.values else np.full(count, table.payload_kg or 0.0)
+        return np.broadcast_to(0.0, (count,)), np.broadcast_to(0.0, (count, 3))
+    logged = fields.values.get("payload")
+    mass = np.broadcast_to(table.payload_kg or 0.0, (count,)) if logged is None else logged[:, 0]
     centre = fields.values.get("payload_cog")
     if centre is None:
         stated = np.zeros(3) if table.payload_cog_m is None else table.payload_cog_m
@@ -189,30 +184,72 @@ def _payload(table: UrRtdeLog, fields: RecordedFields) -> tuple[FloatArray, Floa
     return mass, centre
 
 
+def _has_payload(table: UrRtdeLog, fields: RecordedFields) -> bool:
+    return any(mass.any() for (mass,) in row_blocks(_payload(table, fields)[0]))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _FlangePose:
-    """Pose of the flange in the base, and of the TCP in the flange."""
+class _Flange:
+    """The flange in the base, and the wrench at it."""
 
     base_R_flange: FloatArray
-    """Shape (n, 3, 3)."""
+    """Orientations; shape (n, 3, 3)."""
     base_p_flange: FloatArray
-    """Shape (n, 3); m."""
-    flange_p_tcp: FloatArray
-    """Shape (n, 3); m."""
+    """Positions; shape (n, 3); m."""
+    gravity: FloatArray
+    """Along the axes of the flange; shape (n, 3); m/s2."""
+    points: Mapping[MomentPoint, FloatArray]
+    """Wrench with the declared payload if the logged moment is about either point; shape (n, 6); N, N m; none of
+    `ft_raw_wrench`."""
+    agreeing: MomentPoint | None
+    """Point about which the moment changes as that of `ft_raw_wrench`; None where that says nothing."""
+    other_axes: str
+    """Text about a flange that is turned against `ft_raw_wrench`; empty for none."""
 
 
-def _flange_pose(table: UrRtdeLog, fields: RecordedFields) -> _FlangePose:
+def _flange(table: UrRtdeLog, fields: RecordedFields) -> _Flange:
     pose, offset = fields.values["actual_TCP_pose"], fields.values.get("tcp_offset")
     if offset is None:
         offset = np.broadcast_to(np.zeros(6) if table.tcp_offset is None else table.tcp_offset, pose.shape)
-    for name, values in (("actual_TCP_pose", pose), ("tcp_offset", offset)):
-        _require_units(table.path, name, values)
-    base_R_flange = _rotations(pose[:, 3:]) @ _rotations(offset[:, 3:]).transpose(0, 2, 1)
-    return _FlangePose(
-        base_R_flange=base_R_flange,
-        base_p_flange=pose[:, :3] - np.einsum("nij,nj->ni", base_R_flange, offset[:, :3]),
-        flange_p_tcp=offset[:, :3],
+    logged = [] if table.reading == "ft_raw_wrench" else [fields.values["actual_TCP_force"]]
+
+    def compute(pose: FloatArray, offset: FloatArray, *wrench: FloatArray) -> tuple[FloatArray, ...]:
+        for name, values in (("actual_TCP_pose", pose), ("tcp_offset", offset)):
+            _require_units(table.path, name, values)
+        turn = _rotations(pose[:, 3:]) @ _rotations(offset[:, 3:]).transpose(0, 2, 1)
+        gravity = np.einsum("nji,j->ni", turn, table.world_gravity)
+        place = pose[:, :3] - np.einsum("nij,nj->ni", turn, offset[:, :3])
+        return turn, place, gravity, *_by_point(turn, gravity, offset[:, :3], *wrench)
+
+    load = _payload(table, fields) if logged else ()
+    turn, place, gravity, *wrenches = computed_rows(compute, pose, offset, *logged, *load)
+    points = dict(zip(MomentPoint, wrenches, strict=bool(wrenches)))
+    raw = fields.values.get("ft_raw_wrench")
+    agreeing = agreeing_point(raw, points) if points else None
+    return _Flange(
+        base_R_flange=turn,
+        base_p_flange=place,
+        gravity=gravity,
+        points=points,
+        agreeing=None if agreeing is None else MomentPoint(agreeing),
+        other_axes=_other_axes(turned_by(raw, points[MomentPoint.FLANGE]) if points else None),
     )
+
+
+def _by_point(
+    base_R_flange: FloatArray, gravity: FloatArray, flange_p_tcp: FloatArray, *logged: FloatArray
+) -> tuple[FloatArray, ...]:
+    """Wrench at the flange, (n, 6), N, N m, by the logged one, mass and centre; for either point of its moment."""
+    if not logged:
+        return ()
+    wrench, mass, centre = logged
+    flange = weight_of(mass, centre, gravity)
+    force, moment = (np.einsum("nji,nj->ni", base_R_flange, part) for part in (wrench[:, :3], wrench[:, 3:]))
+    flange[:, :3] += force
+    flange[:, 3:] += moment
+    tcp = flange.copy()
+    tcp[:, 3:] += cross(flange_p_tcp, force)
+    return flange, tcp
 
 
 def _require_units(path: Path, name: str, values: FloatArray) -> None:
@@ -241,43 +278,17 @@ def _rotations(vectors: FloatArray) -> FloatArray:
     return matrices
 
 
-def _points(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose) -> Mapping[str, FloatArray]:
-    """Wrench at the flange, (n, 6), N, N m, with the declared payload, for either point; none of `ft_raw_wrench`."""
-    if table.reading == "ft_raw_wrench":
-        return {}
-    mass, centre = _payload(table, fields)
-    flange = weight_of(mass, centre, np.einsum("nji,j->ni", pose.base_R_flange, table.world_gravity))
-    logged = fields.values["actual_TCP_force"]
-    force, moment = (np.einsum("nji,nj->ni", pose.base_R_flange, part) for part in (logged[:, :3], logged[:, 3:]))
-    flange[:, :3] += force
-    flange[:, 3:] += moment
-    tcp = flange.copy()
-    tcp[:, 3:] += cross(pose.flange_p_tcp, force)
-    return {MomentPoint.FLANGE: flange, MomentPoint.TCP: tcp}
-
-
-def _agreeing_point(fields: RecordedFields, points: Mapping[str, FloatArray]) -> MomentPoint | None:
-    raw = fields.values.get("ft_raw_wrench")
-    point = agreeing_point(raw, points) if points else None
-    return None if point is None else MomentPoint(point)
-
-
-def _require_no_contradiction(
-    table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[str, FloatArray]
-) -> None:
-    agreeing = None if table.moment_about is None else _agreeing_point(fields, points)
-    if agreeing not in (None, table.moment_about):
+def _require_no_contradiction(table: UrRtdeLog, fields: RecordedFields, flange: _Flange) -> None:
+    if table.moment_about is not None and flange.agreeing not in (None, table.moment_about):
         raise FormatError(
-            f"{table.path}: moment_about: expected {agreeing}, about which the moment of actual_TCP_force changes as "
-            f"that of ft_raw_wrench in the log, got {table.moment_about}"
+            f"{table.path}: moment_about: expected {flange.agreeing}, about which the moment of actual_TCP_force "
+            f"changes as that of ft_raw_wrench in the log, got {table.moment_about}"
         )
     felt = fields.values.get("actual_tool_accelerometer")
-    require_gravity_as_felt(table.path, felt, pose.base_R_flange, table.world_gravity / table.gravity)
+    require_gravity_as_felt(table.path, felt, flange.base_R_flange, table.world_gravity / table.gravity)
 
 
-def _other_axes(fields: RecordedFields, points: Mapping[str, FloatArray]) -> str:
-    """Text about a flange that is turned against `ft_raw_wrench`; empty for none."""
-    turn = turned_by(fields.values.get("ft_raw_wrench"), points[MomentPoint.FLANGE]) if points else None
+def _other_axes(turn: FloatArray | None) -> str:
     if turn is None:
         return ""
     return (
@@ -286,20 +297,23 @@ def _other_axes(fields: RecordedFields, points: Mapping[str, FloatArray]) -> str
     )
 
 
-def _other_point(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, points: Mapping[str, FloatArray]) -> str:
+def _other_point(table: UrRtdeLog, fields: RecordedFields, flange: _Flange) -> str:
     """Text about a moment that is about the other point by the force in motion; empty for none."""
-    taken, offset = table.moment_about, pose.flange_p_tcp
+    taken, offset = table.moment_about, fields.values.get("tcp_offset", table.tcp_offset)
     # whether a controller subtracts forces of acceleration of a declared payload is not known
-    if taken is None or not points or _payload(table, fields)[0].any() or (offset != offset[:1]).any():
+    if taken is None or offset is None or not flange.points or _has_payload(table, fields):
+        return ""
+    flange_p_tcp = np.atleast_2d(offset)[0, :3]
+    if any((rows[:, :3] != flange_p_tcp).any() for (rows,) in row_blocks(np.atleast_2d(offset))):
         return ""
     other, sign = (MomentPoint.FLANGE, -1.0) if taken is MomentPoint.TCP else (MomentPoint.TCP, 1.0)
     if not is_about_other_point(
         fields.stamp_ns,
-        pose.base_R_flange,
-        pose.base_p_flange,
+        flange.base_R_flange,
+        flange.base_p_flange,
         table.world_gravity,
-        points[taken],
-        sign * offset[0],
+        flange.points[taken],
+        sign * flange_p_tcp,
     ):
         return ""
     return (
@@ -308,47 +322,42 @@ def _other_point(table: UrRtdeLog, fields: RecordedFields, pose: _FlangePose, po
     )
 
 
-def _wrist(table: UrRtdeLog, fields: RecordedFields) -> LoggedWrist:
-    pose = _flange_pose(table, fields)  # without a tcp_offset that of the TCP, which moves when the flange does
-    points = _points(table, fields, pose)
+def _wrist(table: UrRtdeLog, fields: RecordedFields, flange: _Flange) -> LoggedWrist:
     mass, centre = _payload(table, fields)
     assumed = [f"{table.reading} is the force of the tool on the arm"]
     if table.reading == "ft_raw_wrench":
         assumed.append("along the axes of the flange")
     elif table.moment_about is not None:
-        is_agreeing = _agreeing_point(fields, points) is table.moment_about
-        agrees = ", as ft_raw_wrench in the log" if is_agreeing else ""
+        agrees = ", as ft_raw_wrench in the log" if flange.agreeing is table.moment_about else ""
         assumed.append(f"moment about the {table.moment_about}{agrees}")
     return LoggedWrist(
-        controller="ur",
+        controller=UrRtdeFormat.controller,
         stream=WRIST,
         sensor=WRIST,
         measure_direction=MeasureDirection.CHILD_TO_PARENT,
         declared=declared_loads(fields.stamp_ns, mass, centre),
-        moving=motions(fields.stamp_ns, pose.base_R_flange, pose.base_p_flange),
+        moving=motions(fields.stamp_ns, flange.base_R_flange, flange.base_p_flange),
         assumed=tuple(assumed),
-        contradictions=tuple(filter(None, (_other_axes(fields, points), _other_point(table, fields, pose, points)))),
+        contradictions=tuple(filter(None, (flange.other_axes, _other_point(table, fields, flange)))),
     )
 
 
-def _reading(table: UrRtdeLog, fields: RecordedFields, undetermined: Mapping[str, str]) -> LogReading:
+def _reading(table: UrRtdeLog, fields: RecordedFields, flange: _Flange, undetermined: Mapping[str, str]) -> LogReading:
     signals: dict[str, Signal] = {}
+    findings = _findings(fields, undetermined)
     if undetermined:
         frame = BASE if table.reading == "actual_TCP_force" else FLANGE
         signals["wrench"] = Signal.of_fixed("wrench", fields.values[table.reading], frame=frame)
     else:
-        pose = _flange_pose(table, fields)
-        points = _points(table, fields, pose)
-        _require_no_contradiction(table, fields, pose, points)
-        orientation, gravity = pose.base_R_flange, table.world_gravity
-        wrench = points[table.moment_about or MomentPoint.FLANGE] if points else fields.values[table.reading]
+        _require_no_contradiction(table, fields, flange)
+        about = table.moment_about or MomentPoint.FLANGE
+        wrench = flange.points[about] if flange.points else fields.values[table.reading]
         signals["wrench"] = Signal.of_fixed("wrench", wrench, frame=FLANGE)
-        signals["orientation"] = Signal.of_fixed("orientation", orientation.reshape(-1, 9), frame=FLANGE)
-        signals["gravity"] = Signal.of_fixed("gravity", np.einsum("nji,j->ni", orientation, gravity), frame=FLANGE)
-        signals["translation"] = Signal.of_fixed("translation", pose.base_p_flange, frame=FLANGE)
-    findings = _findings(fields, undetermined)
-    if not undetermined and (words := _other_axes(fields, points)):
-        findings = (*findings, Finding(stream=WRIST, kind="other_axes", message=words, count=len(fields.stamp_ns)))
+        signals["orientation"] = Signal.of_fixed("orientation", flange.base_R_flange.reshape(-1, 9), frame=FLANGE)
+        signals["gravity"] = Signal.of_fixed("gravity", flange.gravity, frame=FLANGE)
+        signals["translation"] = Signal.of_fixed("translation", flange.base_p_flange, frame=FLANGE)
+        if words := flange.other_axes:
+            findings = (*findings, Finding(stream=WRIST, kind="other_axes", message=words, count=len(fields.stamp_ns)))
     streams = {WRIST: signals}
     motion = {"actual_q": ("position", "rad"), "actual_qd": ("velocity", "rad/s")}
     joints = {

@@ -12,6 +12,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.pose import skew
+from forcetorque.base.rows_on_disk import row_blocks
+from forcetorque.formats.ur_rtde.consistency import scatter_of
 
 _STEP_S = 0.016
 """Half of the span of a difference: shorter ones make noise of the pose large; s (heuristic)."""
@@ -55,7 +57,7 @@ def is_about_other_point(
     """
     distance = float(np.linalg.norm(other_p_taken))
     with np.errstate(over="ignore", invalid="ignore"):  # damaged files hold huge numbers
-        if not (distance > 0.0 and np.abs(wrench[np.isfinite(wrench)]).max(initial=0.0) < _LARGEST):
+        if not distance > 0.0 or any((np.abs(rows) >= _LARGEST).any() for (rows,) in row_blocks(wrench)):
             return False
         centre = _centre_by_force(stamp_ns, base_R_flange, base_p_flange, gravity, wrench[:, :3])
         if centre is None or not centre[1] < _MOST_ERROR * distance:
@@ -68,35 +70,52 @@ def _centre_by_force(
     stamp_ns: IntArray, base_R_flange: FloatArray, base_p_flange: FloatArray, gravity: FloatArray, force: FloatArray
 ) -> tuple[FloatArray, float] | None:
     """Centre of mass, shape (3,), and the largest standard error of its coordinates; m."""
-    time_s = 1e-9 * (stamp_ns - stamp_ns[0])
-    usual = float(np.median(np.diff(time_s))) if len(time_s) > _FEWEST else 0.0
+    usual = 1e-9 * float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > _FEWEST else 0.0
     if not usual > 0.0:
         return None
     k = max(round(_STEP_S / usual), 1)
-    half_s = k * usual
-    even = np.abs(time_s[4 * k :] - time_s[: -4 * k] - 4.0 * half_s) < _EVEN * usual
+    rows = 0
+    triangle: FloatArray = np.zeros((0, 8))  # of all rows of the design with the force, by QR decomposition
+    for stamps, turns, places, forces in row_blocks(stamp_ns, base_R_flange, base_p_flange, force, overlap=4 * k):
+        equations = _equations(stamps, turns, places, forces, gravity, k, usual)
+        rows += len(equations)
+        triangle = np.asarray(np.linalg.qr(np.vstack([triangle, equations]), mode="r"), dtype=np.float64)
+    if rows < 3 * _FEWEST:
+        return None
+    design, values = triangle[:, :7], triangle[:, 7]
+    solution, _, rank, _ = np.linalg.lstsq(design, values, rcond=rows * np.finfo(np.float64).eps)
+    mass, moment = float(solution[0]), solution[1:4]
+    if rank < design.shape[1] or not mass > 0.0:
+        return None
+    left = values - design @ solution
+    variance = _CORRELATED * float(left @ left) / rows * np.diag(np.linalg.inv(design.T @ design))
+    return np.asarray(moment / mass, dtype=np.float64), float(np.sqrt(variance[1:4].max())) / mass
+
+
+def _equations(
+    stamp_ns: IntArray,
+    base_R_flange: FloatArray,
+    base_p_flange: FloatArray,
+    force: FloatArray,
+    gravity: FloatArray,
+    k: int,
+    usual_s: float,
+) -> FloatArray:
+    """Mass, first moment and bias in the force of the rows that have 2k others on either side; shape (m, 8)."""
+    half_s = k * usual_s
+    spans_s = 1e-9 * (stamp_ns[4 * k :] - stamp_ns[: -4 * k])
+    even = np.abs(spans_s - 4.0 * half_s) < _EVEN * usual_s
     turn = base_R_flange[: -2 * k].transpose(0, 2, 1) @ base_R_flange[2 * k :]
     omega = _axis(turn) / (2.0 * half_s)
     alpha = (omega[2 * k :] - omega[: -2 * k]) / (2.0 * half_s)
     position = base_p_flange[k:-k]
     acceleration = (position[2 * k :] - 2.0 * position[k:-k] + position[: -2 * k]) / half_s**2
-    middle = slice(2 * k, len(time_s) - 2 * k)
+    middle = slice(2 * k, len(stamp_ns) - 2 * k)
     specific = np.einsum("nji,nj->ni", base_R_flange[middle], gravity - acceleration)
     turning = skew(alpha) + skew(omega[k:-k]) @ skew(omega[k:-k])
     bias = np.broadcast_to(np.eye(3), turning.shape)
-    design = np.concatenate([specific[:, :, None], -turning, bias], axis=2)
-    values = force[middle]
-    used = even & np.isfinite(design).all(axis=(1, 2)) & np.isfinite(values).all(axis=1)
-    flat, values = design[used].reshape(-1, 7), values[used].reshape(-1)
-    if used.sum() < _FEWEST:
-        return None
-    solution, _, rank, _ = np.linalg.lstsq(flat, values, rcond=None)
-    mass, moment = float(solution[0]), solution[1:4]
-    if rank < flat.shape[1] or not mass > 0.0:
-        return None
-    left = values - flat @ solution
-    variance = _CORRELATED * float(left @ left) / len(values) * np.diag(np.linalg.inv(flat.T @ flat))
-    return moment / mass, float(np.sqrt(variance[1:4].max())) / mass
+    rows = np.concatenate([specific[:, :, None], -turning, bias, force[middle][:, :, None]], axis=2)
+    return rows[even & np.isfinite(rows).all(axis=(1, 2))].reshape(-1, 8)
 
 
 def _axis(rotation: FloatArray) -> FloatArray:
@@ -107,7 +126,8 @@ def _axis(rotation: FloatArray) -> FloatArray:
 
 def _centre_by_moment(wrench: FloatArray) -> FloatArray:
     """Point through which the force acts, beside a constant moment; shape (3,); m."""
-    known = wrench[np.isfinite(wrench).all(axis=1)]
-    change = known - known.mean(axis=0)
-    design = -skew(change[:, :3]).reshape(-1, 3)
-    return np.asarray(np.linalg.lstsq(design, change[:, 3:].reshape(-1), rcond=None)[0], dtype=np.float64)
+    scatter = scatter_of(wrench)
+    squares, products = scatter[:3, :3], scatter[:3, 3:]
+    design = np.trace(squares) * np.eye(3) - squares
+    moments = np.array([products[k - 2, k - 1] - products[k - 1, k - 2] for k in range(3)])
+    return np.asarray(np.linalg.lstsq(design, moments, rcond=None)[0], dtype=np.float64)

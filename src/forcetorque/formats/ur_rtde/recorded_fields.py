@@ -12,7 +12,7 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,8 +21,10 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file, require_unpacked
+from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk, rows_where
+from forcetorque.formats.kept_parts import kept
 from forcetorque.formats.logged_wrist import first_of_repeats
-from forcetorque.formats.tabular.table import read_table
+from forcetorque.formats.tabular.table import read_numbers
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 
 TIME = "timestamp"
@@ -49,6 +51,8 @@ _TYPES = {
 }
 _LONGEST_LINE = 1 << 16
 """Bytes of a line of names: a recipe has a hundred fields."""
+_BLOCK_ROWS = 1 << 14
+"""Rows of a binary file that are read at a time."""
 _NANOSECONDS = 1e9
 _LATEST_S = 9.2e9
 """Later instants do not fit into 64 bits of nanoseconds."""
@@ -120,7 +124,7 @@ class RecordedFields:
 
 
 def read_fields(path: Path) -> RecordedFields:
-    """Read a recording.
+    """Read a recording; its numbers are in temporary files where they are many.
 
     Args:
         path: The file.
@@ -133,6 +137,10 @@ def read_fields(path: Path) -> RecordedFields:
         FormatError: If it is no recording of RTDE, has no rows, or time goes back.
     """
     require_file(path, "a recording of RTDE")
+    return kept(path, "fields", lambda: _read_fields(path))
+
+
+def _read_fields(path: Path) -> RecordedFields:
     heading = heading_of(path)
     if heading is None:
         raise FormatError(
@@ -141,19 +149,27 @@ def read_fields(path: Path) -> RecordedFields:
         )
     if len(set(heading.names)) < len(heading.names):
         raise FormatError(f"{path}:1: expected every field once, got one twice; record it again with each field once")
-    columns = [column for field in heading.fields for column in _columns_of(field)]
-    stamp_ns, numbers, cut_bytes = (_binary if heading.types else _text)(path, heading, columns)
-    return _without_repeats(path, heading.fields, stamp_ns, numbers, cut_bytes)
+    stamp_ns, numbers, cut_bytes = (_binary if heading.types else _text)(path, heading)
+    is_first = first_of_repeats(stamp_ns, path)
+    stamps, *values = rows_where(is_first, [stamp_ns, *numbers])
+    return RecordedFields(
+        stamp_ns=stamps,
+        values=dict(zip(heading.fields, values, strict=True)),
+        repeated=int((~is_first).sum()),
+        cut_bytes=cut_bytes,
+    )
 
 
-def _text(path: Path, heading: Heading, columns: Sequence[str]) -> tuple[IntArray, FloatArray, int]:
-    signal = TableSignal(quantity="scalar", columns=tuple(columns), units=("1",) * len(columns))
-    layout = TableLayout(delimiter=heading.delimiter, stamp=StampColumn(column=TIME, unit="s"), signals=(signal,))
-    (stream,) = read_table(path, layout, stream="fields", clock="controller").streams
-    return stream.stamp_ns, stream.signal("scalar").values, 0
+def _text(path: Path, heading: Heading) -> tuple[IntArray, list[FloatArray], int]:
+    signals = tuple(
+        TableSignal(quantity=field, columns=_columns_of(field), units=("1",) * LENGTHS[field])
+        for field in heading.fields
+    )
+    layout = TableLayout(delimiter=heading.delimiter, stamp=StampColumn(column=TIME, unit="s"), signals=signals)
+    return *read_numbers(path, layout), 0
 
 
-def _binary(path: Path, heading: Heading, columns: Sequence[str]) -> tuple[IntArray, FloatArray, int]:
+def _binary(path: Path, heading: Heading) -> tuple[IntArray, list[FloatArray], int]:
     if len(heading.types) != len(heading.names):
         raise FormatError(
             f"{path}:2: expected a type for each of {len(heading.names)} columns, got {len(heading.types)}"
@@ -163,21 +179,26 @@ def _binary(path: Path, heading: Heading, columns: Sequence[str]) -> tuple[IntAr
     count = size // row.itemsize
     if count < 1:
         raise FormatError(f"{path}: expected rows of {row.itemsize} bytes, got {max(size, 0)} bytes; copy it again")
-    require_unpacked(path, 8 * count * (len(columns) + 1))
-    rows = np.memmap(path, dtype=row, mode="r", offset=heading.size, shape=(count,))
-    numbers = np.column_stack([rows[column].astype(np.float64) for column in columns])
-    seconds = rows[TIME].astype(np.float64)
-    for number in np.flatnonzero(~(np.abs(seconds) < _LATEST_S))[:1]:
-        raise FormatError(f"{path}: row {number + 1}: {TIME}: expected seconds, got {seconds[number]:g}")
-    for number, column in np.argwhere(np.isinf(numbers))[:1]:
-        raise FormatError(f"{path}: row {number + 1}: {columns[column]}: expected a finite number")
-    return np.rint(seconds * _NANOSECONDS).astype(np.int64), numbers, int(size % row.itemsize)
-
-
-def _without_repeats(
-    path: Path, fields: Sequence[str], stamp_ns: IntArray, numbers: FloatArray, cut_bytes: int
-) -> RecordedFields:
-    kept = first_of_repeats(stamp_ns, path)
-    ends = np.cumsum([LENGTHS[field] for field in fields])[:-1]
-    values = dict(zip(fields, np.split(numbers[kept], ends, axis=1), strict=True))
-    return RecordedFields(stamp_ns=stamp_ns[kept], values=values, repeated=int((~kept).sum()), cut_bytes=cut_bytes)
+    widths = [LENGTHS[field] for field in heading.fields]
+    length = 8 * count * (1 + sum(widths))
+    require_unpacked(path, length)
+    is_long = length > IN_MEMORY
+    stamps = RowsOnDisk(dtype=np.int64) if is_long else RowsInMemory(count, dtype=np.int64)
+    numbers = [RowsOnDisk((width,)) if is_long else RowsInMemory(count, (width,)) for width in widths]
+    with path.open("rb") as file:
+        file.seek(heading.size)
+        for start in range(0, count, _BLOCK_ROWS):
+            rows = np.fromfile(file, dtype=row, count=min(_BLOCK_ROWS, count - start))
+            seconds = rows[TIME].astype(np.float64)
+            for number in np.flatnonzero(~(np.abs(seconds) < _LATEST_S))[:1]:
+                raise FormatError(
+                    f"{path}: row {start + number + 1}: {TIME}: expected seconds, got {seconds[number]:g}"
+                )
+            stamps.append(np.rint(seconds * _NANOSECONDS).astype(np.int64))
+            for field, written in zip(heading.fields, numbers, strict=True):
+                columns = _columns_of(field)
+                values = np.column_stack([rows[column].astype(np.float64) for column in columns])
+                for number, column in np.argwhere(np.isinf(values))[:1]:
+                    raise FormatError(f"{path}: row {start + number + 1}: {columns[column]}: expected a finite number")
+                written.append(values)
+    return stamps.mapped(), [written.mapped() for written in numbers], int(size % row.itemsize)

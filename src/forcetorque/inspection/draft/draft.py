@@ -227,6 +227,7 @@ def draft_experiment(
     urdf: Path | str | None = None,
     log_format: str | None = None,
     column_names: ColumnNames = (),
+    recording: Collection[str] = (),
     sensors: Sequence[str] = (),
     matrices: Path | str | None = None,
     loads: Path | str | None = None,
@@ -246,6 +247,7 @@ def draft_experiment(
         log_format: Name of the format; recognised from the files if None.
         column_names: Names of all columns, of tables whose first lines do not name them: a list for all tables, or one
             for each; none for those of the files.
+        recording: Keys of `[recording]` that a log lacks, each as `moment_about=flange`.
         sensors: Names or streams of the sensors to draft; all if empty. Without a robot an experiment has one sensor:
             others that are named, and other force plates, have a file each beside it, NAME.SENSOR.toml.
         matrices: Folder of the calibrations that the sensors came with; None for none.
@@ -276,7 +278,7 @@ def draft_experiment(
     if kept is not None:
         urdf, robot_file = kept, None
     model = model_of(logged) if urdf is None else read_urdf(urdf_file(urdf))
-    log = draft_log(paths, model, log_format, column_names)
+    log = draft_log(paths, model, log_format, column_names, recording)
     if (table := bench_table(log, None if loads is None else str(loads))) is not None:
         return _bench(table, None if loads is None else str(loads), file, folder, is_written=output is not None)
     if robot_file is not None:

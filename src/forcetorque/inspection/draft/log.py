@@ -13,6 +13,7 @@ from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
 from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
+from forcetorque.formats.specified_keys import description_of, specified_keys
 from forcetorque.formats.tabular.log_format import sketch_table
 from forcetorque.inspection.draft.joints import joints_question
 from forcetorque.inspection.draft.streams import (
@@ -49,6 +50,7 @@ def draft_log(
     model: RobotModel | None,
     log_format: str | None = None,
     column_names: ColumnNames = (),
+    recording: Collection[str] = (),
 ) -> DraftedLog:
     """Look at a log.
 
@@ -58,6 +60,7 @@ def draft_log(
         log_format: Name of the format; it is recognised by what is there if None.
         column_names: Names of all columns, of tables whose first lines do not name them: a list for all tables, or one
             for each; none for those of the files.
+        recording: Keys that a log lacks, each as `moment_about=flange`.
 
     Returns:
         What can be told of it.
@@ -78,7 +81,8 @@ def draft_log(
     formats = [recognised_format(path) if log_format is None else format_named(log_format) for path in paths]
     known = _require_one_recording(paths, formats)
     joints = [] if model is None else [name for name, joint in model.joints.items() if joint.type.moves]
-    if isinstance(known, SketchingFormat):
+    specified = specified_keys(recording)
+    if isinstance(known, SketchingFormat) and not specified:
         if format_name(known) == _TABLES:
             named = _names_of_tables(column_names, paths)
             tables = [sketch_table(path, names) for path, names in zip(paths, named, strict=True)]
@@ -93,7 +97,7 @@ def draft_log(
             arrays=sketches[0].columns,
             skipped_arrays=sketches[0].skipped_arrays,
         )
-    return draft_of_description(known.describe(paths[0]), joints)
+    return draft_of_description(description_of(known, paths[0], specified), joints)
 
 
 def _names_of_tables(column_names: ColumnNames, paths: Sequence[Path]) -> list[Sequence[str]]:

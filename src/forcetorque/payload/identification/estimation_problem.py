@@ -22,6 +22,9 @@ class LoadRows:
     """Readings as wrenches in the sensor's frame and direction; shape (n, 6); N, N m."""
     proper_acceleration: FloatArray = field(metadata=array("n", 3))
     """Of the sensor's origin along its axes, `-g` where it is still; shape (n, 3); m/s2."""
+    acceleration_size: FloatArray | None = field(default=None, metadata=array("n"))
+    """Size of the proper acceleration as mean over each row, which is larger than that of the mean where the sensor
+    turns within the row; shape (n,); m/s2; None where rows are single readings, or as good as that."""
     angular_velocity_products: FloatArray | None = field(default=None, metadata=array("n", 3, 3))
     """Products `w w'` of the angular velocity w along the sensor's axes, as means over each row, because products of
     means lose what varies within a row; shape (n, 3, 3); rad2/s2; None where it stands still or turns slowly."""
@@ -247,6 +250,7 @@ class LoadProblem:
 
 
 _OPTIONAL = (
+    "acceleration_size",
     "angular_velocity_products",
     "angular_acceleration",
     "columns",

@@ -204,7 +204,8 @@ def _reversed(fitted: Fit) -> Iterator[HypothesisRow]:
 
 def _unit_of_gravity(rows: LoadRows) -> Iterator[HypothesisRow]:
     """Gravity of another size."""
-    gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1)))
+    size = rows.acceleration_size
+    gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1) if size is None else size))
     if rows.angular_velocity_products is None and not 9.0 < gravity < 10.6:
         words = f"gravity is {gravity:.4g} m/s2: its unit is another one, such as g; state the unit of the column"
         yield HypothesisRow(name="unit of gravity", description=words, residual_share=1.0, severity="contradiction")

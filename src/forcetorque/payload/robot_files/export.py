@@ -34,6 +34,7 @@ from forcetorque.payload.robot_files.ros import (
     gravity_filter_text,
 )
 from forcetorque.recording.recording import Use
+from forcetorque.results.number_text import amount
 
 _HASH = ("# ", "")
 _REMARKS: Mapping[LoadFormat, tuple[str, str] | None] = {
@@ -83,9 +84,10 @@ def write_load_file(
             _write_beside(path, form, note)
     else:
         begin, end = remarks
-        if end and note is not None:
-            note = re.sub("-(?=-)", "- ", note)  # two hyphens end a remark of XML
-        lines = [f"forcetorque {form}", *([] if note is None else [note])]
+        posture = [f"with {_one_line(load.posture)}"] if load.posture else []
+        lines = [f"forcetorque {form}", *posture, *([] if note is None else [note])]
+        if end:
+            lines = [re.sub("-(?=-)", "- ", line) for line in lines]  # two hyphens end a remark of XML
         text = "".join(f"{begin}{line}{end}\n" for line in lines) + text
     write_bytes_atomically(Path(path), text.encode())
 
@@ -186,6 +188,7 @@ def robot_load(
         inertia=about_centre if held.has_inertia else None,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
+        posture=", ".join(f"{row.joint} at {amount(row.position or 0.0, row.unit)}" for row in held.posture),
         override=note,
     )
 
@@ -247,9 +250,10 @@ def export_load(
     if load.override is not None and (beside := override_file(output, form)) is not None:
         refuse_output(beside, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
+    posture = [f"it holds with {load.posture} alone"] if load.posture else []
     if form not in ARMS:
-        return form.convention
-    lacks = list(not_held(flange_load(load, form, body_H_sensor), form, load.bias))
+        return "; ".join([form.convention, *posture])
+    lacks = posture + list(not_held(flange_load(load, form, body_H_sensor), form, load.bias))
     if load.frame != FLANGE:
         lacks.append(
             "it holds what is beyond the sensor: each 0.1 kg of a sensor that is mounted on the flange makes 0.98 N"

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,12 +13,16 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.logged_posture import JointRow
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.load_on_wrist_sensor import LOAD_LINK, WristLoads, inertia_of_stated, wrist_loads
 from forcetorque.payload.loads_on_robot_links import LinkLoads, carrying, link_loads
 from forcetorque.payload.result import WeighedLoad
+from forcetorque.recording.recording import Use
+from forcetorque.robot.dynamics import body_poses
 from forcetorque.robot.model import ForceTorqueSensor, RobotModel, SensorFrame
-from forcetorque.robot.tree import BodyTree, build_tree, cut_of, outboard_bodies
+from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import BodyTree, Coordinate, build_tree, cut_of, outboard_bodies
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +37,8 @@ class HeldLoad:
     """Name of that frame."""
     direction: MeasureDirection
     """Who acts on whom in the measurement; the load is the child."""
+    posture: tuple[JointRow, ...] = ()
+    """Joints beyond the sensor where they stood; none of a load without joints."""
 
 
 def held_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
@@ -49,7 +55,7 @@ def held_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
 
     Raises:
         ExperimentError: If there are several loads, the data leave the load open, or beyond the sensor of a robot
-            joints move or a support is, or its mount is to be estimated.
+            joints move or are not logged, or a support is, or its mount is to be estimated.
     """
     wrist = wrist_loads(run.experiment)
     return _distal_load(run, weighed) if wrist is None else _wrist_load(run.experiment, wrist, weighed)
@@ -67,7 +73,7 @@ def _wrist_load(experiment: Experiment, wrist: WristLoads, weighed: WeighedLoad 
 
 
 def _distal_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
-    """Lump the links beyond a sensor, of which no joint moves, and the load on them."""
+    """Lump the links beyond a sensor, whose joints stand still, and the load on them."""
     experiment, name = run.experiment, run.sensor.name
     if run.sensor.mount_is_unknown:
         raise ExperimentError(
@@ -77,11 +83,19 @@ def _distal_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
     model, has_inertia = _loaded_model(experiment, link_loads(experiment), weighed)
     sensor = model.sensors[name]
     tree = build_tree(model, model.joints[sensor.joint].parent)
-    _require_rigid(tree, experiment, name)
-    cut = tree.cuts[name]
-    inertia = tree.bodies[cut.body].inertia.expressed_in(invert_pose(cut.body_H_sensor))
-    frame = _frame(model, sensor)
-    return HeldLoad(inertia=inertia, has_inertia=has_inertia, frame=frame, direction=sensor.direction)
+    distal = _distal_bodies(tree, experiment, name)
+    posture = _posture(experiment, name, [tree.bodies[k].coordinate for k in distal])
+    joints = JointMotion.at_rest([row.joint for row in posture], [[row.position for row in posture]])
+    poses, cut = body_poses(tree, joints, distal), tree.cuts[name]
+    sensor_H_root = invert_pose(poses[cut.body][0] @ cut.body_H_sensor)
+    parts = (tree.bodies[k].inertia.expressed_in(sensor_H_root @ poses[k][0]) for k in distal)
+    return HeldLoad(
+        inertia=sum(parts, Inertia.zero()),
+        has_inertia=has_inertia,
+        frame=_frame(model, sensor),
+        direction=sensor.direction,
+        posture=posture,
+    )
 
 
 def _loaded_model(
@@ -101,23 +115,48 @@ def _loaded_model(
     return on_links.model_on(support, experiment), load.inertia is not None
 
 
-def _require_rigid(tree: BodyTree, experiment: Experiment, sensor: str) -> None:
-    """Refuse a load that changes with the posture, or that the robot stands on."""
-    beyond = outboard_bodies(tree, cut_of(tree, sensor))
-    distal = [body for body, is_beyond in zip(tree.bodies, beyond, strict=True) if is_beyond]
-    links = {link for body in distal for link in body.links}
+def _distal_bodies(tree: BodyTree, experiment: Experiment, sensor: str) -> list[int]:
+    """Bodies beyond a sensor; that the robot stands on one of them, or has another sensor there, is refused."""
+    beyond = np.flatnonzero(outboard_bodies(tree, cut_of(tree, sensor))).tolist()
+    links = {link for k in beyond for link in tree.bodies[k].links}
     for interval in experiment.recording.intervals:
         if interval.support is not None and interval.support.frame in links:
             raise ExperimentError(
                 f"interval {interval.label!r}: expected a support inboard of {sensor!r}, of whose load a robot is "
                 f"told, got {interval.support.frame!r}, which is beyond it"
             )
-    if len(distal) > 1:
-        joints = ", ".join(repr(body.joint) for body in distal[1:] if body.joint is not None) or "another sensor"
+    if any(tree.bodies[k].coordinate is None for k in beyond[1:]):
+        raise ExperimentError(f"sensor {sensor!r}: expected a rigid load, of which a robot is told, got another sensor")
+    return beyond
+
+
+_HELD = {"rad": 5e-3, "m": 5e-4}
+"""Range of a joint that stands still, by its unit (heuristic)."""
+
+
+def _posture(experiment: Experiment, sensor: str, coordinates: Sequence[Coordinate | None]) -> tuple[JointRow, ...]:
+    """Where the joints beyond a sensor stand in all intervals; that one moves, or is not logged, is refused."""
+    logged, moving, posture = experiment.recording.joint_signals("position"), [], []
+    for joint in dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None):
+        positions, unit = np.zeros(0), ""
+        if joint in logged:
+            stream, signal = logged[joint]
+            unit = signal.units[signal.columns.index(joint)]
+            parts = [one.holds(stream.stamp_ns) for one in experiment.recording.intervals if one.use is not Use.IGNORE]
+            inside = np.logical_or.reduce(parts) if parts else np.ones(len(stream), dtype=bool)
+            positions = signal.column(joint)[inside]
+            positions = positions[np.isfinite(positions)]
+        if not len(positions) or float(np.ptp(positions)) > _HELD[unit]:
+            moving.append(joint)
+        else:
+            posture.append(JointRow(joint=joint, position=float(np.median(positions)), unit=unit))
+    if moving:
         raise ExperimentError(
-            f"sensor {sensor!r}: expected a rigid load, of which a robot is told, got {joints} beyond it; give these "
-            'joints of the URDF type="fixed", in the posture in which the tool is used'
+            f"sensor {sensor!r}: expected a rigid load, of which a robot is told, got "
+            f"{', '.join(map(repr, moving))} beyond it, which move or are not logged; give these joints of the URDF "
+            'type="fixed", in the posture in which the tool is used, or record them at rest'
         )
+    return tuple(posture)
 
 
 def _frame(model: RobotModel, sensor: ForceTorqueSensor) -> str:

@@ -37,6 +37,8 @@ class RobotLoad:
     """Reading without load; shape (6,); N, N m."""
     matrix: FloatArray = field(default_factory=lambda: np.eye(6), metadata=array(6, None))
     """What makes a wrench of the reading; shape (6, c); the identity where the sensor sends wrenches."""
+    posture: str = ""
+    """Positions of joints beyond the sensor for which it holds; empty for none."""
     override: str | None = None
     """Why it is told although it is doubtful; None where it is not."""
 

@@ -37,6 +37,14 @@ ColumnNamesOption = Annotated[
         help="Names of all columns of a table without headings, as t,fx,fy,fz,tx,ty,tz; once for each table.",
     ),
 ]
+RecordingOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--recording",
+        help="What a log lacks, as moment_about=flange, payload_kg=0 or measure_direction=parent_to_child; repeat for "
+        "more.",
+    ),
+]
 LoadsOption = Annotated[
     str | None,
     typer.Option(
