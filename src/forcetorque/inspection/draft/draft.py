@@ -292,7 +292,7 @@ def draft_experiment(
     _refuse_beside(beside, file, force=force)
     priors = () if matrices is None else matrix_files(Path(matrices))
     robot = _robot_line(urdf, robot_file, logged, folder, is_kept=kept is not None)
-    text, notes, recording = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
+    text, notes, drafted = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
     if kept is not None:
         notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
     notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
@@ -307,7 +307,7 @@ def draft_experiment(
     return Draft(
         file=str(file),
         format=log.format,
-        streams={} if recording is None else stream_rows(recording.streams),
+        streams={} if drafted is None else stream_rows(drafted.streams),
         questions=_questions(text),
         notes=notes,
         few_components=() if found else tuple(column for table in tables for column in few_components(table).values()),
