@@ -199,6 +199,8 @@ def test_heat_reaches_what_is_put_in_over_what_is_lost(demands: DeviceDemands) -
     assert (warm.verdict, "never cooled from there to 15 degC" in warm.why) == (Verdict.NOT_MET, True)
     weak = _heat(heat.model_copy(update={"heating_W": 30.0}))
     assert (weak.verdict, "never heated to 55 degC" in weak.why) == (Verdict.NOT_MET, True)
+    bare = _heat(heat.model_copy(update={"heating_W": 35.0}))
+    assert (bare.verdict, "heated to 55 degC only in the limit" in bare.why) == (Verdict.MET, True)
     # the device of the thesis describes no heat
     (absent,) = _requirement(demands, 12)
     assert absent.verdict is Verdict.NOT_COMPUTED

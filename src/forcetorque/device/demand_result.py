@@ -276,6 +276,8 @@ def _heat(heat: DeviceHeat | None) -> RequirementRow:
 
 def _time_to(words: str, heat: DeviceHeat, start_degC: float, end_degC: float, limit_degC: float) -> str:
     """When the exponential way from a temperature to the one that it ends at passes a limit."""
+    if end_degC == limit_degC != start_degC:
+        return f"{words} only in the limit, ever slower"
     behind, ahead = end_degC - start_degC, end_degC - limit_degC
     if (limit_degC - start_degC) * behind <= 0.0 or ahead * behind <= 0.0:
         return f"never {words}" if start_degC != limit_degC else f"{words} from the start"

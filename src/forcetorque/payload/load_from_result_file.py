@@ -27,6 +27,8 @@ from forcetorque.payload.identification.robust_fit import fit
 
 SCHEMA = "forcetorque/payload/3"
 """Form of the results that are read."""
+MOST_UNCERTAIN: Final = 0.05
+"""Half of the 95 % interval of a mass, over the mass, up to which it may stand for a stated one."""
 _ROUNDING = np.repeat([1e-4, 1e-5, 1e-6], [1, 3, 6])
 """kg, kg m, kg m2: nothing was weighed better. What was stated there, or follows from what was estimated as the inertia
 of a point mass does, has a precision by this; one that is much larger hides from the numbers what is told at all."""
@@ -119,7 +121,8 @@ def read_wrist_load_from_file(file: Path, name: str, frame: str) -> LoadFromFile
 
     Raises:
         FormatError: If it is no such result.
-        ExperimentError: If it has no such load, or the load is undetermined, of no positive mass, or in another frame.
+        ExperimentError: If it has no such load, or the load is undetermined, of negative mass or one that is known to
+            less than `MOST_UNCERTAIN`, or in another frame.
     """
     weighed, row = _weighed(file, name)
     if row.link is not None:
@@ -138,6 +141,12 @@ def read_wrist_load_from_file(file: Path, name: str, frame: str) -> LoadFromFile
         raise ExperimentError(f"{file}: the load {row.load!r} was left open there; weigh it again, or state mass_kg")
     if row.mass_kg < 0.0:
         raise ExperimentError(f"{file}: load {row.load!r}: expected a mass of 0 kg or more, got {row.mass_kg:.4g} kg")
+    if row.mass_half_width_95_kg > MOST_UNCERTAIN * row.mass_kg:
+        raise ExperimentError(
+            f"{file}: load {row.load!r}: expected a mass that is known to {100 * MOST_UNCERTAIN:g} % (95 %), for it is "
+            f"taken as exact, got {row.mass_kg:.4g} kg +- {row.mass_half_width_95_kg:.2g} kg; weigh it again, in more "
+            "poses and for longer, or state mass_kg and centre_of_mass_m"
+        )
     load = Load(
         name=name,
         mass=row.mass_kg,
