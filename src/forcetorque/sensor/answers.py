@@ -124,9 +124,10 @@ def _channels(channels: Sequence[ChannelResponse]) -> Iterator[str]:
     if len(channels) < 2:
         return
     gains = [f"{row.channel} {_gain(row, row.strongest_gain)}" for row in channels if row.strongest_gain is not None]
-    lost = [row.channel for row in channels if row.strongest_gain is None]
+    lost = [row.channel for row in channels if row.strongest_gain is None and row.moves]
     unknown = [f"not explained by its measured force: {', '.join(lost)}"] if lost else []
-    yield f"gain by channel: {'; '.join((*gains, *unknown))}"
+    still = [f"{row.channel} does not move" for row in channels if not row.moves]
+    yield f"gain by channel: {'; '.join((*gains, *unknown, *still))}"
 
 
 def _gain(row: ChannelResponse, strongest: float) -> str:

@@ -20,8 +20,10 @@ LEAST_HELD = 0.9
 in none."""
 
 
-def _record(rng: np.random.Generator, *, lever: bool = False, swapped: bool = False) -> ExcitedRecord:
-    """Six resonances driven by white forces; the moment tx by fz at a lever; fx and fy read each other's."""
+def _record(
+    rng: np.random.Generator, *, lever: bool = False, swapped: bool = False, stays_at: float | None = None
+) -> ExcitedRecord:
+    """Six resonances driven by white forces; the moment tx by fz at a lever; fx and fy read each other's; fx stays."""
     force = rng.normal(size=(round(RATE_HZ * SECONDS), 6))
     if lever:
         force[:, 3] = LEVER_M * force[:, 2]
@@ -35,6 +37,8 @@ def _record(rng: np.random.Generator, *, lever: bool = False, swapped: bool = Fa
         )
     if swapped:
         reading[:, [0, 1]] = reading[:, [1, 0]]
+    if stays_at is not None:
+        reading[:, 0] = stays_at
     both = (EvenRecord(start_s=0.0, rate_hz=RATE_HZ, signals=signals) for signals in (reading, force))
     return ExcitedRecord(name="simulated", wrench=next(both), force=next(both), highest_hz=np.inf)
 
@@ -78,6 +82,18 @@ def test_a_channel_that_reads_another_force_has_no_gain() -> None:
     assert channels[0].explained_share < 0.1
     assert channels[0].undetermined is not None
     assert "simulated, fx: no transfer function" in channels[0].undetermined
+
+
+@pytest.mark.parametrize("stays_at", [0.0, 0.1])
+def test_a_channel_that_does_not_move_says_so(stays_at: float) -> None:
+    """A broken cable explains nothing, in numbers that JSON can hold; the other five channels are as before."""
+    channels = _channels(_record(np.random.default_rng(4250), stays_at=stays_at))
+    assert [row.moves for row in channels] == [False] + [True] * 5
+    assert [row.strongest_gain is None for row in channels] == [True] + [False] * 5
+    assert (channels[0].explained_share, channels[0].coherence) == (0.0, 0.0)
+    assert channels[0].undetermined is not None
+    assert "simulated, fx: no transfer function: the reading does not move" in channels[0].undetermined
+    assert np.isfinite([channels[0].curve.explained_share, *channels[0].curve.radius_95]).all()
 
 
 def test_forces_that_move_together_are_named() -> None:

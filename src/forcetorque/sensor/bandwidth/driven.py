@@ -97,6 +97,11 @@ class ChannelResponse(Row):
     curve: ResponseCurve = Field(repr=False)
     """Frequency response with coherence and interval."""
 
+    @property
+    def moves(self) -> bool:
+        """Whether the reading of the channel changes at all."""
+        return bool(self.curve.real.any() or self.curve.imaginary.any())
+
 
 def channel_responses(
     records: Sequence[ExcitedRecord], decays: Decays | None, kind: ExcitationKind, mass_kg: float | None
