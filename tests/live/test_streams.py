@@ -267,6 +267,22 @@ def test_packets_that_come_twice_are_no_restart() -> None:
     assert account.counts.restarts == 0
 
 
+@pytest.mark.parametrize("numbers", [256, 1 << 15, 1 << 32])
+def test_a_number_that_was_lost_a_round_ago_is_no_late_one(numbers: int) -> None:
+    """Of 70 000 packets 1 % are lost and 1 % come twice, the second time three packets later."""
+    rng, account = np.random.default_rng(8), PacketAccount(numbers=numbers)
+    fates = rng.choice(3, size=70_000, p=[0.98, 0.01, 0.01])
+    fates[[0, -1]] = 0
+    for k, fate in enumerate(fates):
+        if fate != 1:
+            account.add(Packet(values=RAW, sequence=k % numbers))
+        if k >= 3 and fates[k - 3] == 2:
+            account.add(Packet(values=RAW, sequence=(k - 3) % numbers))
+    assert account.counts.lost == (fates == 1).sum()
+    assert account.counts.repeated == (fates[:-3] == 2).sum()
+    assert (account.counts.late, account.counts.restarts) == (0, 0)
+
+
 @pytest.mark.parametrize("clock", [1.0, 0.999, 1.001])
 def test_jitter_loses_nothing(clock: float) -> None:
     """Half a millisecond at 500 Hz, also of a clock that is off; two that were not sent are counted."""
