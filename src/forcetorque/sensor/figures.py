@@ -238,7 +238,7 @@ def _gain_and_coherence(gain: Axes, coherence: Axes, curve: ResponseCurve) -> No
 
 def _channel(panels: list[Axes], channel: ChannelResponse, *, first: bool) -> None:
     _gain_and_coherence(panels[0], panels[1], channel.curve)
-    panels[0].set_title(channel.channel if channel.strongest_gain is not None else f"{channel.channel}: not explained")
+    panels[0].set_title(channel.channel if channel.lowest_gain is not None else f"{channel.channel}: not explained")
     panels[1].set_xlabel("frequency, Hz")
     if first:
         panels[0].set_ylabel("gain")
