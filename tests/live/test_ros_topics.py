@@ -179,6 +179,20 @@ def test_messages_that_wait_at_an_interrupt_are_counted() -> None:
     assert source.counts.lost == 6
 
 
+@pytest.mark.parametrize("last", [attachment(1, 0, OTHER), attachment(900, 0, OTHER), None])
+def test_messages_that_wait_are_those_of_the_publisher_that_is_heard(last: bytes | None) -> None:
+    """Whatever comes last: of another publisher, or without its number."""
+    session = Loopback()
+    source = RosSource(session, {"leg_ft": "/ft/wrench"}, frames={"leg_ft": "ft_link"}, domain=0, clock=time.monotonic)
+    for number in (1, 2, 4, 3):
+        session.send("/ft/wrench", _wrench(10**9 + number), attachment(number, 0, PUBLISHER))
+    session.send("/ft/wrench", _wrench(10**9), last)
+    packets = source.packets()
+    assert next(packets) is not None
+    packets.close()
+    assert source.counts.lost == 3
+
+
 def _joints(names: list[str], positions: list[float]) -> bytes:
     rosbags = pytest.importorskip("rosbags.typesys")
     types = rosbags.get_typestore(rosbags.Stores.ROS2_JAZZY)

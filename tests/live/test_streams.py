@@ -267,6 +267,22 @@ def test_packets_that_come_twice_are_no_restart() -> None:
     assert account.counts.restarts == 0
 
 
+@pytest.mark.parametrize("numbers", [256, 1 << 15, 1 << 32])
+def test_a_number_that_was_lost_a_round_ago_is_no_late_one(numbers: int) -> None:
+    """Of 70 000 packets 1 % are lost and 1 % come twice, the second time three packets later."""
+    rng, account = np.random.default_rng(8), PacketAccount(numbers=numbers)
+    fates = rng.choice(3, size=70_000, p=[0.98, 0.01, 0.01])
+    fates[[0, -1]] = 0
+    for k, fate in enumerate(fates):
+        if fate != 1:
+            account.add(Packet(values=RAW, sequence=k % numbers))
+        if k >= 3 and fates[k - 3] == 2:
+            account.add(Packet(values=RAW, sequence=(k - 3) % numbers))
+    assert account.counts.lost == (fates == 1).sum()
+    assert account.counts.repeated == (fates[:-3] == 2).sum()
+    assert (account.counts.late, account.counts.restarts) == (0, 0)
+
+
 @pytest.mark.parametrize("clock", [1.0, 0.999, 1.001])
 def test_jitter_loses_nothing(clock: float) -> None:
     """Half a millisecond at 500 Hz, also of a clock that is off; two that were not sent are counted."""
@@ -503,6 +519,12 @@ def test_datagrams_go_to_this_machine_only() -> None:
         ({"form": Input.YARP}, "--channels: not of"),
         ({"form": Input.ROS2_CSV}, "--quantity wrench"),
         ({"sequence": "n:1"}, "--sequence: expected COLUMN"),
+        ({"sequence": ":5"}, "--sequence: expected COLUMN"),
+        ({"sequence": ""}, "--sequence: expected COLUMN"),
+        ({"channels": ("ch1 [mV],c2,c3,c4,c5,c6",)}, "--channels ch1 .mV.: expected counts, got .* unit mV"),
+        ({"channels": ("c1_V,c2,c3,c4,c5,c6",)}, "--channels c1_V: expected counts, got .* unit V"),
+        ({"stamp": "t [min]:s"}, "--stamp t .min.: expected s, got .* unit min"),
+        ({"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "take_tool_off": True, "gravity": "x,y,z [mm/s2]"}, "mm/s2"),
         ({"form": Input.YARP_MEASURES, "channels": (), "stamp": None, "sequence": None}, "expected --index"),
     ],
 )
@@ -524,6 +546,30 @@ def test_units_of_headings_and_gravity_are_those_of_the_options() -> None:
     tool = {"tool_mass_kg": 1.0, "tool_centre_m": "0,0,0", "take_tool_off": True}
     result, rows = _run(heading + "".join(lines), Settings(**TABLE | own | tool))
     assert (result.packets.unreadable, [row.status for row in rows]) == (3, [0, Status.NOT_FINITE])
+
+
+@pytest.mark.parametrize("moment", ["tz [mN m]", "tz (mNm)", "tz [kN m]", "tz [lbf in]", "tz_mNm", "tz [N]", "tz_kNm"])
+def test_units_that_are_not_known_are_other_units(moment: str) -> None:
+    """A bracket or an ending that is no spelling of N m is never taken for it."""
+    own = {"quantity": HeldQuantity.WRENCH, "frame": ("child",), "channels": (f"fx,fy,fz,tx,ty,{moment}",)}
+    with pytest.raises(RecordingError, match=r"--channels tz.*: expected N m, got a heading with the unit"):
+        _run("", Settings(**TABLE | own))
+
+
+@pytest.mark.parametrize("columns", ["fx [N],fy_N,f[2],tx [N·m],ty (Nm),wrench_z"])
+def test_units_as_expected_and_places_in_arrays_are_taken(columns: str) -> None:
+    """However they are written."""
+    own = {"quantity": HeldQuantity.WRENCH, "frame": ("child",), "channels": (columns,)}
+    result, _ = _run(f"n,t,{columns}\n" + _line(0, 0.0, [1.0] * 6), Settings(**TABLE | own))
+    assert (result.packets.received, result.packets.unreadable) == (1, 0)
+
+
+@pytest.mark.parametrize(("sequence", "unreadable"), [("n:4294967296", 1), ("n", 1), ("n:4294967297", 0)])
+def test_a_number_beyond_the_count_is_unreadable(sequence: str, unreadable: int) -> None:
+    """The default may be stated."""
+    lines = f"n,t,{CHANNELS}\n" + _line((1 << 32) - 1, 0.0, [1.0] * 6) + _line(1 << 32, 0.1, [1.0] * 6)
+    result, _ = _run(lines, Settings(**TABLE | {"sequence": sequence}))
+    assert (result.packets.unreadable, result.packets.received) == (unreadable, 2 - unreadable)
 
 
 def test_a_heading_must_have_the_columns() -> None:

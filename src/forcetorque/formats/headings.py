@@ -18,6 +18,7 @@ _SPELLINGS = {
     "n.m": "N m",
     "n-m": "N m",
     "n*m": "N m",
+    "n·m": "N m",
     "nmm": "N mm",
     "n mm": "N mm",
     "n-mm": "N mm",
@@ -33,6 +34,7 @@ _SPELLINGS = {
     "rad/s^2": "rad/s2",
     "m/s2": "m/s2",
     "m/s^2": "m/s2",
+    "m/s²": "m/s2",
     "mps2": "m/s2",
     "m/s": "m/s",
     "m": "m",
@@ -72,6 +74,8 @@ class Heading:
     """Without its unit."""
     unit: str | None
     """Unit that it states, as experiment files spell it; None for none."""
+    bracketed: str | None = None
+    """What stands in brackets at its end, a unit that is known or not; None without."""
 
 
 def read_heading(text: str) -> Heading:
@@ -87,7 +91,7 @@ def read_heading(text: str) -> Heading:
     short, inside = without_bracket(text)
     if inside is not None:
         unit = _SPELLINGS.get(inside.lower())
-        return Heading(text, short if unit else plain, unit)
+        return Heading(text, short if unit else plain, unit, inside)
     name, _, last = plain.rpartition("_")
     small = last.lower()
     # `_N` is newton and `_n` may be a number

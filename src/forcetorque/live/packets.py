@@ -197,6 +197,7 @@ class PacketAccount:
             return Status.REPEATED
         if step <= min(_FARTHEST, self._numbers // 2):
             self._skip(highest, step - 1)
+            self._missing.pop(number, None)  # missing a round ago
             self._highest = number
             self._old_numbers.count = 0
             return Status(0)
@@ -235,8 +236,11 @@ class PacketAccount:
 
     def _skip(self, highest: int, count: int) -> None:
         self.counts.lost += count
+        if count >= _REMEMBERED:
+            self._missing.clear()
         for number in range(highest + max(1, count - _REMEMBERED + 1), highest + count + 1):
             self._missing[number % self._numbers] = None
+            self._missing.move_to_end(number % self._numbers)
         while len(self._missing) > _REMEMBERED:
             self._missing.popitem(last=False)
 

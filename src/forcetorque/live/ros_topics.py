@@ -185,7 +185,8 @@ class RosSource:
         self._heard: list[bytes | None] = [None] * len(topics)
         self._last_s = [0.0] * len(topics)
         self._given = [0] * len(topics)  # number of the last wrench of each topic
-        self._arrived: list[bytes | None] = [None] * len(topics)  # attachment of the last one, taken or not
+        # highest number that arrived, taken or not, by publisher, of each topic
+        self._arrived: list[dict[bytes, int]] = [{} for _ in topics]
         self._queue: queue.Queue[tuple[int | None, bytes, bytes | None]] = queue.Queue(_WAITING)
         for group, topic in enumerate(topics.values()):
             session.subscribe(topic_key(domain, topic, WRENCH_TYPE), self._taker(group))
@@ -195,7 +196,9 @@ class RosSource:
     def _taker(self, group: int | None) -> Callable[[bytes, bytes | None], None]:
         def take(data: bytes, attached: bytes | None) -> None:
             if group is not None:
-                self._arrived[group] = attached
+                with suppress(FormatError):  # counted as unreadable when it is taken
+                    number, identifier = read_attachment(attached)
+                    self._arrived[group][identifier] = max(number, self._arrived[group].get(identifier, 0))
             with suppress(queue.Full):  # the gap of the numbers counts it
                 self._queue.put_nowait((group, data, attached))
 
@@ -214,10 +217,9 @@ class RosSource:
                 self._count_waiting()
 
     def _count_waiting(self) -> None:
-        for given, heard, attached in zip(self._given, self._heard, self._arrived, strict=True):
-            with suppress(FormatError):
-                number, identifier = read_attachment(attached)
-                self.counts.lost += max(0, number - given) if identifier == heard else 0
+        for given, heard, arrived in zip(self._given, self._heard, self._arrived, strict=True):
+            if heard is not None:
+                self.counts.lost += max(0, arrived[heard] - given)
 
     def _taken(self) -> Iterator[Packet | None]:
         while self._left is None or self._left > 0:

@@ -27,6 +27,10 @@ OF_LINES = ("channels", "variables", "status", "index", "stamp", "sequence", "gr
 """What is stated of lines alone."""
 _ALONG_BASE = ("actual_TCP_force", "O_F_ext_hat_K")
 """Fields of Universal Robots and Franka whose wrench is along the axes of the base, whatever the arm does."""
+_OTHER_SPELLINGS = {"degC": {"C"}, "counts": {"LSB", "raw"}, "1": {"-"}}
+"""How a unit that is expected may be written in brackets too, where it cannot be mistaken."""
+_UNIT_ENDINGS = {"kn", "gf", "kgf", "lbf", "mnm", "knm", "ncm", "lbfin", "lbfft", "mv", "degf", "kelvin", "min"}
+"""What is a unit behind a low line beside those that `read_heading` knows; also K and V, in capitals."""
 
 
 def one_corrector(calibrations: Sequence[Calibration], what: str, options: CorrectorOptions) -> Corrector:
@@ -178,17 +182,28 @@ def _require_stamps(settings: Settings, there: bool, option: str) -> None:
 
 
 def _require_unit(option: str, column: str, expected: str) -> None:
-    """Refuse a column whose heading states another unit; one that states none is what the option says."""
-    unit = read_heading(column).unit
-    if unit not in (None, expected):
-        raise RecordingError(f"{option} {column}: expected {expected}, got a heading with the unit {unit}")
+    """Refuse a column whose heading states another unit, known or not; one that states none is what the option says."""
+    heading = read_heading(column)
+    unit = heading.unit or heading.bracketed
+    if unit is None:
+        ending = column.strip().rpartition("_")[2]
+        unit = ending if ending.lower() in _UNIT_ENDINGS or ending in ("K", "V") else None
+    elif unit.isdigit():  # the place in an array
+        unit = None
+    if unit and unit != expected and unit not in _OTHER_SPELLINGS.get(expected, ()):
+        raise RecordingError(
+            f"{option} {column}: expected {expected}, got a heading with the unit {unit}; convert the column, or "
+            "correct its heading"
+        )
 
 
 def _sequence(text: str | None) -> tuple[str | None, int]:
-    column, colon, count = (text or "").rpartition(":")
+    if text is None:
+        return None, NUMBERS
+    column, colon, count = text.rpartition(":")
     if not colon:
-        return text, NUMBERS
-    if not _is_index(count) or int(count) < 2:
+        column, count = text, str(NUMBERS)
+    if not column or not _is_index(count, digits=19) or int(count) < 2:
         raise RecordingError(f"--sequence: expected COLUMN or COLUMN:COUNT, how many numbers there are, got {text!r}")
     return column, int(count)
 
@@ -253,8 +268,8 @@ def _sensor_columns(settings: Settings, calibrations: Sequence[Calibration]) -> 
     return sensors
 
 
-def _is_index(text: str) -> bool:
-    return text.isascii() and text.isdigit() and len(text) < 10
+def _is_index(text: str, digits: int = 9) -> bool:
+    return text.isascii() and text.isdigit() and len(text) <= digits
 
 
 def _variables(entries: Sequence[str], calibrations: Sequence[Calibration]) -> Mapping[str, tuple[str, ...]]:

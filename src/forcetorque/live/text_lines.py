@@ -160,7 +160,7 @@ class CsvLines:
             stamp_ns=None
             if self.stamp is None
             else stamp_of(cells[self._places[self.stamp[0]]].strip(), self.stamp[1]),
-            sequence=None if self.sequence is None else self._integer(cells, self.sequence),
+            sequence=None if self.sequence is None else self._sequence_number(cells, self.sequence),
             gravity=self._free_fall(cells) if self.gravity else None,
             faults=[
                 0 if one.status is None else int(status_of_device(self._integer(cells, one.status)))
@@ -190,6 +190,15 @@ class CsvLines:
     def _value(self, cells: list[str], name: str) -> float:
         text = cells[self._places[name]].strip()
         return _number(text) if text else math.nan
+
+    def _sequence_number(self, cells: list[str], name: str) -> int:
+        number = self._integer(cells, name)
+        if not 0 <= number < self.numbers:
+            raise FormatError(
+                f"column {name!r}: expected a number from 0 to {self.numbers - 1}, got {quoted(str(number))}; "
+                f"state how many numbers there are by --sequence {name}:COUNT"
+            )
+        return number
 
     def _integer(self, cells: list[str], name: str) -> int:
         text = cells[self._places[name]].strip()

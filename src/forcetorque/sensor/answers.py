@@ -110,29 +110,31 @@ def response_answer(response: Response) -> Answer:
     filtered = (
         (f"filter that undoes it: cut-off {amount(response.inverse.cut_off_hz, 'Hz')}",) if response.inverse else ()
     )
+    doubtful = response.refused or any(row.reversed or not row.moves for row in response.channels)
     first = (f"{len(response.events)} events, sampled at {response.rate_hz:.5g} Hz",) if response.events else ()
     return Answer(
         subject=f"{response.sensor} ({response.serial}), {response.excitation}, {response.signal}",
         verdict=shown[0] if shown else "NOT DETERMINED",
         why=("; ".join((*shown[1:], *first, *filtered)), *_channels(response.channels), *response.refused[:1]),
         written=(response.figure_file,),
-        concern=Concern.BAD if not shown else Concern.UNCERTAIN if response.refused else Concern.NONE,
+        concern=Concern.BAD if not shown else Concern.UNCERTAIN if doubtful else Concern.NONE,
     )
 
 
 def _channels(channels: Sequence[ChannelResponse]) -> Iterator[str]:
     if len(channels) < 2:
         return
-    gains = [f"{row.channel} {_gain(row, row.strongest_gain)}" for row in channels if row.strongest_gain is not None]
-    lost = [row.channel for row in channels if row.strongest_gain is None]
+    gains = [f"{row.channel} {_gain(row, row.lowest_gain)}" for row in channels if row.lowest_gain is not None]
+    lost = [row.channel for row in channels if row.lowest_gain is None and row.moves]
     unknown = [f"not explained by its measured force: {', '.join(lost)}"] if lost else []
-    yield f"gain by channel: {'; '.join((*gains, *unknown))}"
+    still = [f"{row.channel} does not move" for row in channels if not row.moves]
+    yield f"gain by channel: {'; '.join((*gains, *unknown, *still))}"
 
 
-def _gain(row: ChannelResponse, strongest: float) -> str:
+def _gain(row: ChannelResponse, lowest: float) -> str:
     if row.gain is not None:
         return plus_minus(row.gain, row.gain_half_width_95, "")
-    return f"{plus_minus(strongest, row.strongest_half_width_95, '')} at {row.strongest_hz:.3g} Hz"
+    return f"{plus_minus(lowest, row.lowest_half_width_95, '')} at {row.lowest_hz:.3g} Hz"
 
 
 def _number(row: ResponseNumber) -> str:

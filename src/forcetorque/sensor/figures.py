@@ -225,7 +225,7 @@ def _gain_and_coherence(gain: Axes, coherence: Axes, curve: ResponseCurve) -> No
     driven = np.asarray(curve.driven) > 0.0
     frequency = curve.frequency_hz[driven]
     size, radius = np.hypot(curve.real, curve.imaginary)[driven], curve.radius_95[driven]
-    floor = 1e-3 * float(size.max())
+    floor = 1e-3 * (float(size.max()) or 1.0)
     gain.fill_between(frequency, np.maximum(size - radius, floor), np.maximum(size + radius, floor), **_BAND)
     gain.loglog(frequency, np.maximum(size, floor), **_CURVE)
     if curve.fitted_real is not None and curve.fitted_imaginary is not None:
@@ -238,7 +238,7 @@ def _gain_and_coherence(gain: Axes, coherence: Axes, curve: ResponseCurve) -> No
 
 def _channel(panels: list[Axes], channel: ChannelResponse, *, first: bool) -> None:
     _gain_and_coherence(panels[0], panels[1], channel.curve)
-    panels[0].set_title(channel.channel if channel.strongest_gain is not None else f"{channel.channel}: not explained")
+    panels[0].set_title(channel.channel if channel.lowest_gain is not None else f"{channel.channel}: not explained")
     panels[1].set_xlabel("frequency, Hz")
     if first:
         panels[0].set_ylabel("gain")

@@ -247,6 +247,12 @@ def _signal(kind: ExcitationKind, decays: Decays | None) -> str:
 def _warnings(
     result: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
 ) -> Iterator[str]:
+    if against := [f"{row.channel} at {row.lowest_hz:.3g} Hz" for row in result.channels if row.reversed]:
+        yield (
+            f"{result.sensor}: the reading goes against its measured force ({', '.join(against)}): the channel is "
+            "reversed, the sign or frame of one of both streams is wrong, or the force drives it beyond its resonance "
+            "alone"
+        )
     yield from (row.undetermined for row in result.events if row.undetermined is not None)
     together = [f"{row.channel} with {row.moves_with}" for row in result.channels if row.moves_with is not None]
     if together:

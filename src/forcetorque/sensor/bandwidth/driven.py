@@ -72,11 +72,12 @@ class ChannelResponse(Row):
     """Share of the power of the reading that the force explains."""
     coherence: Annotated[float, Shown("coherence", digits=3)]
     """Median of the driven frequencies up to the one at which the reading moves most."""
-    strongest_hz: Annotated[float, Shown("at", "Hz", digits=2)]
-    """Frequency at which the force has most power; Hz."""
-    strongest_gain: Annotated[float | None, Shown("gain there", digits=4, error="strongest_half_width_95")]
-    """Size of the response there; null where the force does not explain the reading."""
-    strongest_half_width_95: float | None
+    lowest_hz: Annotated[float | None, Shown("at", "Hz", digits=2)]
+    """Lowest driven frequency whose coherence is `LEAST_EXPLAINED` or more; Hz; null where the force does not explain
+    the reading."""
+    lowest_gain: Annotated[float | None, Shown("gain there", digits=4, error="lowest_half_width_95")]
+    """Real part of the response there: negative of a reversed channel, and of a sound one beyond its resonance."""
+    lowest_half_width_95: float | None
     """Radius of the circle that holds the response there with 95 %."""
     natural_frequency_hz: Annotated[
         float | None, Shown("natural frequency", "Hz", digits=3, error="natural_frequency_half_width_95_hz")
@@ -96,6 +97,19 @@ class ChannelResponse(Row):
     """Why there is no gain, or no fit."""
     curve: ResponseCurve = Field(repr=False)
     """Frequency response with coherence and interval."""
+
+    @property
+    def reversed(self) -> bool:
+        """Whether the channel surely reads against its measured force, at rest or else at the lowest frequency."""
+        at_rest = self.gain is not None
+        gain = self.gain if at_rest else self.lowest_gain
+        half = self.gain_half_width_95 if at_rest else self.lowest_half_width_95
+        return gain is not None and gain < -(half or 0.0)
+
+    @property
+    def moves(self) -> bool:
+        """Whether the reading of the channel changes at all."""
+        return bool(self.curve.real.any() or self.curve.imaginary.any())
 
 
 def channel_responses(
@@ -123,7 +137,7 @@ def channel_responses(
     for k in moved:
         force, reading = pairs[k]
         transfer = _transfer(records, force, reading, events=events)
-        strongest = int(transfer.force_power.argmax())
+        lowest = int((transfer.driven & (transfer.coherence >= LEAST_EXPLAINED)).argmax())
         name = f"{_name(records)}, {WRENCH_COMPONENTS[k]}"
         coherent, fit, undetermined = False, None, None
         try:
@@ -144,9 +158,9 @@ def channel_responses(
             channel=WRENCH_COMPONENTS[k],
             explained_share=max(transfer.explained, 0.0),
             coherence=float(np.median(transfer.lively_coherence)),
-            strongest_hz=float(transfer.frequency_hz[strongest]),
-            strongest_gain=float(np.abs(transfer.value[strongest])) if coherent else None,
-            strongest_half_width_95=float(transfer.radius[strongest]) if coherent else None,
+            lowest_hz=float(transfer.frequency_hz[lowest]) if coherent else None,
+            lowest_gain=float(transfer.real[lowest]) if coherent else None,
+            lowest_half_width_95=float(transfer.radius[lowest]) if coherent else None,
             natural_frequency_hz=resonance,
             natural_frequency_half_width_95_hz=None if half is None or resonance is None else float(half[0]),
             gain=None if fit is None else fit.gain,

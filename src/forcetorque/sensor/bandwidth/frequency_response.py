@@ -76,8 +76,11 @@ class FrequencyResponse(ArrayRecord):
 
     @property
     def explained(self) -> float:
-        """Share of the power of the reading that the force explains, chance taken off."""
-        shared = (self.coherence * self.reading_power)[self.driven].sum() / self.reading_power[self.driven].sum()
+        """Share of the power of the reading that the force explains, chance taken off; 0 of a reading that stays."""
+        power = self.reading_power[self.driven]
+        if not power.any():
+            return 0.0
+        shared = (self.coherence[self.driven] * power).sum() / power.sum()
         return float((shared - 1.0 / self.averages) / (1.0 - 1.0 / self.averages))
 
     @property
@@ -167,6 +170,7 @@ def frequency_response(
         raise FitError(f"expected at least {LEAST_AVERAGES - 1} segments for a coherence, got {count}")
     if not np.ptp(force) > 0.0:
         raise FitError("expected a force that changes, got one that stays: nothing drives the sensor")
+    reading = reading - reading[:, :1]  # one that stays has no power, not that of rounding
     averages = float(count) if events else count / (1.0 + 2.0 * (count - 1) / count * _HANN_OVERLAP)
     options = {
         "fs": rate_hz,
@@ -210,9 +214,11 @@ def require_coherence(response: FrequencyResponse, *, name: str) -> None:
         name: What was recorded, for messages.
 
     Raises:
-        FitError: If the force explains less than `LEAST_EXPLAINED` of the power of the reading, or the coherence of the
-            middle frequency up to the liveliest is not surely as much.
+        FitError: If the reading does not move, the force explains less than `LEAST_EXPLAINED` of its power, or the
+            coherence of the middle frequency up to the liveliest is not surely as much.
     """
+    if not response.reading_power.any():
+        raise FitError(f"{name}: no transfer function: the reading does not move; check the channel and its cable")
     top, coherence = response.liveliest_hz, response.lively_coherence
     sure = _sure(float(np.median(coherence)), response.averages)
     if response.explained >= LEAST_EXPLAINED and sure >= LEAST_EXPLAINED:
