@@ -18,6 +18,8 @@ from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Final, TextIO, TypeVar
 
+import typer
+
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
 
@@ -104,6 +106,21 @@ def report_error(error: Exception) -> None:
     """
     print_messages()
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+
+
+def end_with(refusals: Sequence[ForceTorqueError]) -> None:
+    """Say what was refused, and leave with exit code 2 if anything was.
+
+    Args:
+        refusals: The errors.
+
+    Raises:
+        typer.Exit: If there is one.
+    """
+    for refusal in refusals:
+        report_error(refusal)
+    if refusals:
+        raise typer.Exit(2)
 
 
 def show(result: Result, output_format: Format, *, details: bool = False, experiments: Sequence[Path] = ()) -> None:
