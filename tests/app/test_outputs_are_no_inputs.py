@@ -102,6 +102,7 @@ ENDINGS = {
     "live": ".parquet",
     "report": ".html",
     "skin calibrate": ".json",
+    "skin wrench": ".csv",
     "calibrate": ".json",
 }
 """Of `--output`, where the command takes only that."""

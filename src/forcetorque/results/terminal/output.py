@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import codecs
-import csv
 import logging
 import os
 import shlex
@@ -139,10 +138,7 @@ def show(result: Result, output_format: Format, *, details: bool = False, experi
     if output_format is Format.JSON:
         sys.stdout.write(result.json_text() + "\n")
         return
-    columns = result.columns()
-    writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(result.records())
+    sys.stdout.write(result.csv_text())
 
 
 def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) -> None:
