@@ -19,12 +19,18 @@ IMAGES = ROOT / "docs" / "images"
 COLOURS = 40
 """Colours of a picture; more take more bytes."""
 DEMO = ["-m", "forcetorque", "demo", "-o", "."]
-SKIN = [str(ROOT / "examples" / "30_skin.py"), "."]
+BENCH, SKIN = ([str(ROOT / "examples" / f"{name}.py"), "."] for name in ("29_bench", "30_skin"))
 PICTURES = {
     "learnt": (DEMO, "calibrate experiment.toml -o again.json --figure {}"),
     "joint_torques": (DEMO, "estimate experiment.toml -c calibration.json -o samples.parquet --figure {}"),
     "sphere": (DEMO, "study sphere experiment.toml -c calibration.json --figure {}"),
     "gains": (DEMO, "bench gains experiment.toml --figure {}"),
+    "use": (DEMO, "evaluate experiment.toml -c calibration.json --figure {}"),
+    "plan": (DEMO, "plan experiment.toml --clearance-deg 5 --figure {}"),
+    "workbench": (BENCH, "bench workbench weights.toml --figure {}"),
+    "temperature": (BENCH, "bench thermal warm.toml --figure {}"),
+    "skin_layout": (SKIN, "skin check shank.csv --figure {}"),
+    "taxels": (SKIN, "skin calibrate fit.toml -o taxels.json --figure {}"),
     "skin_contacts": (SKIN, "skin wrench touched.toml --table shank.json --figure {}"),
 }
 """By name what makes the data, and the command that draws it."""
@@ -40,7 +46,7 @@ def draw(folder: Path) -> None:
     """
     with tempfile.TemporaryDirectory() as name:
         for picture, (data, command) in PICTURES.items():
-            place = Path(name) / ("demo" if data is DEMO else "skin")
+            place = Path(name) / Path(data[0] if data is not DEMO else "demo").stem
             if not place.exists():
                 place.mkdir()
                 _run(data, place)

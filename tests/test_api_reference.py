@@ -14,7 +14,7 @@ import pytest
 
 from docs.site.definitions import definition
 from docs.site.layout import lay_out
-from docs.site.reference import documented_modules, doors, pages
+from docs.site.reference import CLASSES, documented_modules, doors, pages
 
 ROOT = Path(__file__).resolve().parents[1]
 LIBRARY = ROOT / "src"
@@ -28,15 +28,28 @@ def _pages() -> dict[str, str]:
 
 def _packages_with_a_door() -> set[str]:
     """As the files have it, without importing them."""
-    found = [path for path in LIBRARY.rglob("__init__.py") if "__all__ = " in path.read_text(encoding="utf-8")]
+    found = [path for path in LIBRARY.rglob("__init__.py") if "__all__" in path.read_text(encoding="utf-8")]
     return {".".join(path.parent.relative_to(LIBRARY).parts) for path in found}
 
 
 def test_every_package_that_offers_names_has_a_page() -> None:
     """Beside them, the errors, and modules that the pages for users import from."""
     assert _packages_with_a_door() > {"forcetorque", "forcetorque.evaluation"}
-    assert _pages().keys() == _packages_with_a_door() | {"forcetorque.base.errors", *documented_modules()}
+    of_doors = {name for name in _pages() if not name.startswith(f"{CLASSES}/")}
+    assert of_doors == doors().keys()
+    assert of_doors == _packages_with_a_door() | {"forcetorque.base.errors", *documented_modules()}
     assert len(documented_modules()) > 40
+
+
+def test_every_class_has_a_page_that_its_door_lists() -> None:
+    """So that no page is as long as the classes of a package together."""
+    of_classes = {name for name in _pages() if name.startswith(f"{CLASSES}/")}
+    assert len(of_classes) > 200
+    for name in of_classes:
+        assert _pages()[name].count(".. autoclass:: ") == 1
+    listed = [re.findall(rf"^   ({CLASSES}/\S+)$", _pages()[door], re.MULTILINE) for door in doors()]
+    assert sorted(name for names in listed for name in names) == sorted(of_classes)
+    assert not any(".. autoclass:: " in _pages()[door] for door in doors())
 
 
 def test_every_name_is_told_once() -> None:

@@ -20,8 +20,8 @@ from forcetorque.calibration.thesis.regression import solve
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, Estimation
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
-from forcetorque.study.candidate import SWEEP_LAMBDAS
 from forcetorque.study.one_sensor import fit_candidates
+from forcetorque.study.selection import SWEEP_LAMBDAS
 
 DATA_SETS, TYPES = 3, len(ESTIMATION_TYPES)
 FITS = DATA_SETS * TYPES * len(SWEEP_LAMBDAS)

@@ -21,6 +21,9 @@ html_title = f"forcetorque {version}"
 html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_js_files = ["copy_buttons.js"]
 
 # as GitHub names the headings that links point to
 myst_heading_anchors = 4

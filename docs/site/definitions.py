@@ -82,16 +82,18 @@ def package_names() -> list[str]:
 
 
 def offered(package: str) -> tuple[str, ...]:
-    """Read `__all__`.
+    """Read the names that a package offers: `__all__`, or the keys of its `lazy_names`.
 
     Args:
         package: Name of a package.
 
     Returns:
-        The names; none if the package has no such list.
+        The names; none if the package offers none.
     """
     for node in _tree(package).body:
         match node:
+            case ast.Assign(value=ast.Call(func=ast.Name(id="lazy_names"), args=[_, modules])):
+                return tuple(ast.literal_eval(modules))
             case ast.Assign(targets=[ast.Name(id="__all__")], value=value):
                 return tuple(ast.literal_eval(value))
     return ()

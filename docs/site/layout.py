@@ -10,7 +10,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from docs.site.reference import pages
+from docs.site.reference import CLASSES, pages
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "LICENSE")
@@ -24,7 +24,7 @@ def lay_out(folder: Path) -> None:
         folder: The folder; made if it is not there.
     """
     reference = folder / "api"
-    reference.mkdir(parents=True, exist_ok=True)
+    (reference / CLASSES).mkdir(parents=True, exist_ok=True)
     # copies and not links, which Sphinx would follow out of its folder; they keep their time
     for name in FILES:
         shutil.copy2(ROOT / name, folder)
@@ -32,8 +32,8 @@ def lay_out(folder: Path) -> None:
         shutil.rmtree(folder / name, ignore_errors=True)
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("site", "__pycache__"))
     shutil.copy2(ROOT / "docs" / "site" / "index.rst", folder)
-    written = {reference / f"{door}.rst": text for door, text in pages()}
-    for stale in set(reference.iterdir()) - written.keys():
+    written = {reference / f"{page}.rst": text for page, text in pages()}
+    for stale in set(reference.rglob("*.rst")) - written.keys():
         stale.unlink()
     for path, text in written.items():
         # a page that stays the same keeps its time too, so that Sphinx need not read it again

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages of the API reference, made anew by every build: one for each package or module that users import from."""
+"""Pages of the API reference, made anew by every build: of each package or module that users import, and each class."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from os.path import commonprefix
 from pathlib import Path
 from textwrap import indent
@@ -14,6 +14,8 @@ from docs.site.definitions import Definition, definition, definitions, offered, 
 ROOT = Path(__file__).resolve().parents[2]
 ERRORS = "forcetorque.base.errors"
 """Module that every user of the library may import, whatever the pages show."""
+CLASSES = "classes"
+"""Folder of the pages of classes."""
 MEMBERS = """\
    :members:
    :undoc-members:
@@ -55,7 +57,7 @@ def pages() -> Iterator[tuple[str, str]]:
     """Write the pages.
 
     Yields:
-        Name of a door, and its page as reStructuredText.
+        Name of a page, and its reStructuredText; a door, or a class in the folder `CLASSES`.
     """
     public = doors()
     homes = _homes(public)
@@ -63,7 +65,11 @@ def pages() -> Iterator[tuple[str, str]]:
         found = [definition(door, name) for name in sorted(names, key=str.casefold)]
         own = [one for one in found if homes[one] == door]
         # classes before functions before constants: what is computed, by what, with which numbers
-        entries = [_entry(door, one) for kind in ("class", "function", "data") for one in own if one.kind == kind]
+        classes = [one for one in own if one.kind == "class"]
+        for one in classes:
+            yield f"{CLASSES}/{door}.{one.name}", f"{one.name}\n{'=' * len(one.name)}\n\n{_entry(door, one)}\n"
+        entries = [_list_of(door, classes)] if classes else []
+        entries += [_entry(door, one) for kind in ("function", "data") for one in own if one.kind == kind]
         guests = [_pointer(homes[one], one) for one in found if homes[one] != door]
         shared = ["Also here\n---------\n\n" + "\n".join(guests)] if guests else []
         head = f"{door}\n{'=' * len(door)}\n\n.. automodule:: {door}"
@@ -78,6 +84,13 @@ def _homes(public: dict[str, tuple[str, ...]]) -> dict[Definition, str]:
             one = definition(door, name)
             homes[one] = max(homes.get(one, door), door, key=lambda near: len(commonprefix([near, one.module])))
     return homes
+
+
+def _list_of(door: str, classes: Sequence[Definition]) -> str:
+    """Classes with their first line, and their pages in the sidebar below that of the door."""
+    pages = "\n".join(f"   {CLASSES}/{door}.{one.name}" for one in classes)
+    listed = "\n".join(_pointer(door, one) for one in classes)
+    return f"Classes\n-------\n\n{listed}\n\n.. toctree::\n   :hidden:\n\n{pages}"
 
 
 def _pointer(home: str, one: Definition) -> str:

@@ -11,26 +11,49 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.app.python.arrays import experiment_of_arrays
-    from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
-    from forcetorque.app.python.tables import experiment_of_tables, stream_of_arrays
-    from forcetorque.app.run.run import run
-    from forcetorque.base.errors import ForceTorqueError
-    from forcetorque.calibration.calibrate import calibrate_sensor
-    from forcetorque.calibration.thesis.calibrate import calibrate
-    from forcetorque.contests.command import contest
-    from forcetorque.evaluation.commands import evaluate
-    from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
-    from forcetorque.experiment.calibration.moments import DataSet
-    from forcetorque.experiment.calibrations_under_test import wrench_errors
-    from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.planning.joint_calibration_plan import plan_jointly
-    from forcetorque.recording.recording import Recording
-    from forcetorque.recording.storage import read_recording, write_recording
-    from forcetorque.robot.dynamics import expected_wrenches
-    from forcetorque.robot.model import RobotModel
-    from forcetorque.robot.urdf import read_urdf
-    from forcetorque.skin.commands import calibrate_skin, skin_wrench
+    from forcetorque.app.python.arrays import experiment_of_arrays as experiment_of_arrays
+    from forcetorque.app.python.experiment import (
+        Experiment as Experiment,
+    )
+    from forcetorque.app.python.experiment import (
+        calibrate_jointly as calibrate_jointly,
+    )
+    from forcetorque.app.python.experiment import (
+        load_experiment as load_experiment,
+    )
+    from forcetorque.app.python.tables import (
+        experiment_of_tables as experiment_of_tables,
+    )
+    from forcetorque.app.python.tables import (
+        stream_of_arrays as stream_of_arrays,
+    )
+    from forcetorque.app.run.run import run as run
+    from forcetorque.base.errors import ForceTorqueError as ForceTorqueError
+    from forcetorque.calibration.calibrate import calibrate_sensor as calibrate_sensor
+    from forcetorque.calibration.thesis.calibrate import calibrate as calibrate
+    from forcetorque.contests.command import contest as contest
+    from forcetorque.evaluation.commands import evaluate as evaluate
+    from forcetorque.experiment.calibration.artefact import (
+        Calibration as Calibration,
+    )
+    from forcetorque.experiment.calibration.artefact import (
+        read_calibration as read_calibration,
+    )
+    from forcetorque.experiment.calibration.artefact import (
+        write_calibration as write_calibration,
+    )
+    from forcetorque.experiment.calibration.moments import DataSet as DataSet
+    from forcetorque.experiment.calibrations_under_test import wrench_errors as wrench_errors
+    from forcetorque.experiment.sensor_run import SensorRun as SensorRun
+    from forcetorque.planning.joint_calibration_plan import plan_jointly as plan_jointly
+    from forcetorque.recording.recording import Recording as Recording
+    from forcetorque.recording.storage import read_recording as read_recording
+    from forcetorque.recording.storage import write_recording as write_recording
+    from forcetorque.robot.dynamics import expected_wrenches as expected_wrenches
+    from forcetorque.robot.model import RobotModel as RobotModel
+    from forcetorque.robot.urdf import read_urdf as read_urdf
+    from forcetorque.skin.commands import calibrate_skin as calibrate_skin
+    from forcetorque.skin.commands import skin_wrench as skin_wrench
 
 
 CAPABILITIES = (
@@ -56,37 +79,7 @@ CAPABILITIES = (
 )
 """Folders of capabilities, whose `CAPABILITY` says which commands and sections of the experiment file they have."""
 
-__all__ = [
-    "Calibration",
-    "DataSet",
-    "Experiment",
-    "ForceTorqueError",
-    "Recording",
-    "RobotModel",
-    "SensorRun",
-    "calibrate",
-    "calibrate_jointly",
-    "calibrate_sensor",
-    "calibrate_skin",
-    "contest",
-    "evaluate",
-    "expected_wrenches",
-    "experiment_of_arrays",
-    "experiment_of_tables",
-    "load_experiment",
-    "plan_jointly",
-    "read_calibration",
-    "read_recording",
-    "read_urdf",
-    "run",
-    "skin_wrench",
-    "stream_of_arrays",
-    "wrench_errors",
-    "write_calibration",
-    "write_recording",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Calibration": "forcetorque.experiment.calibration.artefact",

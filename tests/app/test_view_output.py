@@ -171,15 +171,16 @@ def test_a_dataset_has_no_samples_to_show(run: Run, arm: Path) -> None:
 
 @pytest.mark.long
 def test_several_experiments_have_a_file_each(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Named as the samples of `estimate` are, with one verdict; every log is read once after outputs are looked at."""
+    """Named as those of samples, with one verdict; every log is read once, also where the files are there already."""
     logs: list[Path] = []
     read = loading.read_streams
     monkeypatch.setattr(loading, "read_streams", lambda *given: logs.append(given[1]) or read(*given))
     (arm / "again.toml").write_bytes((arm / PARQUET).read_bytes())
     words = ("estimate", PARQUET, "again.toml", "-c", "fitted.json", "-o", "samples.parquet", "--view", "view.mcap")
-    assert run(*words).code == 0
+    for more in ((), ("--force",)):
+        assert run(*words, *more).code == 0
     names = {file.name for file in arm.glob("view.*.mcap")}
     assert names == {"view.parquet.mcap", "view.again.mcap"}
-    assert len(logs) == 2
+    assert len(logs) == 2 * 2
     assert sum(text.startswith("estimate: ") for text in _events(arm / "view.again.mcap")) == 1
     assert "--view" not in run("inspect", "--help").out

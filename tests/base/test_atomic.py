@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import socket
 import stat
@@ -13,7 +14,13 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
-from forcetorque.base.output_file import STANDARD_OUTPUT, real_path, refuse_unwritable, write_bytes_atomically
+from forcetorque.base.output_file import (
+    STANDARD_OUTPUT,
+    existing_files_replaced_last,
+    real_path,
+    refuse_unwritable,
+    write_bytes_atomically,
+)
 
 DATA = b"new\x00content\n"
 
@@ -41,6 +48,24 @@ def test_a_file_is_replaced_and_a_link_keeps_pointing_to_it(tmp_path: Path) -> N
     assert link.is_symlink()
     assert file.read_bytes() == DATA
     assert sorted(tmp_path.iterdir()) == [file, link]
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_existing_files_are_replaced_last(tmp_path: Path, fails: bool) -> None:
+    """They hold what they held until the end of the body, and beyond it if the body fails; new files do not wait."""
+    file, new = tmp_path / "file", tmp_path / "new"
+    file.write_bytes(b"old")
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(pytest.raises(ForceTorqueError, match="read last") if fails else contextlib.nullcontext())
+        with existing_files_replaced_last():
+            with existing_files_replaced_last():  # one in another is one
+                write_bytes_atomically(file, DATA)
+                write_bytes_atomically(new, DATA)
+            assert (file.read_bytes(), new.read_bytes()) == (b"old", DATA)
+            if fails:
+                raise ForceTorqueError("read last")
+    assert file.read_bytes() == (b"old" if fails else DATA)
+    assert sorted(tmp_path.iterdir()) == [file, new]
 
 
 def test_a_link_to_no_file_yet_makes_it(tmp_path: Path) -> None:

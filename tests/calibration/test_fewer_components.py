@@ -18,6 +18,7 @@ from forcetorque.evaluation.evaluation import validation_errors
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, UNMEASURED, use_verdicts
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.calibration.sensor_model import measured_components
+from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -144,7 +145,7 @@ def test_load_cell_is_calibrated_and_evaluated(axis: Path, run: Run) -> None:
     _, own = _run(axis)
     calibration = calibrate_sensor(own, code_version="test", created="now")
     (prior, _, mine, _) = validation_errors(own, {"cell.json": calibration}).verdicts
-    part = own.judged({"cell.json": calibration})
+    part = evaluated_wrenches(own, {"cell.json": calibration})
     error = dict(part.measured)["cell.json"][:, 2] - part.load[:, 2]
     assert mine.rmse[2] == pytest.approx(np.sqrt((error**2).mean()))
     assert mine.rmse[2] < prior.rmse[2]

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, data_doubts
-from forcetorque.calibration.reduced_recordings import is_long, recording_moments
+from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Finding, Use
 from tests.app.outcome import Run
@@ -90,7 +91,7 @@ def test_a_long_recording_is_reduced_once(recorded: Path, monkeypatch: pytest.Mo
             ),
         )
 
-    monkeypatch.setattr("forcetorque.calibration.doubts.inspect_experiment", found)
+    monkeypatch.setattr("forcetorque.calibration.interval_and_mount_doubts.inspect_experiment", found)
     with short_segments():
         (run,) = _runs(recorded, CALIBRATION[0])
         (moments,) = recording_moments(run, block_s=60.0)

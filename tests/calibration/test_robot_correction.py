@@ -12,6 +12,7 @@ from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.calibration.model_error import ModelError
 from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -60,7 +61,8 @@ def test_a_correction_takes_most_of_the_error_of_the_model_away(arm: Path, run: 
     tolerance = corrected.fit_options.tolerance
     assert tolerance.found == {name: error.standard_error for name, error in found.items()}
     described = _experiment(arm, f'urdf = "{wrong.name}"\n')
-    true, before, after = (SensorRun(one, "arm_ft").judged({}).reference for one in (exact, described, corrected))
+    runs = (SensorRun(one, "arm_ft") for one in (exact, described, corrected))
+    true, before, after = (evaluated_wrenches(run, {}).reference for run in runs)
     off = [np.std(one - true, axis=0) for one in (before, after)]
     assert (off[1] < 0.3 * off[0]).all()  # of changes of the load: an offset takes up the rest
     fit = calibrate_sensor(SensorRun(corrected, "arm_ft"), code_version="1", created="now")
@@ -82,12 +84,12 @@ def test_the_written_urdf_is_the_corrected_model(arm: Path, run: Run) -> None:
     file = _experiment(arm, 'urdf = "arm.urdf"\n').file
     new = arm / "new.urdf"
     run("calibrate", str(file), "-o", str(arm / "found.json"), "--write-urdf", str(new))
-    written = SensorRun(_experiment(arm, 'urdf = "new.urdf"\n', "new.toml"), "arm_ft").judged({}).reference
+    written = evaluated_wrenches(SensorRun(_experiment(arm, 'urdf = "new.urdf"\n', "new.toml"), "arm_ft"), {}).reference
     by_name = _experiment(arm, 'urdf = "arm.urdf"\ntolerance = { from = "found.json" }\n', "from.toml")
     named = SensorRun(by_name, "arm_ft")
-    np.testing.assert_allclose(named.judged({}).reference, written, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(evaluated_wrenches(named, {}).reference, written, rtol=0.0, atol=1e-9)
     # negative control: it is not the model of the file
-    plain = SensorRun(load_experiment(file), "arm_ft").judged({}).reference
+    plain = evaluated_wrenches(SensorRun(load_experiment(file), "arm_ft"), {}).reference
     assert np.abs(plain - written).max() > 1e-3
 
 

@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.validation.joint_torque_errors import torque_error_samples
-from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, JointTorques, joint_torques
+from forcetorque.evaluation.validation.validation import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import Experiment

@@ -14,6 +14,7 @@ from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -201,7 +202,7 @@ def test_intervals_are_judged_in_the_order_of_time(arm: Path, fitted: Calibratio
     turned = replace(ordered, recording=ordered.recording.with_intervals(intervals[::-1]))
     assert [interval.label for interval in turned.intervals(Use.VALIDATION)] == ["rest", "judge"]
     for given in ({"new": fitted}, {}):
-        one, other = (SensorRun(each, each.sensors[0]).judged(given) for each in (ordered, turned))
+        one, other = (evaluated_wrenches(SensorRun(each, each.sensors[0]), given) for each in (ordered, turned))
         assert (np.diff(other.time_s) > 0.0).all()
         assert autocorrelation(other.reference[:, 0], other.time_s).count == len(other.time_s)
         np.testing.assert_array_equal(one.time_s, other.time_s)
@@ -215,7 +216,7 @@ def test_every_calibration_names_the_prior_to_compare_it_with(experiment: Experi
     moved = fitted.model_copy(update={"prior": fitted.prior.model_copy(update={"offset": fitted.prior.offset + 1.0})})
     bare = fitted.model_copy(update={"prior": None})
     given = {"a": fitted, "b": _fitted(experiment, 1e6), "c": moved, "prior": bare}
-    judged = SensorRun(experiment, experiment.sensors[0]).judged(given)
+    judged = evaluated_wrenches(SensorRun(experiment, experiment.sensors[0]), given)
     assert judged.priors == {"a": "prior of a", "b": "prior of a", "c": "prior of c"}
     assert [each.name for each in judged.candidates] == [name for name, _ in judged.measured]
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), given).verdicts

@@ -8,7 +8,8 @@ import pytest
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.means import mean_error
-from forcetorque.experiment.calibrations_under_test import errors_from_zero, offset_removed, wrench_errors
+from forcetorque.experiment.calibrations_under_test import errors_from_zero, wrench_errors
+from forcetorque.experiment.evaluated_wrenches import offset_removed
 
 
 def test_by_hand() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
+from forcetorque.evaluation.validation.validation import JointTorqueErrors, joint_torques
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset

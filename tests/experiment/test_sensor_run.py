@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -74,6 +75,7 @@ def test_much_work_in_all_intervals_together_is_compiled(run: SensorRun, monkeyp
     ]
     assert max(counts) < sum(counts)
     monkeypatch.setattr(module, "_FEW", sum(counts))
+    monkeypatch.setattr(module, "_is_compiled", lambda: True)
     monkeypatch.setattr(module, "_run_readable", None)
     (compiled,) = SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
     assert len(compiled.samples) == readable
@@ -118,3 +120,18 @@ def test_an_answer_shows_itself(run: SensorRun) -> None:
     assert f">{rmse}<" in evaluation._repr_html_()
     assert len(repr(evaluation.model_copy(update={"warnings": ()}))) < 200  # these are whole sentences
     assert len(repr(evaluation.verdicts[0])) < 800
+
+
+def test_a_segment_counts_as_its_recording(run: SensorRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A long recording is compiled for however short its segments are."""
+    chosen = []
+    monkeypatch.setattr(
+        sys.modules["forcetorque.experiment.sensor_samples"],
+        "evaluator_of_samples",
+        lambda samples, **_: chosen.append(samples),
+    )
+    start_ns, end_ns = run.experiment.recording.span_ns
+    longer = replace(run.experiment.recording, of_span_ns=(start_ns, start_ns + 10 * (end_ns - start_ns)))
+    for recording in (run.experiment.recording, longer):
+        SensorRun(replace(run.experiment, recording=recording), "arm_ft").samples(Use.VALIDATION)
+    assert chosen[1] == pytest.approx(10 * chosen[0], rel=0.05)

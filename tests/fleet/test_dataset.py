@@ -13,7 +13,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from forcetorque.app.dataset_input import _in_place_of
+from forcetorque.app.wrapped_commands import _in_place_of
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError, OutputError
 from forcetorque.calibration.calibrate import calibrate_sensor

@@ -19,7 +19,7 @@ from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.contact_windows import Disagreeing
-from forcetorque.calibration.segmented_moments import SegmentedMoments
+from forcetorque.calibration.moments import SegmentedMoments
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.moments import DataSet
@@ -27,10 +27,10 @@ from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.long_recording import joined_findings, recorded_segments
+from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.fleet.evaluation_blocks import evaluated_variables
-from forcetorque.fleet.segmented_evaluation import SegmentedEvaluation
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
 from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment
@@ -296,7 +296,7 @@ def test_frozen_samples_are_counted_across_segments(recorded: Path, monkeypatch:
 
 
 def test_validation_intervals_share_their_files(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Two per sensor, of instants and of samples; every interval has its own samples."""
+    """One of instants and one of each kind of column, however many intervals; every interval has its own samples."""
     monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
     files: list[object] = []
     opened = tempfile.TemporaryFile
@@ -315,12 +315,12 @@ def test_validation_intervals_share_their_files(recorded: Path, monkeypatch: pyt
     roles = {part.label: experiment.roles[first.label] for part in parts}
     experiment = replace(experiment, recording=replace(experiment.recording, intervals=parts), roles=roles)
     run = SensorRun(experiment, experiment.sensors[0])
-    evaluation = SegmentedEvaluation(run)
-    evaluation.add(run)
-    evaluated = evaluation.samples()
-    assert evaluated is not None
-    assert len(files) == 2
+    kept = SegmentedSamples(run, Use.VALIDATION, evaluated_variables(run))
+    kept.add(run)
+    evaluated = kept.joined()
+    assert len(files) == 4  # instants, readings, expected wrenches, a variable
     for part, own in zip(parts, evaluated, strict=True):
-        (stamps,), samples = own.stamp_ns, run.interval_samples(part, variables=evaluated_variables(run))
-        np.testing.assert_array_equal(stamps, samples.samples.stamp_ns)
-        np.testing.assert_array_equal(own.columns[0][:, own.channels : own.channels + 6], samples.samples.reference)
+        samples = run.interval_samples(part, variables=evaluated_variables(run))
+        np.testing.assert_array_equal(own.samples.stamp_ns, samples.samples.stamp_ns)
+        np.testing.assert_array_equal(own.raw, samples.raw)
+        np.testing.assert_array_equal(own.samples.reference, samples.samples.reference)

@@ -26,7 +26,7 @@ def test_what_goes_on_across_segments_is_one_finding(recorded: Path, monkeypatch
         still = Finding(stream=SENSOR, kind="still", message="still", count=0)
         return (lost, still) if len(spans) == 1 else (lost,)
 
-    monkeypatch.setattr("forcetorque.inspection.segmented_findings.inspect_experiment", found)
+    monkeypatch.setattr("forcetorque.inspection.inspect.inspect_experiment", found)
     experiment = load_experiment(recorded / CALIBRATION[0])
     with short_segments():
         rows = inspected(experiment).findings
@@ -49,7 +49,7 @@ def test_outliers_of_every_segment_are_named(recorded: Path, monkeypatch: pytest
         text = f"{len(largest)} outlier(s), the largest here"
         return (Finding(stream=SENSOR, kind="outlier", message=text, count=1, start_ns=at, end_ns=at),)
 
-    monkeypatch.setattr("forcetorque.inspection.segmented_findings.inspect_experiment", found)
+    monkeypatch.setattr("forcetorque.inspection.inspect.inspect_experiment", found)
     with short_segments():
         rows = inspected(load_experiment(recorded / CALIBRATION[0])).findings
     named = [row.message for row in rows if row.kind == "outlier"]

@@ -121,7 +121,7 @@ def test_the_sentence_says_what_to_record_first_and_what_it_brings(planned: Plan
     assert planned.advice.startswith(
         f"record first {first.postures} postures in {first.seconds:.0f} s, held at base, bar attached: "
         f"the expected error falls from {first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m to "
-        f"{first.force_after_N:.3g} N (at most {first.force_after_at_most_N:.3g})"
+        f"{first.force_after_N:.3g} N (95 %: {first.force_after_at_most_N:.3g})"
     )
     assert planned.start == "prior"
     words = " ".join(planned.limits)

@@ -21,8 +21,7 @@ from matplotlib.text import Text
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import excitation_figure, space_figure
-from forcetorque.calibration.figures.information import learnt_figure
-from forcetorque.calibration.figures.joint import joint_figure
+from forcetorque.calibration.figures.information import joint_figure, learnt_figure
 from forcetorque.calibration.figures.lambda_curves import held_out_figure, lambda_difference_figure
 from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.summary import InformationGain

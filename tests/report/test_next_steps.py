@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, LoadCaseVerdict, Reason
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.decision import Undecided, grouped_by_text, next_steps, texts_with_names
+from forcetorque.report.pooled_verdicts import Undecided, grouped_by_text, next_steps, texts_with_names
 from tests.report.drawing import use_of
 from tests.scenes.calibrations import make_calibration
 

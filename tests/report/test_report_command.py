@@ -325,7 +325,7 @@ def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Ru
 
     planned = [step for step in steps(USE.format(allowed=1e-3, clearance=12)) if step.startswith("For “push”, ")]
     assert len(planned) == 1
-    pattern = r"record first \d+ postures in \d+ s, .*: the expected error falls from .* N m to .* N \(at most"
+    pattern = r"record first \d+ postures in \d+ s, .*: the expected error falls from .* N m to .* N \(95 %: "
     assert re.search(pattern, planned[0])
     impossible = steps(USE.format(allowed=1e-3, clearance=900))
     assert any("For “push”, no recording could be planned: plan: joint" in step for step in impossible)

@@ -81,7 +81,7 @@ def test_every_command_with_a_figure_gives_a_result_with_one() -> None:
     assert isinstance(program, Group)
     offered = {question_of(words) for words in _drawing_commands(program)}
     assert offered == drawn
-    assert len(drawn) == 25
+    assert len(drawn) == 26
     for name in drawn:
         kind = results[name]
         assert issubclass(kind, DrawnResult)

@@ -16,8 +16,8 @@ from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.motion import RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.imu_and_motor import SimulatedMotor
 from tests.scenes.experiments import PARQUET, RATE_HZ, add, edit
+from tests.scenes.simulated_motor import SimulatedMotor
 
 DRIVEN = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
 """Joints inboard of the arm's sensor."""

@@ -17,10 +17,10 @@ from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.imu_and_motor import SimulatedMotor
 from forcetorque.skin.simulation.recordings import Loading
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.robots import joint_xml, link_xml, robot_xml, sensor_xml
+from tests.scenes.simulated_motor import SimulatedMotor
 from tests.scenes.touched import shank_layout, write_table, write_touched
 
 FILE = "leg.toml"

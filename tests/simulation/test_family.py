@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import ks_2samp
 
 from forcetorque.formats.icub_matrix import read_matrix_file
-from forcetorque.sensor.reference_design import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT
+from forcetorque.sensor.electronics import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT
 from forcetorque.simulation.sensor_family import FAMILIES
 
 SPECIMENS = 300

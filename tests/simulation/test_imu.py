@@ -8,8 +8,7 @@ import pytest
 
 from forcetorque.base.errors import RobotError
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.simulation.imu_and_motor import SimulatedImu
-from forcetorque.simulation.trace import trace_movement
+from forcetorque.simulation.trace import SimulatedImu, trace_movement
 from tests.simulation.motions.stances import on_both_feet
 
 

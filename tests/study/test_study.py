@@ -22,8 +22,8 @@ from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
-from forcetorque.study.candidate import Candidate, GenerativeCandidate
 from forcetorque.study.result import Studies, studied_sensor, study_warnings
+from forcetorque.study.selection import Candidate, GenerativeCandidate
 from forcetorque.study.study import SensorStudy, combinations_of, study_sensor
 from forcetorque.study.study_data import StudyData, read_study_data
 from tests.results.showing import require_shown

@@ -20,10 +20,9 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.simulation.recordings import true_matrix
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.candidate import Candidate
 from forcetorque.study.candidate_errors import push_error
 from forcetorque.study.result import studied_sensor, study_warnings
-from forcetorque.study.selection import FAR_SD
+from forcetorque.study.selection import FAR_SD, Candidate
 from forcetorque.study.study import SensorStudy, study_sensor
 from forcetorque.study.study_data import StudyData, read_study_data
 from tests.scenes.experiments import edit

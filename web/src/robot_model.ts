@@ -70,7 +70,7 @@ export class RobotModel extends Group {
   private solid(shape: Shape): Mesh {
     const [red = 0.7, green = 0.7, blue = 0.7, opacity = 1] = shape.colour;
     const material = new MeshLambertMaterial({
-      color: new Color().setRGB(red, green, blue, "srgb"),
+      color: neutral(new Color().setRGB(red, green, blue, "srgb")),
       opacity,
       transparent: opacity < 1,
       flatShading: true, // scanned and drawn parts alike keep their edges, and files need no normals
@@ -100,6 +100,11 @@ export class RobotModel extends Group {
     }
     return geometry;
   }
+}
+
+/** A light grey, lighter for a lighter colour: on a red robot the red of an error would not be seen. */
+function neutral({ r, g, b }: Color): Color {
+  return new Color().setScalar(0.25 + 0.6 * (0.2126 * r + 0.7152 * g + 0.0722 * b));
 }
 
 /** Origin of a link in the world. */

@@ -8,6 +8,7 @@ import { empty } from "./dispose";
 import { ErrorOnRobot } from "./error_on_robot";
 import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
+import { spread } from "./label_places";
 import { origin, RobotModel } from "./robot_model";
 import type { SceneData } from "./scene_data";
 import { SkinView } from "./skin_view";
@@ -63,6 +64,12 @@ export class RobotView extends View3D {
     this.skin.update(state, poses);
     this.error.update(state, poses);
     this.frames.later(this);
+  }
+
+  override draw(): void {
+    this.scene.updateMatrixWorld();
+    spread(this.wrenches.texts, this.camera);
+    super.draw();
   }
 
   /** Room of the robot over postures of the whole recording. */

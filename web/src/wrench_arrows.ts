@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sensor frames with the wrenches that were measured and expected, and contacts.
 
-import { Group, Matrix3, Matrix4, Vector3 } from "three";
+import { Group, Matrix3, Matrix4, type Sprite, Vector3 } from "three";
 
 import { Arrow, axes, toMatrix } from "./arrows";
 import { CONTACT, INK, seriesColour } from "./colours";
@@ -32,6 +32,8 @@ interface Place {
 
 /** Everything that is drawn at sensors and contacts. */
 export class WrenchArrows extends Group {
+  /** Names of sensors and contacts. */
+  readonly texts: Sprite[] = [];
   private readonly places: Place[];
 
   constructor(
@@ -81,9 +83,13 @@ export class WrenchArrows extends Group {
     frame.matrixAutoUpdate = false;
     frame.matrix = new Matrix4();
     frame.add(axes(0.07 * this.size, 0.002 * this.size, sensor !== null));
-    const text = label(name, sensor === null ? CONTACT : INK, 0.032 * this.size, true);
-    text.position.set(0, 0, -0.035 * this.size);
-    frame.add(text);
+    // a contact at a sensor has its name there already
+    if (sensor !== null || !this.data.scene.sensors.some((one) => one.name === name && one.link === link)) {
+      const text = label(name, sensor === null ? CONTACT : INK, 0.032 * this.size, true);
+      text.position.set(0, 0, -0.035 * this.size);
+      frame.add(text);
+      this.texts.push(text);
+    }
     this.add(frame);
     const drawn = series.map((one) => {
       const colour = "role" in one ? this.colour(sensor, one) : CONTACT;

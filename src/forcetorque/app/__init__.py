@@ -6,23 +6,14 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.app.python.arrays import motion_of_arrays
-    from forcetorque.device.command import design_device
-    from forcetorque.locomotion.commands import motion
-    from forcetorque.simulation.command import simulate
-    from forcetorque.study.command import study
-    from forcetorque.workbench.command import workbench
+    from forcetorque.app.python.arrays import motion_of_arrays as motion_of_arrays
+    from forcetorque.device.command import design_device as design_device
+    from forcetorque.locomotion.commands import motion as motion
+    from forcetorque.simulation.command import simulate as simulate
+    from forcetorque.study.command import study as study
+    from forcetorque.workbench.command import workbench as workbench
 
-__all__ = [
-    "design_device",
-    "motion",
-    "motion_of_arrays",
-    "simulate",
-    "study",
-    "workbench",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "design_device": "forcetorque.device.command",

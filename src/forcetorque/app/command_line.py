@@ -9,14 +9,12 @@ from typing import Annotated, Any, Final
 
 import typer
 
-from forcetorque.app.dataset_input import with_datasets
-from forcetorque.app.live_view import with_live_view
-from forcetorque.app.view_output import with_view
+from forcetorque.app.wrapped_commands import with_datasets, with_live_view, with_view
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
-from forcetorque.results.terminal.command import command_function
-from forcetorque.results.terminal.help import WholeSentences
+from forcetorque.results.terminal.command_from_signature import command_function
+from forcetorque.results.terminal.options import WholeSentences
 from forcetorque.results.terminal.output import print_messages, report_error, spell_missing_letters
 
 _NAME = "forcetorque"
@@ -149,11 +147,7 @@ def _program(first: list[str]) -> typer.Typer:
 
 
 def whole_program() -> typer.Typer:
-    """Make the program with all commands.
-
-    Returns:
-        The program.
-    """
+    """Make the program with all commands."""
     program = typer.Typer(
         name=_NAME,
         cls=_ByPanels,

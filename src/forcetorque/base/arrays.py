@@ -95,9 +95,6 @@ def array(*shape: Axis, dtype: Literal["float", "int", "bool"] = "float") -> dic
 def names(length: Axis = None) -> dict[str, _Declared]:
     """Declare a field of an `ArrayRecord` as a tuple, whose length may name an axis of its arrays.
 
-    Args:
-        length: Its length.
-
     Returns:
         Metadata of the field.
     """

@@ -71,9 +71,6 @@ def arrow_text(text: bytes) -> Any:
     A thread of Arrow may let go of what it read after the table was given back. If that is an object of Python, it
     waits for the interpreter, and a program that ends at that instant is aborted: no error code, SIGABRT.
 
-    Args:
-        text: The text.
-
     Returns:
         A `pyarrow.BufferReader` that holds no object of Python.
     """

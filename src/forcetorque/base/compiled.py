@@ -55,14 +55,7 @@ class _Announce(event.Listener):
 
 
 def announced(message: str) -> AbstractContextManager[Any]:
-    """Log a message, once, if anything is compiled inside the context.
-
-    Args:
-        message: The message.
-
-    Returns:
-        The context.
-    """
+    """Log a message, once, if anything is compiled inside the context."""
     return event.install_listener("numba:compile", _Announce(message))
 
 

@@ -9,17 +9,20 @@ from importlib import import_module
 from typing import Any
 
 
-def lazy_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """Make the `__getattr__` and `__dir__` of a package.
+def lazy_names(
+    package: str, modules: Mapping[str, str]
+) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
+    """Make the `__all__`, `__getattr__` and `__dir__` of a package.
 
-    A name must not be that of a module in the package: importing the module would hide it.
+    A name must not be that of a module in the package: importing the module would hide it. Type checkers know the
+    names by imports `X as X` under `TYPE_CHECKING`.
 
     Args:
         package: Name of the package.
         modules: For every public name, the module that defines it.
 
     Returns:
-        `__getattr__` and `__dir__` of the package; an unknown name is an `AttributeError`.
+        `__all__`, `__getattr__` and `__dir__` of the package; an unknown name is an `AttributeError`.
     """
 
     def get(name: str) -> Any:
@@ -32,7 +35,7 @@ def lazy_names(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str]
     def names() -> list[str]:
         return sorted({*vars(sys.modules[package]), *modules})
 
-    return get, names
+    return list(modules), get, names
 
 
 class LazyMethod:

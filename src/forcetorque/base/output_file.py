@@ -10,7 +10,8 @@ import shutil
 import stat
 import sys
 from collections.abc import Collection, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 from uuid import uuid4
 
@@ -21,6 +22,8 @@ if sys.platform != "win32":
     import fcntl
 
 _NAME = re.compile(r"\.forcetorque-[0-9a-f]{32}\.tmp")
+_WAITING: ContextVar[tuple[ExitStack, dict[Path, Path]] | None] = ContextVar("forcetorque_waiting_files", default=None)
+"""Temporary files that `existing_files_replaced_last` renames, by the file that each replaces."""
 
 
 @contextmanager
@@ -195,15 +198,67 @@ def write_bytes_atomically(path: Path, data: bytes) -> None:
         with path.open("wb") as stream:
             stream.write(data)
         return
+    with replaced_file(path) as temporary, temporary.open("wb") as stream:
+        stream.write(data)
+        stream.flush()
+        # Otherwise a power cut after the rename can leave an empty file.
+        os.fsync(stream.fileno())
+
+
+@contextmanager
+def replaced_file(path: Path) -> Iterator[Path]:
+    """Give the path of a new file, in a folder of its own, which replaces another file at the end.
+
+    In `existing_files_replaced_last` it replaces what is there at the end of that body.
+
+    Args:
+        path: File to write or to replace; a symbolic link keeps pointing to the file that it names.
+
+    Yields:
+        Its path; if the body fails, it is removed and the other one stays.
+
+    Raises:
+        OutputError: If the run of the command has read the file.
+    """
     refuse_input(path)
-    target = real_path(path)
-    with temporary_beside(target) as temporary:
-        with temporary.open("wb") as stream:
-            stream.write(data)
-            stream.flush()
-            # Otherwise a power cut after the rename can leave an empty file.
-            os.fsync(stream.fileno())
-        temporary.replace(target)
+    target, waiting = real_path(path), _WAITING.get()
+    with ExitStack() as stack:
+        # in a folder, which stays locked whatever the body puts in place of the file
+        temporary = stack.enter_context(temporary_beside(target, folder=True)) / target.name
+        yield temporary
+        if waiting is None or not target.exists():
+            temporary.replace(target)
+        else:
+            waiting[1][target] = temporary
+            waiting[0].push(stack.pop_all())
+
+
+@contextmanager
+def existing_files_replaced_last() -> Iterator[None]:
+    """Let files that are there keep their content until the end of the body, which may still read them.
+
+    If the body fails, they stay; new files are there as soon as they are written.
+
+    Yields:
+        Nothing.
+
+    Raises:
+        OutputError: If one of them was read.
+    """
+    if _WAITING.get() is not None:
+        yield
+        return
+    files: dict[Path, Path] = {}
+    with ExitStack() as stack:
+        token = _WAITING.set((stack, files))
+        try:
+            yield
+        finally:
+            _WAITING.reset(token)
+        for target in files:
+            refuse_input(target)
+        for target, temporary in files.items():
+            temporary.replace(target)
 
 
 def refuse_unwritable(path: Path) -> None:

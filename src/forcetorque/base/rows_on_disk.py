@@ -8,7 +8,7 @@ import math
 import mmap
 import tempfile
 import weakref
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import IO, Any, Final
 
@@ -19,6 +19,8 @@ from forcetorque.base.errors import OutputError
 
 IN_MEMORY: Final = 1 << 24
 """Bytes of a stream up to which it is held in memory."""
+BLOCK_ROWS: Final = 1 << 19
+"""Rows of a block: 87 min at 100 Hz."""
 _WITHOUT_FILE: Final = 1 << 20
 """Bytes of rows up to which they need no file, of which a process may have a limited number open."""
 
@@ -123,14 +125,56 @@ def concatenated(arrays: Sequence[npt.NDArray[Any]]) -> npt.NDArray[Any]:
     Returns:
         All rows, read-only.
     """
-    count, first = sum(map(len, arrays)), arrays[0]
-    is_long = sum(array.nbytes for array in arrays) > IN_MEMORY
-    shape = first.shape[1:]
-    rows = RowsOnDisk(shape, first.dtype) if is_long else RowsInMemory(count, shape, first.dtype)
-    for array in arrays:
-        rows.append(array)
-        forget_pages([array])
+    return written(arrays, sum(map(len, arrays)), arrays[0].shape[1:], arrays[0].dtype)
+
+
+def written(
+    blocks: Iterable[npt.NDArray[Any]], count: int, shape: tuple[int, ...], dtype: npt.DTypeLike = np.float64
+) -> npt.NDArray[Any]:
+    """Put blocks of rows behind each other as they come, in a temporary file where there are many.
+
+    Args:
+        blocks: The rows.
+        count: How many there are in all.
+        shape: Shape of a row.
+        dtype: Kind of the numbers.
+
+    Returns:
+        All rows, read-only.
+    """
+    is_long = count * math.prod(shape) * np.dtype(dtype).itemsize > IN_MEMORY
+    rows = RowsOnDisk(shape, dtype) if is_long else RowsInMemory(count, shape, dtype)
+    for block in blocks:
+        rows.append(block)
+        forget_pages([block])
     return rows.mapped()
+
+
+def in_blocks(*arrays: npt.NDArray[Any]) -> Iterator[tuple[npt.NDArray[Any], ...]]:
+    """Give arrays block by block, and let go of the memory that each block takes where it is mapped.
+
+    Args:
+        arrays: At least one, all of one length.
+
+    Yields:
+        The same rows of all arrays; one block of arrays with at most `BLOCK_ROWS` rows.
+    """
+    for start in range(0, max(len(arrays[0]), 1), BLOCK_ROWS):
+        yield tuple(array[start : start + BLOCK_ROWS] for array in arrays)
+        forget_pages(arrays)
+
+
+def mean_over_rows(compute: Callable[..., npt.NDArray[Any]], *arrays: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Average over all rows what is computed of each, block by block.
+
+    Args:
+        compute: Computes it of a block of every array; a row per row.
+        arrays: At least one, all of one length, at least one row.
+
+    Returns:
+        The mean over the rows.
+    """
+    return np.asarray(sum(compute(*block).sum(axis=0) for block in in_blocks(*arrays)) / len(arrays[0]))
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayModel
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.run_files import declare_input
-from forcetorque.base.validation_text import first_error
+from forcetorque.base.toml_file import first_error
 
 
 class StoredTable(ArrayModel):

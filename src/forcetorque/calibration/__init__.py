@@ -7,11 +7,21 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor
-    from forcetorque.calibration.export.command import export_calibrations
-    from forcetorque.calibration.joint.calibrate import calibrate_jointly
-    from forcetorque.calibration.reduced_recordings import recording_moments, store_moments
-    from forcetorque.calibration.summary import information_figure
+    from forcetorque.calibration.calibrate import (
+        calibrate_for_file as calibrate_for_file,
+    )
+    from forcetorque.calibration.calibrate import (
+        calibrate_sensor as calibrate_sensor,
+    )
+    from forcetorque.calibration.export.command import export_calibrations as export_calibrations
+    from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly
+    from forcetorque.calibration.reduced_recordings import (
+        recording_moments as recording_moments,
+    )
+    from forcetorque.calibration.reduced_recordings import (
+        store_moments as store_moments,
+    )
+    from forcetorque.calibration.summary import information_figure as information_figure
 
 CAPABILITY = Capability(
     page="calibration/calibration.md",
@@ -25,17 +35,7 @@ CAPABILITY = Capability(
     ),
 )
 
-__all__ = [
-    "calibrate_for_file",
-    "calibrate_jointly",
-    "calibrate_sensor",
-    "export_calibrations",
-    "information_figure",
-    "recording_moments",
-    "store_moments",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "calibrate_for_file": "forcetorque.calibration.calibrate",

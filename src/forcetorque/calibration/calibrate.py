@@ -12,12 +12,15 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.calibration.doubts import doubts_of_intervals, doubts_of_samples
 from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.interval_and_mount_doubts import (
+    doubts_of_intervals,
+    doubts_of_samples,
+    with_estimated_mount,
+)
 from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
-from forcetorque.calibration.mount import with_estimated_mount
-from forcetorque.calibration.reduced_recordings import is_long, recording_moments, reduced_in_segments
+from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
     InformationGain,
     calibration_answer,
@@ -35,6 +38,7 @@ from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
+from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use
@@ -303,7 +307,7 @@ class SensorCalibrations(DrawnResult):
         Raises:
             FitError: If no calibration is a generative fit towards a prior matrix.
         """
-        from forcetorque.calibration.figures.joint import joint_figure
+        from forcetorque.calibration.figures.information import joint_figure
 
         if self.joint is not None:
             return joint_figure(self.joint.residuals)

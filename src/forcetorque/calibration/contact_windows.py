@@ -163,8 +163,7 @@ def agreeing_samples(
 def _residual(
     data: DataSet, means: WindowMeans, fit: GenerativeFit | None, prior: FloatArray | None
 ) -> tuple[FloatArray, FloatArray]:
-    """What the fit, or the prior matrix without one, leaves of every window about its surroundings, and its smallest
-    deviation; shape (n, 6) each."""
+    """What fit or prior matrix leaves of every window about those around it, and its least deviation; (n, 6) each."""
     reference = data.reference if data.flattening is None else data.reference + FLATTENED * data.flattening
     if fit is None:
         error, undetermined = data.raw @ np.asarray(prior).T - reference, np.zeros((len(means), 6))

@@ -26,10 +26,10 @@ from forcetorque.experiment.calibration.model_error import (
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
-from forcetorque.robot.mechanics.part_derivatives import part_derivatives
 from forcetorque.robot.mechanics.root_motion import imu_frame
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
+from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
 
@@ -94,9 +94,6 @@ class UncertainPart:
 
     def without(self, kind: TermKind) -> UncertainPart:
         """Leave out the terms of a kind.
-
-        Args:
-            kind: The kind.
 
         Returns:
             The part with the others.

@@ -3,27 +3,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.calibration.doubts import SegmentedDoubts
-from forcetorque.calibration.moments import agreeing_moments, load_error_of, moments_of
-from forcetorque.calibration.mount import mount_doubts
-from forcetorque.calibration.segmented_moments import SegmentedMoments
+from forcetorque.calibration.interval_and_mount_doubts import SegmentedDoubts, mount_doubts
+from forcetorque.calibration.moments import SegmentedMoments, agreeing_moments, load_error_of, moments_of
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.campaign_intervals import CampaignRecording
-from forcetorque.experiment.long_recording import forget_recording, keep_quality, recorded_segments
-from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.experiment.long_recording import is_long, segment_runs, segments_of_run
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.load_warnings import reference_doubts
 from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.recording.recording import Use
-from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 
 def recording_moments(runs: Runs, *, block_s: float | None = None) -> list[RecordingMoments]:
@@ -74,18 +70,6 @@ class ReducedRecording:
     """What makes any fit on it doubtful."""
 
 
-def is_long(run: SensorRun) -> bool:
-    """Tell whether a recording is reduced segment by segment.
-
-    Args:
-        run: The sensor.
-
-    Returns:
-        Whether it is.
-    """
-    return len(run.once("segments", lambda: recorded_segments(run.experiment))) > 1
-
-
 def reduced_in_segments(run: SensorRun, *, block_s: float = BLOCK_S) -> ReducedRecording:
     """Reduce a long recording, once.
 
@@ -100,31 +84,22 @@ def reduced_in_segments(run: SensorRun, *, block_s: float = BLOCK_S) -> ReducedR
 
 
 def _reduced(run: SensorRun, block_s: float) -> ReducedRecording:
-    segments = run.once("segments", lambda: recorded_segments(run.experiment))
     moments, doubts = SegmentedMoments(run, block_s=block_s), SegmentedDoubts(run)
     refusal: ForceTorqueError | None = None
-    forget_recording(run.experiment)  # which was looked at as it was read
-    qualities = []
-    for segment in segments:
-        experiment = replace(run.experiment, recording=segment.recording)
-        shared = SharedWrenches(experiment.recording, {run.sensor.name: run.sensor.stream})
-        part = SensorRun(experiment, run.sensor, shared=shared)
+    for part in segment_runs(run):
         if refusal is None:
             try:
                 moments.add(part)
             except ForceTorqueError as error:
                 refusal = error
         doubts.add(part)
-        qualities.append(sample_quality(experiment, run.sensor))
-        del part, shared, experiment
-        forget_recording(run.experiment)
-    keep_quality(run, segments, qualities)
+        del part
     reduced: RecordingMoments | ForceTorqueError | None
     try:
         reduced = moments.moments() if refusal is None else refusal
     except ForceTorqueError as error:
         reduced = error
-    return ReducedRecording(moments=reduced, warnings=doubts.warnings(segments))
+    return ReducedRecording(moments=reduced, warnings=doubts.warnings(segments_of_run(run)))
 
 
 def _of_segments(campaign: Campaign, run: SensorRun, block_s: float | None) -> RecordingMoments:

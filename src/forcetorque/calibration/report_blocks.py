@@ -20,10 +20,6 @@ from forcetorque.results.table import short_names
 def origin_words(name: str, calibration: Calibration) -> str:
     """Say where a calibration comes from.
 
-    Args:
-        name: Its name.
-        calibration: The calibration.
-
     Returns:
         When and by what it was made, from which data and which prior.
     """

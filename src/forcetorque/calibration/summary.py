@@ -77,9 +77,6 @@ def calibration_answer(
 def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
     """Show a calibration.
 
-    Args:
-        calibration: The calibration.
-
     Yields:
         A sentence and tables.
     """
@@ -107,9 +104,6 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
 
 def component_records(calibration: Calibration) -> Iterator[dict[str, object]]:
     """Give a calibration as flat lines.
-
-    Args:
-        calibration: The calibration.
 
     Yields:
         A line per component, with the numbers in full precision.
@@ -275,9 +269,6 @@ class InformationGain(Row):
 def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] | None:
     """Tell what the recordings taught of every load direction.
 
-    Args:
-        calibration: The calibration.
-
     Returns:
         One row per component of the load; None for a type of the thesis, or without a prior.
     """
@@ -308,9 +299,6 @@ def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] |
 
 def information_figure(calibrations: Sequence[Calibration]) -> Figure:
     """Draw what `information_gains` gives of every calibration.
-
-    Args:
-        calibrations: Calibrations.
 
     Returns:
         The figure of `learnt_figure`, of those that have any.

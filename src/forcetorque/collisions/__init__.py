@@ -7,7 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.collisions.command import joint_collisions
+    from forcetorque.collisions.command import joint_collisions as joint_collisions
 
 CAPABILITY = Capability(
     page="locomotion/collisions.md",
@@ -15,6 +15,4 @@ CAPABILITY = Capability(
     commands=("forcetorque.collisions.command:collisions", "forcetorque.collisions.command:joint_collisions"),
 )
 
-__all__ = ["joint_collisions"]
-
-__getattr__, __dir__ = lazy_names(__name__, {"joint_collisions": "forcetorque.collisions.command"})
+__all__, __getattr__, __dir__ = lazy_names(__name__, {"joint_collisions": "forcetorque.collisions.command"})

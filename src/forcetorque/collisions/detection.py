@@ -9,12 +9,13 @@ tail); the higher counts.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.collisions.residual import WINDOW_S, FreeModel, Level, Signals
 from forcetorque.experiment.calibration.assumptions import LOADS
 
@@ -34,6 +35,8 @@ _HIGH: Final = 0.8
 """Share of the blocks below the values that show it."""
 _FEWEST: Final = 8
 """Values that it takes at least."""
+_TOGETHER: Final = 256
+"""Windows that are compared at once while nothing touches the robot."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,25 +168,28 @@ def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
             del values[len(values) - release.quiet :]
         contacts.append(contact)
 
-    for window in range(len(signals)):
-        if starts[window] and current is not None:
+    first = 0
+    while first < len(signals):
+        if starts[first] and current is not None:
             close(current, stays=True)
             current = None
-        change, known = level.change(window, held=current is not None)
-        if not known:
-            continue
-        wrench, covariance = model.wrench(change)
-        covariances.append(covariance)
-        excess[window], value = wrench, float(wrench @ np.linalg.solve(covariance, wrench))
-        if current is None and value <= threshold:
-            continue
-        if current is None:
+        held, before = current is not None, copy(level)
+        end = first + 1 if held else min(first + _TOGETHER, len(signals))
+        windows, wrenches, spreads, values = _compared(level, range(first, end), model, held=held)
+        if not held and (over := np.flatnonzero(values > threshold)).size:
+            level, end = before, int(windows[over[0]]) + 1  # what follows it is compared with the level held
+            windows, wrenches, spreads, values = _compared(level, range(first, end), model, held=False)
             current, release = Contact(), Release()
-        current.windows.append(window)
-        current.wrenches.append(wrench)
-        current.covariances.append(covariance)
-        current.statistics.append(value)
-        if release.follows(value / threshold):
+        first = end
+        excess[windows] = wrenches
+        covariances.append(spreads)
+        if current is None or not len(windows):
+            continue
+        current.windows.append(int(windows[-1]))
+        current.wrenches.append(wrenches[-1])
+        current.covariances.append(spreads[-1])
+        current.statistics.append(float(values[-1]))
+        if release.follows(current.statistics[-1] / threshold):
             close(current, stays=False)
             current = None
         elif len(current.windows) * WINDOW_S >= LONGEST_S:
@@ -193,8 +199,23 @@ def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
     if current is not None:
         close(current, stays=True)
     return Detected(
-        contacts=tuple(contacts), excess=excess, covariances=np.array(covariances).reshape(-1, LOADS, LOADS)
+        contacts=tuple(contacts), excess=excess, covariances=np.concatenate([*covariances, np.zeros((0, LOADS, LOADS))])
     )
+
+
+def _compared(
+    level: Level, windows: range, model: FreeModel, *, held: bool
+) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
+    """The k windows that have a level; what each reads too much, shape (k, 6), its covariance, and its statistic."""
+    changes, known = zip(*(level.change(window, held=held) for window in windows), strict=True)
+    with_level = np.array(known)
+    wrenches, covariances = model.wrench(np.array(changes)[with_level])
+    return np.array(windows)[with_level], wrenches, covariances, _squared(wrenches, covariances)
+
+
+def _squared(wrenches: FloatArray, covariances: FloatArray) -> FloatArray:
+    """Squares over covariances; shape (w,)."""
+    return np.einsum("wi,wi->w", wrenches, np.linalg.solve(covariances, wrenches[..., None])[..., 0])
 
 
 def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> FloatArray:
@@ -210,7 +231,7 @@ def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> 
     """
     left = residual - terms @ model.mean
     covariance = model.noise + np.einsum("wip,pq,wjq->wij", terms, model.covariance, terms, optimize=True)
-    return np.einsum("wi,wi->w", left, np.linalg.solve(covariance, left[..., None])[..., 0])
+    return _squared(left, covariance)
 
 
 def smallest_force(covariances: FloatArray, threshold: float) -> float:

@@ -171,7 +171,8 @@ class Level:
         change, known = values - self._level, self._count * WINDOW_S >= WARM_UP_S
         if not held or not known:
             self._count += 1
-            self._level += max(WINDOW_S / LEVEL_S, 1.0 / self._count) * (values - self._level)
+            # a new array: a copy of this object keeps the level that it was made with
+            self._level = self._level + max(WINDOW_S / LEVEL_S, 1.0 / self._count) * change
         return change, known
 
     def restart(self) -> None:
@@ -217,17 +218,18 @@ class FreeModel:
     """Time over which noise goes on; s."""
 
     def wrench(self, change: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give what a change cannot be explained by.
+        """Give what changes cannot be explained by.
 
         Args:
-            change: Residual and terms of a window, less their level; shape (6 (1 + p),).
+            change: Residual and terms of windows, less their level; shape (w, 6 (1 + p)).
 
         Returns:
-            Unexplained wrench, shape (6,), and its covariance if nothing touches the robot; shape (6, 6); N, N m.
+            Unexplained wrenches, shape (w, 6), and their covariances if nothing touches the robot; shape (w, 6, 6);
+            N, N m.
         """
-        columns = change.reshape(LOADS, -1)
-        terms = columns[:, 1:]
-        return columns[:, 0] - terms @ self.mean, self.noise + terms @ self.covariance @ terms.T
+        columns = change.reshape(len(change), LOADS, change.shape[1] // LOADS)
+        terms = columns[:, :, 1:]
+        return columns[:, :, 0] - terms @ self.mean, self.noise + terms @ self.covariance @ terms.transpose(0, 2, 1)
 
     def contact(self, excess: FloatArray, covariance: FloatArray, of_load: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Correct the reading of a contact by the errors of the matrix.

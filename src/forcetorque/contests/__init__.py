@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.contests.command import contest
-    from forcetorque.contests.entries import read_entries
+    from forcetorque.contests.command import contest as contest
+    from forcetorque.contests.entries import read_entries as read_entries
 
 CAPABILITY = Capability(
     page="contests.md",
@@ -20,12 +20,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.contests.command:contest",),
 )
 
-__all__ = [
-    "contest",
-    "read_entries",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "contest": "forcetorque.contests.command",

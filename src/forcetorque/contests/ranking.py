@@ -200,9 +200,6 @@ def load_rows(name: str, loads: dict[float, tuple[Trial, ...]], squares: FloatAr
 def score_rows(rows: tuple[ContestantRow, ...]) -> list[ContestScoreRow]:
     """Put the scores of six components below each other.
 
-    Args:
-        rows: The contestants.
-
     Returns:
         A row per contestant and score that is known.
     """
@@ -238,7 +235,7 @@ class Contest(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.contests.figure:contest_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
-    answered_by: ClassVar[str | None] = "forcetorque.contests.answers:contest_answer"
+    answered_by: ClassVar[str | None] = "forcetorque.contests.command:contest_answer"
 
     schema_name: Literal["forcetorque/contest/2"] = Field(default="forcetorque/contest/2", alias="schema")
     """Form of the result."""

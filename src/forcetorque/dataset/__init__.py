@@ -7,7 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.dataset.commands import check_dataset, compensate_dataset
+    from forcetorque.dataset.commands import check_dataset as check_dataset
+    from forcetorque.dataset.commands import compensate_dataset as compensate_dataset
 
 CAPABILITY = Capability(
     page="dataset.md",
@@ -18,9 +19,7 @@ CAPABILITY = Capability(
     ),
 )
 
-__all__ = ["check_dataset", "compensate_dataset"]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "check_dataset": "forcetorque.dataset.commands",

@@ -8,8 +8,7 @@ from pathlib import Path
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.dataset.result import DatasetCheck, check_answer
 from forcetorque.results.answer import Concern
-from forcetorque.results.document.content import Document, List, Section, Text, Tone, Verdict
-from forcetorque.results.document.html import html_bytes
+from forcetorque.results.document.content import Document, List, Section, Text, Tone, Verdict, html_bytes
 from forcetorque.results.result import created_now
 from forcetorque.results.table import Table
 

@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.device.design import design_device
-    from forcetorque.device.simulated_recordings import write_device
+    from forcetorque.device.design import design_device as design_device
+    from forcetorque.device.simulated_recordings import write_device as write_device
 
 CAPABILITY = Capability(
     page="device/device.md",
@@ -21,12 +21,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.device.command:device",),
 )
 
-__all__ = [
-    "design_device",
-    "write_device",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "design_device": "forcetorque.device.design",

@@ -298,14 +298,7 @@ def device_load(device: Device, load_kg: float) -> AttachedLoad:
 
 
 def part_inertia(part: Part) -> Inertia:
-    """Compute the inertia of a part in and about its frame.
-
-    Args:
-        part: The part.
-
-    Returns:
-        Its inertia.
-    """
+    """Compute the inertia of a part in and about its frame."""
     return Inertia.about_centre_of_mass(
         mass=part.mass_kg, centre_of_mass=part.centre_of_mass_m, second_moment=np.diag(part.moments_kgm2)
     )

@@ -36,9 +36,6 @@ _HELD_OUT_SEED: Final = 7_000_000
 def held_out_loads(seed: int = 0) -> FloatArray:
     """Draw loads that no calibration uses.
 
-    Args:
-        seed: Seed of the loads.
-
     Returns:
         Changes of load; shape (400, 6); N, N m.
     """

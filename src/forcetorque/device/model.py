@@ -63,9 +63,6 @@ def device_model(device: Device, load: AttachedLoad) -> RobotModel:
 def device_root(device: Device) -> RootMotion:
     """Make the motion of a level base at rest.
 
-    Args:
-        device: The device.
-
     Returns:
         The motion of its link `base`.
     """

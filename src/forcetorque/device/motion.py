@@ -150,9 +150,6 @@ class Sequence(ArrayRecord):
 def joint_ranges(device: Device) -> dict[str, tuple[float, float]]:
     """Compute the ranges of the joints.
 
-    Args:
-        device: The device.
-
     Returns:
         Lowest and highest position by joint; deg.
     """
@@ -325,9 +322,6 @@ class DeviceTrajectory:
 
 def joint_speeds(device: Device) -> dict[str, float]:
     """Compute the largest speeds of the joints; gravity moves the hinge, which never limits a motion.
-
-    Args:
-        device: The device.
 
     Returns:
         Largest speeds by joint; rad/s.

@@ -139,9 +139,6 @@ def sensor_span_row(sensor: str, motion: str, poses: int, span: Span) -> SensorS
 def predicted_rms(error: MatrixError) -> tuple[float, float]:
     """Predict the error at held-out loads.
 
-    Args:
-        error: Error of the matrix.
-
     Returns:
         Root mean square over loads and axes, of force and of moment; N, N m.
     """

@@ -7,9 +7,9 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.estimation.estimate import estimate_experiment
-    from forcetorque.estimation.result import summarise_estimates
-    from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
+    from forcetorque.estimation.estimate import estimate_experiment as estimate_experiment
+    from forcetorque.estimation.result import summarise_estimates as summarise_estimates
+    from forcetorque.estimation.torque.experiment_fusion import fuse_experiment as fuse_experiment
 
 CAPABILITY = Capability(
     page="estimation/estimation.md",
@@ -22,13 +22,7 @@ CAPABILITY = Capability(
     ),
 )
 
-__all__ = [
-    "estimate_experiment",
-    "fuse_experiment",
-    "summarise_estimates",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "estimate_experiment": "forcetorque.estimation.estimate",

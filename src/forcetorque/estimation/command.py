@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque estimate`: contact wrenches, joint torques and expected readings of a recording."""
+"""`forcetorque estimate`: contact wrenches, joint torques and expected readings of a recording; and its answer."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount, within
 from forcetorque.results.terminal.options import (
     CalibrationsOption,
     DetailsOption,
@@ -23,7 +25,7 @@ from forcetorque.results.terminal.output import Format, show, start_logging
 if TYPE_CHECKING:
     from logging import Logger
 
-    from forcetorque.estimation.result import EstimateSummary
+    from forcetorque.estimation.result import ContactSummary, EstimatedRecording, EstimateSummary
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment
 
@@ -78,12 +80,12 @@ def estimate(
     Returns:
         The `Result` that is shown, without samples.
     """
-    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.base.output_file import declare_outputs, existing_files_replaced_last
     from forcetorque.estimation.result import estimates_of_recordings
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import file_of_each, stated_in
     from forcetorque.experiment.kept_experiments import experiment_finished
-    from forcetorque.experiment.loading import Purpose, load_experiment
+    from forcetorque.experiment.loading import Purpose
     from forcetorque.formats.sample_table import SUFFIXES
     from forcetorque.results.terminal.output import refuse_ending, refuse_figure
     from forcetorque.results.terminal.reading import read_calibrations, read_experiment
@@ -95,27 +97,25 @@ def estimate(
     files, figures = file_of_each(experiments, output), {} if figure is None else file_of_each(experiments, figure)
     written = [*files.values(), *(file for file in figures.values() if file != figure)]
     declare_outputs(*written, force=force)
-    if len(experiments) > 1 and any(file.exists() for file in written):
-        for path in experiments:  # what is written first may be an input of what is read last
-            load_experiment(path, Purpose.FORCES)
     calibrations = read_calibrations(calibration)
     summaries = {}
-    for path, file in files.items():
-        # a recording goes when its estimates are written: there may be more of them than memory holds
-        content = read_experiment(path, log, Purpose.FORCES)
-        with stated_in(str(path)):
-            summary = summaries[str(path)] = _estimated(
-                content,
-                calibrations,
-                contacts,
-                length_scale,
-                file,
-                log,
-                offset=offset,
-                fuse=fuse,
-                figure=figures.get(path),
-            )
-        experiment_finished(path, content, summary)
+    with existing_files_replaced_last():  # what is written first may be an input of what is read last
+        for path, file in files.items():
+            # a recording goes when its estimates are written: there may be more of them than memory holds
+            content = read_experiment(path, log, Purpose.FORCES)
+            with stated_in(str(path)):
+                summary = summaries[str(path)] = _estimated(
+                    content,
+                    calibrations,
+                    contacts,
+                    length_scale,
+                    file,
+                    log,
+                    offset=offset,
+                    fuse=fuse,
+                    figure=figures.get(path),
+                )
+            experiment_finished(path, content, summary)
     several = len(summaries) > 1
     result = estimates_of_recordings(summaries) if several else summaries[str(experiments[0])]
     show(result, output_format, details=details, experiments=experiments)
@@ -185,3 +185,56 @@ class _Progress:
 
     def show(self, done: int, total: int) -> None:
         self.bar.update(self.task, completed=done, total=total)
+
+
+_NAMED = 4
+"""Contacts that are named; the table has all."""
+
+
+def estimate_answers(summary: EstimateSummary) -> Iterator[Answer]:
+    """Give the answer for every recording.
+
+    Args:
+        summary: What was estimated of one or several.
+
+    Yields:
+        One answer each.
+    """
+    for recording in summary.recordings or (summary,):
+        ambiguous = [(part, group) for part in recording.sub_models for group in part.ambiguous]
+        contacts = len({row.contact for row in recording.contacts})
+        yield Answer(
+            subject=recording.experiment,
+            verdict=(
+                f"{contacts} CONTACT{'S' * (contacts != 1)} over {recording.samples} samples"
+                if contacts
+                else "NO CONTACT IS ESTIMATED"
+            ),
+            why=(*_forces(recording.contacts), *_undetermined(recording, ambiguous)),
+            step="name contacts with fewer unknowns by --contacts" if ambiguous else "",
+            written=(recording.file, recording.figure_file),
+            concern=Concern.UNCERTAIN if ambiguous or recording.left_out or not contacts else Concern.NONE,
+        )
+
+
+def _forces(rows: Sequence[ContactSummary]) -> Iterator[str]:
+    known = [row for row in rows if row.force_mean_N is not None]
+    if known:
+        more = f" and {len(known) - _NAMED} more" if len(known) > _NAMED else ""
+        yield f"mean contact force: {', '.join(_force(row) for row in known[:_NAMED])}{more}"
+
+
+def _force(row: ContactSummary) -> str:
+    force, half = row.force_mean_N or 0.0, row.force_half_width_95_N
+    return f"{row.interval}, {row.contact}: {amount(force, 'N') if half is None else within(force, half, 'N')}"
+
+
+def _undetermined(recording: EstimatedRecording, ambiguous: Sequence[tuple[object, tuple[str, ...]]]) -> Iterator[str]:
+    if ambiguous:
+        yield f"not separable: {', '.join(ambiguous[0][1])}"
+        return
+    left = [row.residual_force_mean_N for row in recording.sub_models if row.residual_force_mean_N is not None]
+    if left:
+        yield f"force that the contacts leave unexplained: at most {amount(max(left), 'N')} in the mean of an interval"
+    elif recording.left_out:
+        yield recording.left_out[0]

@@ -240,9 +240,6 @@ def _source(
 def frames_of_patches(experiment: Experiment) -> tuple[PatchFrames, ...]:
     """Read what the patches say over the whole recording: their rest is at its beginning.
 
-    Args:
-        experiment: The experiment.
-
     Returns:
         Contacts of every patch that has a table; none where there is no skin.
     """
@@ -340,9 +337,6 @@ def with_skin(plain: Estimates, uncertain: UncertainEstimates) -> Estimates:
 
 def clock_stream(experiment: Experiment) -> Stream:
     """Give the stream at whose instants is estimated.
-
-    Args:
-        experiment: The experiment.
 
     Returns:
         The stream of the first sensor, or of the first patch where there is none.

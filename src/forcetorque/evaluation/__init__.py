@@ -7,14 +7,17 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.acceptance.acceptance import accept
-    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-    from forcetorque.evaluation.commands import compare, evaluate, validate
-    from forcetorque.evaluation.evaluation import Evaluation
-    from forcetorque.evaluation.load_cases.verdict import use_verdicts
-    from forcetorque.evaluation.sphere.sphere import spheres, spheres_of_sensors
-    from forcetorque.evaluation.validation.validation import Validation
-    from forcetorque.experiment.calibrations_under_test import wrench_errors
+    from forcetorque.evaluation.acceptance.acceptance import accept as accept
+    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance as read_acceptance
+    from forcetorque.evaluation.commands import compare as compare
+    from forcetorque.evaluation.commands import evaluate as evaluate
+    from forcetorque.evaluation.commands import validate as validate
+    from forcetorque.evaluation.evaluation import Evaluation as Evaluation
+    from forcetorque.evaluation.load_cases.verdict import use_verdicts as use_verdicts
+    from forcetorque.evaluation.sphere.sphere import spheres as spheres
+    from forcetorque.evaluation.sphere.sphere import spheres_of_sensors as spheres_of_sensors
+    from forcetorque.evaluation.validation.validation import Validation as Validation
+    from forcetorque.experiment.calibrations_under_test import wrench_errors as wrench_errors
 
 CAPABILITY = Capability(
     page="evaluation/use.md",
@@ -36,21 +39,7 @@ CAPABILITY = Capability(
     ),
 )
 
-__all__ = [
-    "Evaluation",
-    "Validation",
-    "accept",
-    "compare",
-    "evaluate",
-    "read_acceptance",
-    "spheres",
-    "spheres_of_sensors",
-    "use_verdicts",
-    "validate",
-    "wrench_errors",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Evaluation": "forcetorque.evaluation.evaluation",

@@ -12,9 +12,11 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.means import joined_times
+from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
     PriorComparison,
+    errors_by_component,
     fewest_independent,
     prior_comparison_text,
     prior_comparisons,
@@ -26,10 +28,10 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import (
     CalibrationUnderTest,
     EvaluatedRow,
-    EvaluatedWrenches,
     wrench_errors,
 )
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import (
     SamplesOutside,
@@ -106,9 +108,6 @@ def _unmeasured_headings(components: Collection[str]) -> frozenset[str]:
 
 def smoothing_text(run: SensorRun) -> str:
     """Say whether reading and reference are smoothed before they are compared.
-
-    Args:
-        run: The sensor.
 
     Returns:
         The words.
@@ -293,7 +292,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
         with campaign.stated(run):
             for name, calibration in calibrations.items():
                 require_unseen(name, calibration, run)
-            wrenches[campaign.recording(run)] = run.judged(calibrations)
+            wrenches[campaign.recording(run)] = evaluated_wrenches(run, calibrations)
         doubts = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
         doubts += circular_loads(run)
         warnings += (
@@ -305,13 +304,13 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
     # a single recording is not copied: the last bits of a mean depend on how its numbers lie in memory
     several = len(wrenches) > 1
     first = next(iter(wrenches.values()))
-    reference = np.concatenate([judged.reference for judged in wrenches.values()]) if several else first.reference
-    load = np.concatenate([judged.load for judged in wrenches.values()]) if several else first.load
+    reference = concatenated([judged.reference for judged in wrenches.values()]) if several else first.reference
+    load = concatenated([judged.load for judged in wrenches.values()]) if several else first.load
     time_s = joined_times([judged.time_s for judged in wrenches.values()]) if several else first.time_s
     for measured in zip(*(judged.with_either_offset() for judged in wrenches.values()), strict=True):
         candidate, offset, wrench = measured[0]
         if several:
-            wrench = np.concatenate([wrench for _, _, wrench in measured])
+            wrench = concatenated([wrench for _, _, wrench in measured])
         verdicts.append(_errors(campaign, candidate, offset, (wrench, reference, load), time_s, calibrations))
         if len(campaign.runs) == 1:
             continue
@@ -333,9 +332,6 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
 
 def at_rest(verdicts: Sequence[CalibrationErrors]) -> tuple[str, ...]:
     """Say where the loads hardly moved while errors were measured.
-
-    Args:
-        verdicts: The errors.
 
     Returns:
         A sentence per sensor where it is so: all its candidates are evaluated on the same samples.
@@ -375,7 +371,7 @@ def _errors(
         moment_error_standard_error_Nm=finite_or_none(errors.moment_mean_error),
         moment_error_half_width_95_Nm=finite_or_none(errors.moment_mean_half_width),
         moment_error_largest_Nm=errors.moment_largest,
-        independent=fewest_independent(wrench - reference, time_s),
+        independent=fewest_independent(errors_by_component(wrench, reference), time_s),
         excitation_N=moved_N,
         excitation_Nm=moved_Nm,
         load_N=load_N,

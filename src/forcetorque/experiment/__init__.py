@@ -6,19 +6,12 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.experiment.campaign import Campaign
-    from forcetorque.experiment.experiment import Experiment
-    from forcetorque.experiment.loading import load_experiment
-    from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.experiment.campaign import Campaign as Campaign
+    from forcetorque.experiment.experiment import Experiment as Experiment
+    from forcetorque.experiment.loading import load_experiment as load_experiment
+    from forcetorque.experiment.sensor_run import SensorRun as SensorRun
 
-__all__ = [
-    "Campaign",
-    "Experiment",
-    "SensorRun",
-    "load_experiment",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Campaign": "forcetorque.experiment.campaign",

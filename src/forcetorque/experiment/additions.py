@@ -130,9 +130,6 @@ ADDED = {"clock", "transformed", "fixed_joint", "corrected_robot", "stated_rate"
 def added_to(recording: Recording) -> tuple[str, ...]:
     """Say what an experiment file adds to its log.
 
-    Args:
-        recording: The recording.
-
     Returns:
         A sentence for every clock, frame, joint, rate or line.
     """

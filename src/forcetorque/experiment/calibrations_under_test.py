@@ -12,10 +12,12 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, ShapeError
-from forcetorque.base.noise.means import mean_error
+from forcetorque.base.noise.means import mean_error_of_parts, window_for
+from forcetorque.base.rows_on_disk import in_blocks
+from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.experiment.validation_offset import Offset, mean_offset
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.table import Row, Shown
 
 
@@ -71,25 +73,38 @@ def wrench_errors(measured: Any, reference: Any, time_s: Any) -> WrenchErrors:
     first, second = np.asarray(measured, dtype=np.float64), np.asarray(reference, dtype=np.float64)
     if first.ndim != 2 or first.shape[1] != 6 or first.shape != second.shape or not len(first):
         raise ShapeError(f"expected measured and reference of one shape (n, 6), got {first.shape} and {second.shape}")
-    error = first - second
-    absolute = np.abs(error)
-    force, moment = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
-    known = mean_error(np.column_stack([absolute, force, moment]), time_s)
+    time = np.asarray(time_s, dtype=np.float64)
+    require_shape(time, name="time_s", shape=(len(first),))
+    total, largest = np.zeros(20), np.zeros(8)
+
+    def sizes() -> Iterator[tuple[FloatArray, FloatArray]]:
+        nonlocal total, largest
+        for at_s, one, other in in_blocks(time, first, second):
+            error = one - other
+            absolute = np.abs(error)
+            norms = [np.linalg.norm(error[:, axes], axis=1) for axes in FORCE_AND_MOMENT]
+            sums = error.sum(axis=0), (error**2).sum(axis=0), absolute.sum(axis=0), [norm.sum() for norm in norms]
+            total = total + np.concatenate(sums)
+            largest = np.maximum(largest, [*absolute.max(axis=0), *(norm.max() for norm in norms)])
+            yield at_s, np.column_stack([absolute, *norms])
+
+    known = mean_error_of_parts(sizes(), window_for(time))
+    bias, square, mean = np.split(total / len(first), [6, 12])
     return WrenchErrors(
-        count=len(error),
-        bias=error.mean(axis=0),
-        rmse=np.sqrt((error**2).mean(axis=0)),
-        largest=absolute.max(axis=0),
-        mean_absolute=absolute.mean(axis=0),
+        count=len(first),
+        bias=bias,
+        rmse=np.sqrt(square),
+        largest=largest[:6],
+        mean_absolute=mean[:6],
         mean_absolute_error=known.standard_error[:6],
-        force_mean=float(force.mean()),
+        force_mean=float(mean[6]),
         force_mean_error=float(known.standard_error[6]),
         force_mean_half_width=float(known.half_width[6]),
-        force_largest=float(force.max()),
-        moment_mean=float(moment.mean()),
+        force_largest=float(largest[6]),
+        moment_mean=float(mean[7]),
         moment_mean_error=float(known.standard_error[7]),
         moment_mean_half_width=float(known.half_width[7]),
-        moment_largest=float(moment.max()),
+        moment_largest=float(largest[7]),
     )
 
 
@@ -114,20 +129,6 @@ def errors_from_zero(wrenches: Any, time_s: Any) -> WrenchErrors:
     if not complete.any():
         raise ShapeError(f"wrenches: expected at least one sample without a gap, got none among {len(samples)}")
     return wrench_errors(samples[complete], np.zeros((int(complete.sum()), 6)), time[complete])
-
-
-def offset_removed(measured: Any, reference: Any) -> FloatArray:
-    """Re-estimate the offset on the evaluated samples themselves: what is left is the matrix's doing.
-
-    Args:
-        measured: Wrenches of the sensor; shape (n, 6); N, N m.
-        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
-
-    Returns:
-        Measured wrenches moved by one constant so that their mean error is zero; shape (n, 6).
-    """
-    first = np.asarray(measured, dtype=np.float64)
-    return first + mean_offset(np.asarray(reference, dtype=np.float64) - first)
 
 
 PRIOR = "prior"
@@ -289,39 +290,3 @@ def _got(given: Any) -> str:
     if isinstance(given, str | Path):
         return f"got {str(given)!r}; read_calibration({str(given)!r}) reads a file"
     return f"got a {type(given).__name__}"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvaluatedWrenches:
-    """Wrenches of every candidate at the same n instants, intervals in the order of time."""
-
-    time_s: FloatArray
-    """Instants since the start of the recording; shape (n,); s."""
-    load: FloatArray
-    """What mechanics demands, in the sensor's frame and direction; shape (n, 6); N, N m."""
-    reference: FloatArray
-    """The same with zeros for components that the sensor does not measure; shape (n, 6); N, N m."""
-    measured: tuple[tuple[str, FloatArray], ...]
-    """Name of every candidate, and what it measures with the offset of the fitted data; shape (n, 6); N, N m.
-
-    Pairs, because a calibration may be called `prior` too.
-    """
-    intervals: tuple[tuple[str, slice], ...]
-    """Label of every interval, and which of the instants are its."""
-    candidates: tuple[CalibrationUnderTest, ...]
-    """The same candidates: how each reads the sensor, and which prior it is to be compared with."""
-
-    @property
-    def priors(self) -> dict[str, str]:
-        """Name of the prior that each calibration is to be compared with, also one that it shares with others."""
-        return {candidate.name: candidate.prior for candidate in self.candidates if candidate.prior is not None}
-
-    def with_either_offset(self) -> Iterator[tuple[CalibrationUnderTest, Offset, FloatArray]]:
-        """Give what every candidate measures, with its own offset and with that of the evaluated samples.
-
-        Yields:
-            Candidate, offset and wrenches; shape (n, 6); N, N m.
-        """
-        for candidate, (_, wrench) in zip(self.candidates, self.measured, strict=True):
-            yield candidate, candidate.offset(Offset.FITTED), wrench
-            yield candidate, Offset.JUDGED_MEAN, offset_removed(wrench, self.reference)

@@ -107,9 +107,6 @@ class Campaign:
     def recording(self, run: SensorRun) -> str:
         """Name the recording of one of the runs.
 
-        Args:
-            run: The run.
-
         Returns:
             Its name, unique in the campaign.
         """
@@ -141,9 +138,6 @@ class Campaign:
 
     def runs_with(self, use: Use) -> tuple[SensorRun, ...]:
         """Give the runs that have an interval of a use.
-
-        Args:
-            use: The use.
 
         Returns:
             Those runs; the first where there is none, which says itself what it lacks when it is asked.

@@ -57,9 +57,6 @@ class CampaignRecording:
     def of(cls, run: SensorRun) -> Self:
         """Take from a run what is not samples.
 
-        Args:
-            run: The sensor.
-
         Returns:
             The same about it.
         """
@@ -105,9 +102,6 @@ def require_one_sensor(recordings: Sequence[CampaignRecording]) -> None:
     """Refuse to pool the data of different sensors, or of one sensor that was read in different ways.
 
     The robot may be another: a tool that was changed is another URDF.
-
-    Args:
-        recordings: The recordings.
 
     Raises:
         ExperimentError: If they are not of one sensor that was mounted, described and read in one way.
@@ -229,9 +223,6 @@ class CampaignNames:
     def __init__(self, recordings: Sequence[CampaignRecording]) -> None:
         """Name what several recordings hold.
 
-        Args:
-            recordings: The recordings.
-
         Raises:
             ExperimentError: If they are not of one sensor, mounted, described and read in one way, or a file comes
                 twice.
@@ -245,10 +236,6 @@ class CampaignNames:
     def label(self, recording: CampaignRecording, label: str) -> str:
         """Name an interval.
 
-        Args:
-            recording: Its recording.
-            label: Its label.
-
         Returns:
             The label, with the file in front where several recordings use it.
         """
@@ -256,9 +243,6 @@ class CampaignNames:
 
     def recording(self, recording: CampaignRecording) -> str:
         """Name a recording.
-
-        Args:
-            recording: The recording.
 
         Returns:
             The name of its experiment, with the file where that is the name of another recording or session too.
@@ -279,10 +263,6 @@ class CampaignNames:
 
     def intervals(self, recording: CampaignRecording, parts: Sequence[IntervalSamples]) -> list[CampaignInterval]:
         """Name the samples of one recording.
-
-        Args:
-            recording: The recording.
-            parts: Samples of its intervals.
 
         Returns:
             The same with names.
@@ -312,9 +292,6 @@ class CampaignNames:
 def joined_inputs(recordings: Sequence[CampaignRecording]) -> dict[str, str]:
     """Put the input files of several recordings together.
 
-    Args:
-        recordings: The recordings.
-
     Returns:
         SHA-256 of every input file, by its path as the experiment names it, with the experiment's folder in front.
     """
@@ -327,10 +304,6 @@ def joined_inputs(recordings: Sequence[CampaignRecording]) -> dict[str, str]:
 
 def joined_sphere(recordings: Sequence[CampaignRecording], names: CampaignNames) -> tuple[str, ...] | None:
     """Put together what the files say about the sphere of the sphere types.
-
-    Args:
-        recordings: The recordings.
-        names: Their names.
 
     Returns:
         Labels of the intervals that draw it; None if no file names any.

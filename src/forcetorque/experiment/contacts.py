@@ -81,10 +81,6 @@ def _touched_beside(
 def contact_in_words(text: str, model: RobotModel) -> ExperimentContact:
     """Understand a contact as the command line has it: `FRAME`, `FRAME:TYPE` or `FRAME:force_along:x,y,z`.
 
-    Args:
-        text: The words.
-        model: The robot.
-
     Returns:
         The contact, at the origin of the frame and in all intervals.
 

@@ -155,9 +155,6 @@ class ExperimentSensor:
     def variable(self, name: str) -> SensorVariable:
         """Find a linear variable of the sensor.
 
-        Args:
-            name: Its name.
-
         Returns:
             The variable.
 
@@ -289,9 +286,6 @@ class Experiment:
     def section(self, section: Section[Any, Content]) -> Content:
         """Give the content of a section of the file.
 
-        Args:
-            section: The section.
-
         Returns:
             What was read of it; what stands for none where the file does not have it.
         """
@@ -383,9 +377,6 @@ class Experiment:
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use.
-
-        Args:
-            use: The use.
 
         Returns:
             Intervals in the order of the file.

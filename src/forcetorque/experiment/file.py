@@ -43,11 +43,7 @@ class MountToleranceTable(Table):
     """Of the shift of its origin along each axis; m."""
 
     def mount_tolerance(self) -> MountTolerance:
-        """Give the same in SI units.
-
-        Returns:
-            The tolerance.
-        """
+        """Give the same in SI units."""
         rotation = None if self.mount_deg is None else float(np.radians(self.mount_deg))
         return MountTolerance(rotation_rad=rotation, shift_m=self.mount_m)
 
@@ -262,9 +258,6 @@ class ExperimentFile(Table):
 
     def table(self, section: Section[Content, Any]) -> Content:
         """Give the table of a section.
-
-        Args:
-            section: The section.
 
         Returns:
             What the file says, or the default.

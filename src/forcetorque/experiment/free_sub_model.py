@@ -232,9 +232,6 @@ class FreeSubModel:
     def seen_from_support(self, interval: Interval) -> ContactForceValidation:
         """Find the sub-model in an interval.
 
-        Args:
-            interval: The interval.
-
         Returns:
             The sub-model, seen from the support.
 
@@ -275,9 +272,6 @@ class FreeSubModel:
 
 def possible_touch(run: SensorRun) -> str | None:
     """Report a contact of the file that would be beyond a sensor which is fitted as if nothing touched.
-
-    Args:
-        run: The sensor.
 
     Returns:
         A sentence about its calibration intervals; None if there is no such contact.

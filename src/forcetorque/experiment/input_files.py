@@ -49,9 +49,6 @@ class Inputs:
     def of(cls, file: Path) -> Self:
         """Begin with an experiment file, which is the first input.
 
-        Args:
-            file: The file.
-
         Returns:
             Its inputs so far.
         """
@@ -267,9 +264,6 @@ def recording_name(experiment: str, file: str) -> str:
 def path_endings(file: Path) -> list[str]:
     """Give the ends of a path: the stem of the file with more and more folders in front.
 
-    Args:
-        file: The file.
-
     Returns:
         The ends, shortest first.
     """
@@ -295,9 +289,6 @@ def file_of_each(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:
 
 def distinct_files(files: Sequence[Path]) -> dict[Path, str]:
     """Name every file by its stem, with as many folders in front as tell all of them apart.
-
-    Args:
-        files: The files.
 
     Returns:
         Names by file.

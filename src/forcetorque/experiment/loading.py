@@ -30,17 +30,24 @@ from forcetorque.experiment.core_tables import (
     processing_of,
 )
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, Role, SensorVariable
-from forcetorque.experiment.file import ExperimentFile, Robot, experiment_file, parse_experiment, section_fields
-from forcetorque.experiment.file import Support as SupportTable
+from forcetorque.experiment.file import (
+    ExperimentFile,
+    Robot,
+    experiment_file,
+    parse_experiment,
+    section_fields,
+)
+from forcetorque.experiment.file import (
+    Support as SupportTable,
+)
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.kept_experiments import keep_experiment
-from forcetorque.experiment.robot_model import read_robot
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensors import full_scale_of, read_prior, read_sensors
-from forcetorque.experiment.streams import read_streams
+from forcetorque.experiment.streams import read_robot, read_streams
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support, Use
 from forcetorque.robot.mechanics.samples import Processing

@@ -5,30 +5,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.errors import RecordingError
-from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
 from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.sample_quality import dropped_in
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
-from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts
-from forcetorque.recording.recording import Finding, Interval, Use
+from forcetorque.recording.frozen_and_saturated_samples import SampleQuality
+from forcetorque.recording.recording import Finding, Use
 from forcetorque.recording.segments import Segment, segments_of
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 SEGMENT_S: Final = 1800.0
 """Length of a segment: long against what is done once in each, and small in memory; s."""
 _LEAST_MARGIN_S, _WINDOWS = 10.0, 4.0
 """Samples around a segment: at least these seconds, and so many of the longest windows of filters."""
-_WINDOW_NS, _ROUNDING_NS = round(WINDOW_S * 1e9), round(WINDOW_S * WINDOW_ROUNDING * 1e9)
-"""Length of a window of means, and how far before its start a sample may be; ns."""
-
 _GOES_ON: Final = " (in one segment; it goes on in the next)"
 
 
@@ -52,6 +46,54 @@ def recorded_segments(experiment: Experiment, *, length_s: float | None = None) 
     return segments_of(experiment.recording, length_s=longest_s, margin_s=max(_LEAST_MARGIN_S, _WINDOWS * max(windows)))
 
 
+def is_long(run: SensorRun) -> bool:
+    """Tell whether a recording is reduced segment by segment.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        Whether it is.
+    """
+    return len(segments_of_run(run)) > 1
+
+
+def segments_of_run(run: SensorRun) -> list[Segment]:
+    """Divide the recording of a sensor, once.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        As of `recorded_segments`.
+    """
+    return run.once("segments", lambda: recorded_segments(run.experiment))
+
+
+def segment_runs(run: SensorRun) -> Iterator[SensorRun]:
+    """Give a sensor in one segment of its recording after the other, and let go of the memory of each.
+
+    After the last the recording knows which samples say nothing of the load.
+
+    Args:
+        run: The sensor, of which no samples are computed.
+
+    Yields:
+        The sensor in every segment, which is not to be kept.
+    """
+    segments = segments_of_run(run)
+    qualities = []
+    forget_recording(run.experiment)  # which was looked at as it was read
+    for segment in segments:
+        experiment = replace(run.experiment, recording=segment.recording)
+        shared = SharedWrenches(experiment.recording, {run.sensor.name: run.sensor.stream})
+        yield SensorRun(experiment, run.sensor, shared=shared)
+        qualities.append(sample_quality(experiment, run.sensor))
+        del experiment, shared
+        forget_recording(run.experiment)
+    _keep_quality(run, segments, qualities)
+
+
 def first_segment(run: SensorRun, use: Use) -> SensorRun:
     """Give a sensor in the first segment of its recording that has a part of an interval of a use.
 
@@ -62,21 +104,15 @@ def first_segment(run: SensorRun, use: Use) -> SensorRun:
     Returns:
         The sensor in that segment; itself where the recording is not long.
     """
-    segments = recorded_segments(run.experiment)
+    segments = segments_of_run(run)
     if len(segments) == 1:
         return run
     parts = (SensorRun(replace(run.experiment, recording=one.recording), run.sensor) for one in segments)
     return next((part for part in parts if part.has(use)), run)
 
 
-def keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequence[SampleQuality]) -> None:
-    """Let the recording know which samples of a sensor say nothing of its load, as its segments showed.
-
-    Args:
-        run: The sensor in the whole recording.
-        segments: The segments.
-        qualities: What is wrong with each sample of its stream in every segment.
-    """
+def _keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequence[SampleQuality]) -> None:
+    """Let the recording know which samples of a sensor say nothing of its load, as its segments showed."""
     stamps, name = run.stream.stamp_ns, run.sensor.stream
     marks = {kind: np.zeros(len(stamps), dtype=bool) for kind in ("frozen", "saturated", "repeated")}
     for segment, quality in zip(segments, qualities, strict=True):
@@ -92,11 +128,7 @@ def keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequenc
 
 
 def forget_recording(experiment: Experiment) -> None:
-    """Let go of the memory that streams take which are mapped from files.
-
-    Args:
-        experiment: The experiment.
-    """
+    """Let go of the memory that streams take which are mapped from files."""
     for stream in experiment.recording.streams.values():
         forget_pages([stream.stamp_ns, *(signal.values for signal in stream.signals.values())])
 
@@ -171,69 +203,3 @@ def share_of_segments(count: int, segments: int) -> str:
         The end of a message; empty where it was in all.
     """
     return "" if count == segments else f" (in {count} of {segments} segments of {SEGMENT_S / 60.0:g} min)"
-
-
-class IntervalParts:
-    """Samples of the intervals of one use, segment by segment, and what was lost of them."""
-
-    def __init__(self, run: SensorRun, use: Use) -> None:
-        """Begin.
-
-        Args:
-            run: The sensor in the whole recording, of which no samples are computed.
-            use: Use of the intervals.
-        """
-        self._run, self._use = run, use
-        self._errors: dict[str, RecordingError] = {}  # the first of every interval
-        self._seen: set[str] = set()
-        self._whole: dict[str, tuple[Interval, int]] = {}  # with the stamp of its first sample
-        self.lost: dict[str, list[tuple[int, UnusableCounts]]] = {}
-        """Samples of parts without one that can be used, by the label of the interval."""
-
-    def of(self, run: SensorRun, variables: Sequence[str]) -> Iterator[IntervalSamples]:
-        """Give the samples of the parts that lie in a segment, without those in which the log has none.
-
-        Args:
-            run: The sensor in the segment.
-            variables: Names of the linear variables that are wanted.
-
-        Yields:
-            The samples of each.
-        """
-        for interval in run.intervals(self._use) if run.has(self._use) else ():
-            interval, origin_s = self._between_windows(interval)
-            try:
-                samples = run.interval_samples(interval, variables=variables)
-            except RecordingError as error:
-                self._errors.setdefault(interval.label, error)
-                with suppress(RecordingError):  # no sample at all
-                    lost = dropped_in(run.experiment, run.sensor, interval)
-                    self.lost.setdefault(interval.label, []).append(lost)
-            else:
-                self._seen.add(interval.label)
-                yield replace(samples, origin_s=origin_s)
-
-    def _between_windows(self, part: Interval) -> tuple[Interval, float]:
-        """A part that ends where windows of the whole interval end, and the start of one of these; s."""
-        if part.label not in self._whole:
-            (whole,) = (one for one in self._run.intervals(self._use) if one.label == part.label)
-            stamps = self._run.stream.stamp_ns
-            self._whole[part.label] = whole, int(stamps[np.argmax(whole.holds(stamps))])
-        whole, first_ns = self._whole[part.label]
-
-        def border(near_ns: int) -> int:
-            return min(near_ns + (first_ns - near_ns) % _WINDOW_NS - _ROUNDING_NS, whole.end_ns)
-
-        start_ns = border(part.start_ns) if part.start_ns > whole.start_ns else part.start_ns
-        end_ns = border(part.end_ns) if part.end_ns < whole.end_ns else part.end_ns
-        return replace(part, start_ns=start_ns, end_ns=end_ns), first_ns * 1e-9
-
-    def require(self) -> None:
-        """Refuse intervals without a sample in any segment, as in a recording that is reduced as a whole.
-
-        Raises:
-            RecordingError: The first reason.
-        """
-        for interval in self._run.intervals(self._use):
-            if (label := interval.label) not in self._seen:
-                raise self._errors.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")

@@ -219,10 +219,6 @@ def with_policy(
 def labelled(experiment: Experiment, label: str | None) -> Interval:
     """Find an interval by its label.
 
-    Args:
-        experiment: The experiment.
-        label: The label.
-
     Returns:
         The interval.
 
@@ -237,10 +233,6 @@ def labelled(experiment: Experiment, label: str | None) -> Interval:
 
 def refuse_touched(run: SensorRun, interval: Interval) -> None:
     """Refuse an interval in which nobody knows what a sensor must read.
-
-    Args:
-        run: The sensor.
-        interval: The interval.
 
     Raises:
         ExperimentError: If something touches beyond the sensor.

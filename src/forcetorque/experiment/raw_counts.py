@@ -56,9 +56,6 @@ class RawCounts(ArrayRecord):
 def raw_counts(run: SensorRun) -> RawCounts:
     """Collect the raw readings of a sensor over all intervals that are not ignored.
 
-    Args:
-        run: The sensor.
-
     Returns:
         Its readings.
 
@@ -204,9 +201,6 @@ def interval_qualities(run: SensorRun, intervals: Iterable[Interval]) -> tuple[I
 
 def has_counts(sensor: ExperimentSensor) -> bool:
     """Tell whether the raw readings of a sensor are counts.
-
-    Args:
-        sensor: The sensor.
 
     Returns:
         False where the logged wrench takes their place.

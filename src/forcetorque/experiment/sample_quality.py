@@ -52,10 +52,6 @@ def sample_quality(experiment: Experiment, sensor: ExperimentSensor) -> SampleQu
     Frozen are runs of equal readings in all channels of over 0.5 s that the noise of the log does not let happen, or
     during which the wrench that the robot model expects moves.
 
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
-
     Returns:
         What is wrong with each sample of its stream.
     """
@@ -66,10 +62,6 @@ def sample_quality(experiment: Experiment, sensor: ExperimentSensor) -> SampleQu
 
 def usable_readings(experiment: Experiment, sensor: ExperimentSensor) -> FloatArray:
     """Give what a sensor logged, without the samples that say nothing of its load.
-
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
 
     Returns:
         As logged, NaN where a sample is missing or unusable; shape (n, c); counts, or N and N m.
@@ -116,10 +108,6 @@ def dropped_in(experiment: Experiment, sensor: ExperimentSensor, interval: Inter
 
 def counts_of(sensor: ExperimentSensor, stream: Stream) -> FloatArray | None:
     """Give the raw counts of a sensor, as logged or recovered through its prior.
-
-    Args:
-        sensor: The sensor.
-        stream: Its stream.
 
     Returns:
         Counts; shape (n, c); None where the logged wrench takes their place.

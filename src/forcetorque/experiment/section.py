@@ -88,9 +88,6 @@ class Section(Generic[TableT, ContentT]):
     def gives_forces(self, table: TableT) -> bool:
         """Say whether contact forces follow from the table without force-torque sensors.
 
-        Args:
-            table: The table.
-
         Returns:
             Whether they do.
         """
@@ -98,9 +95,6 @@ class Section(Generic[TableT, ContentT]):
 
     def loaded_links(self, table: TableT) -> frozenset[str]:
         """Name links whose inertia is not that of the URDF.
-
-        Args:
-            table: The table.
 
         Returns:
             Links, or the frame of a sensor in place of a robot, that carry a load.

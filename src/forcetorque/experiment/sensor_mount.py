@@ -39,9 +39,6 @@ class SensorMount(StoredTable):
     def of(cls, estimate: MountEstimate) -> SensorMount:
         """Take an estimate.
 
-        Args:
-            estimate: The estimate.
-
         Returns:
             The mount with its intervals.
         """

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.experiment.calibration.artefact import Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
@@ -147,9 +148,6 @@ class Correction:
     def without_offset(cls, sensor: ExperimentSensor) -> Self:
         """Read by the prior of the experiment, or take the logged wrench, with whatever offset it has.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             The correction.
 
@@ -215,6 +213,16 @@ class Readings:
         """
         variables = {name: values[chosen] for name, values in self.variables.items()}
         return replace(self, logged=self.logged[chosen], raw=self.raw[chosen], variables=variables)
+
+    def blocks(self) -> Iterator[Self]:
+        """Give the readings block by block.
+
+        Yields:
+            As `in_blocks`.
+        """
+        for logged, raw, *values in in_blocks(self.logged, self.raw, *self.variables.values()):
+            variables = dict(zip(self.variables, values, strict=True))
+            yield replace(self, logged=logged, raw=raw, variables=variables)
 
     def wrench(self, correction: Correction) -> FloatArray:
         """Read the sensor.

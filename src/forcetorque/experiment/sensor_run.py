@@ -8,7 +8,7 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, require_shape
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -16,7 +16,6 @@ from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibrations_under_test import (
     PRIOR,
     CalibrationUnderTest,
-    EvaluatedWrenches,
     tested_calibrations,
 )
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
@@ -24,7 +23,6 @@ from forcetorque.experiment.experiment import Experiment, ExperimentContact, Exp
 from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at
 from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over, samples_over
 from forcetorque.experiment.validation_offset import EvaluatedInstants, mean_offset
-from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
@@ -55,7 +53,6 @@ class SensorRun:
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
         self._samples: dict[tuple[Hashable, tuple[str, ...], bool], IntervalSamples] = {}
-        self._judged: dict[Hashable, EvaluatedWrenches] = {}
         self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
 
     def __repr__(self) -> str:
@@ -87,9 +84,6 @@ class SensorRun:
     def has(self, use: Use) -> bool:
         """Tell whether the recording has an interval of a use in which it is known what the sensor must read.
 
-        Args:
-            use: The use.
-
         Returns:
             Whether it has.
         """
@@ -100,9 +94,6 @@ class SensorRun:
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use in which it is known what the sensor must read.
-
-        Args:
-            use: The use.
 
         Returns:
             Intervals in the order of time.
@@ -115,9 +106,6 @@ class SensorRun:
         Where the support stands still a contact is one that may come, such as a hand; where it moves, with an IMU, the
         robot stands on what the file names.
 
-        Args:
-            interval: An interval.
-
         Returns:
             Names of contacts; none where mechanics says what the sensor must read.
         """
@@ -129,9 +117,6 @@ class SensorRun:
 
     def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
         """Name the contacts beyond the sensor that may come while the support stands still.
-
-        Args:
-            interval: An interval.
 
         Returns:
             Names of contacts; none where the support moves, since there they are `touched_beyond`.
@@ -243,9 +228,6 @@ class SensorRun:
 
     def instants(self, interval: Interval) -> EvaluatedInstants:
         """Give the instants at which the sensor is evaluated in an interval.
-
-        Args:
-            interval: The interval.
 
         Returns:
             Instants of all its samples, and those around it that the filter of the experiment takes.
@@ -371,7 +353,7 @@ class SensorRun:
             SerialNumberError: If a calibration is of another sensor.
             ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
         """
-        return self.once(("candidates", _names(calibrations)), lambda: self._candidates(calibrations))
+        return self.once(("candidates", calibrations_key(calibrations)), lambda: self._candidates(calibrations))
 
     def _candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[CalibrationUnderTest, ...]:
         if not calibrations:
@@ -379,49 +361,6 @@ class SensorRun:
         for name, calibration in calibrations.items():
             self.require_fit(name, calibration)
         return tested_calibrations(calibrations)
-
-    def judged(self, calibrations: Mapping[str, Calibration]) -> EvaluatedWrenches:
-        """Read the sensor by every candidate on the validation intervals.
-
-        Args:
-            calibrations: Calibrations of the sensor by name.
-
-        Returns:
-            Wrenches of all candidates on the samples that have all variables which any of them needs, and the
-            reference.
-
-        Raises:
-            SerialNumberError: If a calibration is of another sensor.
-            ExperimentError: If the robot now reads the sensor in another frame or sign.
-            ShapeError: If a matrix does not have one column per channel of the sensor.
-        """
-        key = _names(calibrations)
-        if key not in self._judged:
-            self._judged[key] = self._judged_wrenches(calibrations)
-        return self._judged[key]
-
-    def _judged_wrenches(self, calibrations: Mapping[str, Calibration]) -> EvaluatedWrenches:
-        candidates = self.candidates(calibrations)
-        needed = {name for candidate in candidates for name in candidate.correction.variables}
-        parts = [self.interval_samples(interval, variables=needed) for interval in self.intervals(Use.VALIDATION)]
-        spans = [(part.interval, part.readings) for part in parts]
-        for candidate in candidates:
-            matrix = candidate.correction.model.matrix
-            require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, self.channels))
-        stamps = np.concatenate([part.samples.stamp_ns for part in parts])
-        ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
-        load = np.concatenate([part.samples.reference for part in parts])
-        return EvaluatedWrenches(
-            time_s=seconds_since(stamps, self.experiment.recording.start_ns),
-            load=load,
-            reference=self.sensor.expected_reading(load),
-            measured=tuple((candidate.name, self.read(spans, candidate.correction)) for candidate in candidates),
-            intervals=tuple(
-                (part.interval.label, slice(start, end))
-                for part, start, end in zip(parts, [0, *ends], ends, strict=False)
-            ),
-            candidates=candidates,
-        )
 
     def require_fit(self, name: str, calibration: Calibration) -> None:
         """Refuse a calibration of another sensor, or of one that is read in another way.
@@ -467,7 +406,15 @@ def _key(interval: Interval) -> Hashable:
     return interval.label, interval.start_ns, interval.end_ns
 
 
-def _names(calibrations: Mapping[str, Calibration]) -> Hashable:
+def calibrations_key(calibrations: Mapping[str, Calibration]) -> Hashable:
+    """Give a key by which the same calibrations under the same names are known again.
+
+    Args:
+        calibrations: Calibrations by name.
+
+    Returns:
+        The key.
+    """
     return tuple((name, _Same(calibration)) for name, calibration in calibrations.items())
 
 

@@ -69,7 +69,10 @@ class LoggedReadings:
 
 def _logged(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> FloatArray:
     stream = experiment.recording.stream(sensor.stream)
-    return stream.signal(sensor.quantity).values[interval.holds(stream.stamp_ns)]
+    values, inside = stream.signal(sensor.quantity).values, interval.holds(stream.stamp_ns)
+    first, count = int(inside.argmax()) if len(inside) else 0, int(np.count_nonzero(inside))
+    # a slice is no copy; stamps may step back
+    return values[first : first + count] if inside[first : first + count].all() else values[inside]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -142,7 +145,7 @@ def samples_over(
             "mount = { rotation_deg = [...], shift_mm = [...] }, which `forcetorque calibrate` estimates and prints"
         )
     # one interval is asked for after the other: together they may be worth the compiled evaluator
-    evaluator = evaluator_of_samples(_samples_with_support(recording, sensor.stream))
+    evaluator = evaluator_of_samples(_samples_with_support(recording, sensor.stream), expected_only=True)
     samples = sensor_samples(
         recording,
         experiment.model if interval.support is None else experiment.model_on(interval.support),
@@ -166,9 +169,14 @@ def samples_over(
 
 
 def _samples_with_support(recording: Recording, stream: str) -> int:
+    """Samples of all intervals with a support; of a segment about those of the whole recording."""
     stamps = recording.stream(stream).stamp_ns
     spans = [(one.start_ns, one.end_ns + 1) for one in recording.intervals if one.support is not None]
-    return int(np.diff(np.searchsorted(stamps, np.array(spans, dtype=np.int64).reshape(-1, 2))).sum())
+    samples = int(np.diff(np.searchsorted(stamps, np.array(spans, dtype=np.int64).reshape(-1, 2))).sum())
+    if recording.of_span_ns is None or not len(stamps):
+        return samples
+    start_ns, end_ns = recording.of_span_ns
+    return round(samples * (end_ns - start_ns) / max(int(stamps[-1] - stamps[0]), 1))
 
 
 def readings_over(

@@ -81,9 +81,6 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | No
 def measured_by(entry: Sensor) -> BoolArray:
     """Tell which components of a wrench a sensor measures.
 
-    Args:
-        entry: The sensor.
-
     Returns:
         Whether it measures each; shape (6,).
     """

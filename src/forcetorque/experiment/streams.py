@@ -1,30 +1,84 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The streams of an experiment from any log format, and what was recorded without robot or sensors.
+"""The robot of an experiment, its streams from any log format, and what was recorded without either.
 
 For `inspect`, a delay that the log does not determine is no error.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from forcetorque.base.errors import ExperimentError, MissingFileError
+from forcetorque.base.errors import ExperimentError, MissingFileError, known_names
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.additions import follow_recipes
+from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
+from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.core_tables import Sensor
 from forcetorque.experiment.file import parse_experiment
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.input_files import ExperimentContext, Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
 from forcetorque.experiment.intervals_of_files import with_intervals_of_files
-from forcetorque.experiment.robot_model import read_robot
+from forcetorque.experiment.sensors import declare_sensors
 from forcetorque.formats.array_file.log_format import array_streams
 from forcetorque.formats.array_file.streams import ArrayLog
 from forcetorque.formats.registry import not_recognised, read_log, recognised_format
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import fix_joints
 from forcetorque.robot.urdf import read_urdf
+
+
+def read_robot(
+    table: schema.Robot, sensors: Sequence[Sensor], file: Path, inputs: Inputs
+) -> tuple[RobotModel, ModelTolerance]:
+    """Read the robot of an experiment.
+
+    Args:
+        table: What the file says of it.
+        sensors: Sensors of the file.
+        file: The file, for messages.
+        inputs: Resolves and remembers the files.
+
+    Returns:
+        The robot, corrected where the file names what a calibration found of it, and how far it may be off.
+
+    Raises:
+        ExperimentError: If the tolerance names links or joints that the robot does not have.
+        RobotError: If the correction is of another robot.
+    """
+    given = inputs.in_memory.robot
+    if given is None:
+        with stated_in(f"{file}: [robot] urdf"):
+            urdf = inputs.robot(table.urdf)
+        model = read_urdf(urdf)
+    else:
+        model = given
+    with stated_in(f"{file}: robot: fixed"):
+        model = fix_joints(model, table.fixed)
+    model = declare_sensors(sensors, file, model)
+    tolerance = table.tolerance
+    if tolerance == "exact":
+        return model, EXACT
+    for key, named, known in (
+        ("links", tolerance.links, model.links),
+        ("joints", tolerance.joints, model.joints),
+        ("sensors", tolerance.sensors, model.sensors),
+    ):
+        for name in named:
+            if name not in known:
+                raise ExperimentError(
+                    f"{file}: [robot] tolerance.{key}: expected {key} of robot {model.name!r}, got {name!r}; "
+                    f"{known_names(name, known)}"
+                )
+    if tolerance.found_by is None:
+        return model, tolerance.model_tolerance({})
+    with stated_in(f"{file}: [robot] tolerance.from"):
+        errors = read_model_errors(inputs.file(tolerance.found_by))
+        corrected = robot_errors(model, errors).applied_to(model)
+    return corrected, tolerance.model_tolerance({error.name: error.standard_error for error in errors})
 
 
 def read_streams(

@@ -245,10 +245,6 @@ class EvaluatedInstants:
 def nothing_left(instants: EvaluatedInstants, interval: Interval) -> str | None:
     """Tell whether an interval is too short to be evaluated.
 
-    Args:
-        instants: Its instants.
-        interval: The interval.
-
     Returns:
         What is left out, in words; None where there are samples to evaluate.
     """

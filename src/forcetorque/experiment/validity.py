@@ -4,18 +4,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.applicability import overlapping
 from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.excitation import Extrapolation, extrapolation, predicted_error
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction, Readings
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
@@ -137,7 +139,7 @@ class AppliedReadings:
 
 
 def applied_readings(
-    calibration: Calibration, readings: Readings, sessions: Sequence[str], *, reference: FloatArray | None = None
+    calibration: Calibration, readings: Readings, sessions: Sequence[str], *, mean_error: FloatArray | None = None
 ) -> AppliedReadings:
     """Tell how far readings of one session lie outside what a calibration was fitted on.
 
@@ -148,7 +150,8 @@ def applied_readings(
         calibration: The calibration.
         readings: The readings.
         sessions: Names of their session, the most special first.
-        reference: Expected wrenches; shape (n, 6); N, N m; None where there are none.
+        mean_error: Reference less reading, mean over a session that was not fitted; shape (6,); N, N m; None where
+            there is no reference.
 
     Returns:
         The readings with what of them lies outside.
@@ -156,13 +159,13 @@ def applied_readings(
     correction = Correction.of("", calibration)
     known = any(name in correction.sessions for name in sessions)
     offset = correction.in_session(sessions).model.offset
-    if not known and reference is not None:
-        offset = offset + (reference - readings.wrench(correction)).mean(axis=0)
+    if not known and mean_error is not None:
+        offset = offset + mean_error
     columns = [readings.variables[name] for name in correction.variables]
     values = np.stack(columns, axis=-1) if columns else None
     return AppliedReadings(
         extrapolation=extrapolation(calibration, readings.raw, values, offset=offset),
-        offset_known=known or reference is not None,
+        offset_known=known or mean_error is not None,
     )
 
 
@@ -180,17 +183,31 @@ def readings_outside(runs: Runs, calibrations: Mapping[str, Calibration]) -> tup
         return ()
     campaign = Campaign.of(runs)
     needed = {variable.name for calibration in calibrations.values() for variable in calibration.variables}
-    applied: dict[str, list[AppliedReadings]] = {name: [] for name in calibrations}
-    for run in campaign.runs_with(Use.VALIDATION):
-        with campaign.stated(run):
-            for sessions, parts in _by_session(run, needed).items():
-                readings, reference = _joined([part.readings for part in parts]), _references(parts)
-                for name, calibration in calibrations.items():
-                    applied[name].append(applied_readings(calibration, readings, sessions, reference=reference))
-    return tuple(outside_row(name, calibrations[name], pieces) for name, pieces in applied.items())
+
+    def applied(calibration: Calibration) -> Iterator[AppliedReadings]:
+        for run in campaign.runs_with(Use.VALIDATION):
+            with campaign.stated(run):
+                for sessions, parts in _by_session(run, needed).items():
+                    yield from _applied(calibration, sessions, parts)
+
+    return tuple(outside_row(name, calibration, applied(calibration)) for name, calibration in calibrations.items())
 
 
-def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedReadings]) -> SamplesOutside:
+def _applied(
+    calibration: Calibration, sessions: Sequence[str], parts: Sequence[IntervalSamples]
+) -> Iterator[AppliedReadings]:
+    """Readings of one session, block by block."""
+    correction = Correction.of("", calibration)
+    total, count = np.zeros(6), 0
+    for part in parts:
+        for readings, (reference,) in zip(part.readings.blocks(), in_blocks(part.samples.reference), strict=True):
+            total, count = total + (reference - readings.wrench(correction)).sum(axis=0), count + len(reference)
+    for part in parts:
+        for readings in part.readings.blocks():
+            yield applied_readings(calibration, readings, sessions, mean_error=total / count)
+
+
+def outside_row(name: str, calibration: Calibration, applied: Iterable[AppliedReadings]) -> SamplesOutside:
     """Sum up how far readings lie outside what a calibration was fitted on.
 
     Args:
@@ -201,40 +218,43 @@ def outside_row(name: str, calibration: Calibration, applied: Sequence[AppliedRe
     Returns:
         The row.
     """
-    pieces = [piece.extrapolation for piece in applied]
-    known, outside, at_limit = (
-        np.concatenate([getattr(piece, field) for piece in pieces]) for field in ("known", "outside", "at_limit")
-    )
-    beyond, load, variables = (
-        np.concatenate([getattr(piece, field) for piece in pieces])[known] for field in ("beyond", "load", "variables")
-    )
-    chosen = outside[known]
-    error = predicted_error(calibration, load[chosen], variables[chosen]) if chosen.any() else None
-    force, force_component = _largest(beyond, 0)
-    moment, moment_component = _largest(beyond, 3)
+    samples = outside = at_limit = 0
+    offset_known = True
+    force, moment = _Largest(), _Largest()
+    ranges = _Ranges(len(calibration.variables))
+    loads, variables = [np.zeros((0, 6))], [np.zeros((0, len(calibration.variables)))]
+    for piece in applied:
+        readings, known = piece.extrapolation, piece.known
+        chosen = known & piece.outside
+        samples, outside = samples + int(known.sum()), outside + int(chosen.sum())
+        at_limit += int(readings.at_limit[known].sum())
+        loads.append(readings.load[chosen])
+        variables.append(readings.variables[chosen])
+        force.add(readings.beyond[known], 0)
+        moment.add(readings.beyond[known], 3)
+        ranges.add(readings.variables[known], readings.variables_outside[known])
+        offset_known = offset_known and piece.offset_known
+    error = predicted_error(calibration, np.concatenate(loads), np.concatenate(variables)) if outside else None
     return SamplesOutside(
         sensor=calibration.sensor.name,
         serial=calibration.sensor.serial,
         calibration=name,
-        samples=len(chosen),
-        outside=int(chosen.sum()),
-        force_N=force,
-        force_component=force_component,
-        moment_Nm=moment,
-        moment_component=moment_component,
+        samples=samples,
+        outside=outside,
+        force_N=force.size,
+        force_component=force.component,
+        moment_Nm=moment.size,
+        moment_component=moment.component,
         predicted_force_error_N=None if error is None else error[0],
         predicted_moment_error_Nm=None if error is None else error[1],
-        variables=tuple(_variables(calibration.variables, pieces, known)),
-        at_limit=int(at_limit[known].sum()),
-        offset_known=all(piece.offset_known for piece in applied),
+        variables=tuple(ranges.outside(calibration.variables)),
+        at_limit=at_limit,
+        offset_known=offset_known,
     )
 
 
 def sentences(rows: Iterable[SamplesOutside]) -> tuple[str, ...]:
     """Say which readings lie outside what was fitted.
-
-    Args:
-        rows: The rows.
 
     Returns:
         The sentences of all rows.
@@ -242,52 +262,53 @@ def sentences(rows: Iterable[SamplesOutside]) -> tuple[str, ...]:
     return tuple(sentence for row in rows for sentence in row.sentences)
 
 
-def _largest(beyond: FloatArray, first: int) -> tuple[float, str | None]:
-    part = beyond[:, first : first + 3]
-    if not part.any():
-        return 0.0, None
-    norms = np.linalg.norm(part, axis=1)
-    worst = int(norms.argmax())
-    return float(norms[worst]), WRENCH_COMPONENTS[first + int(np.abs(part[worst]).argmax())]
+class _Largest:
+    """The largest force, or moment, by which a reading lies outside, and its largest component."""
+
+    def __init__(self) -> None:
+        self.size = 0.0
+        self.component: str | None = None
+
+    def add(self, beyond: FloatArray, first: int) -> None:
+        part = beyond[:, first : first + 3]
+        if not part.any():
+            return
+        norms = np.linalg.norm(part, axis=1)
+        worst = int(norms.argmax())
+        if norms[worst] > self.size:
+            self.size = float(norms[worst])
+            self.component = WRENCH_COMPONENTS[first + int(np.abs(part[worst]).argmax())]
 
 
-def _variables(
-    variables: Sequence[CalibratedVariable], pieces: Sequence[Extrapolation], known: BoolArray
-) -> Iterator[VariableOutside]:
-    outside = np.concatenate([piece.variables_outside for piece in pieces])[known]
-    values = np.concatenate([piece.variables for piece in pieces])[known]
-    for k, variable in enumerate(variables):
-        if outside[:, k].any():
-            yield VariableOutside(
-                name=variable.name,
-                unit=variable.unit,
-                minimum=float(values[:, k].min()),
-                maximum=float(values[:, k].max()),
-                fitted_minimum=variable.minimum,
-                fitted_maximum=variable.maximum,
-            )
+class _Ranges:
+    """Ranges of variables, and which of these leave the fitted ones."""
+
+    def __init__(self, count: int) -> None:
+        self._low, self._high, self._outside = np.full(count, np.inf), np.full(count, -np.inf), np.zeros(count, bool)
+
+    def add(self, values: FloatArray, outside: BoolArray) -> None:
+        self._low = np.minimum(self._low, values.min(axis=0, initial=np.inf))
+        self._high = np.maximum(self._high, values.max(axis=0, initial=-np.inf))
+        self._outside = self._outside | outside.any(axis=0)
+
+    def outside(self, variables: Sequence[CalibratedVariable]) -> Iterator[VariableOutside]:
+        for variable, low, high, outside in zip(variables, self._low, self._high, self._outside, strict=True):
+            if outside:
+                yield VariableOutside(
+                    name=variable.name,
+                    unit=variable.unit,
+                    minimum=float(low),
+                    maximum=float(high),
+                    fitted_minimum=variable.minimum,
+                    fitted_maximum=variable.maximum,
+                )
 
 
 def _by_session(run: SensorRun, variables: set[str]) -> dict[tuple[str, ...], list[IntervalSamples]]:
     groups: dict[tuple[str, ...], list[IntervalSamples]] = {}
-    for interval in run.intervals(Use.VALIDATION):
-        names = run.experiment.session_names(interval.label)
-        groups.setdefault(names, []).append(run.interval_samples(interval, variables=variables))
+    for part in samples_of_use(run, Use.VALIDATION, variables):
+        groups.setdefault(run.experiment.session_names(part.interval.label), []).append(part)
     return groups
-
-
-def _joined(readings: Sequence[Readings]) -> Readings:
-    first = readings[0]
-    return replace(
-        first,
-        logged=np.concatenate([one.logged for one in readings]),
-        raw=np.concatenate([one.raw for one in readings]),
-        variables={name: np.concatenate([one.variables[name] for one in readings]) for name in first.variables},
-    )
-
-
-def _references(parts: Sequence[IntervalSamples]) -> FloatArray:
-    return np.concatenate([part.samples.reference for part in parts])
 
 
 def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:

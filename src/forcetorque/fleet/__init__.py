@@ -7,8 +7,19 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.fleet.commands import fleet_add, fleet_report, fleet_run, fleet_table
-    from forcetorque.fleet.dataset import Dataset
+    from forcetorque.fleet.commands import (
+        fleet_add as fleet_add,
+    )
+    from forcetorque.fleet.commands import (
+        fleet_report as fleet_report,
+    )
+    from forcetorque.fleet.commands import (
+        fleet_run as fleet_run,
+    )
+    from forcetorque.fleet.commands import (
+        fleet_table as fleet_table,
+    )
+    from forcetorque.fleet.dataset import Dataset as Dataset
 
 CAPABILITY = Capability(
     page="fleet.md",
@@ -16,15 +27,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.fleet.commands:fleet",),
 )
 
-__all__ = [
-    "Dataset",
-    "fleet_add",
-    "fleet_report",
-    "fleet_run",
-    "fleet_table",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Dataset": "forcetorque.fleet.dataset",

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.results.command import Option, Saved, command
-from forcetorque.results.terminal.command import command_function
-from forcetorque.results.terminal.help import WholeSentences
+from forcetorque.results.terminal.command_from_signature import command_function
+from forcetorque.results.terminal.options import WholeSentences
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress

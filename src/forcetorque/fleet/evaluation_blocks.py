@@ -10,16 +10,15 @@ however long the recording is.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
+from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.noise.means import means_of_parts
 from forcetorque.base.noise.paired_comparison import BLOCKS, MOST_SEGMENTS, part_ends
-from forcetorque.base.rows_on_disk import forget_pages
+from forcetorque.base.rows_on_disk import forget_pages, in_blocks
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.section import LoadCaseOffset
@@ -27,6 +26,7 @@ from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import Content
 from forcetorque.experiment.calibration.stored_moments import VariableDescription
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
+from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
@@ -196,63 +196,6 @@ class StoredSensor(StoredTable):
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class EvaluatedSamples:
-    """Samples of a validation interval, in the order of time, in one part or several."""
-
-    interval: Interval
-    """The interval."""
-    content: Content | None
-    """By what its samples are known again in another log; None where they hardly change."""
-    channels: int
-    """Number c of raw channels."""
-    stamp_ns: Sequence[IntArray]
-    """Instants of every part; shape (n,) each; ns."""
-    columns: Sequence[FloatArray]
-    """Raw channels, expected wrench and variables of every part; shape (n, c + 6 + v) each."""
-
-    @classmethod
-    def of(cls, run: SensorRun, part: IntervalSamples) -> EvaluatedSamples:
-        """Take the samples of an interval.
-
-        Args:
-            run: The sensor.
-            part: The samples.
-
-        Returns:
-            The same in one part.
-        """
-        return cls(
-            interval=part.interval,
-            content=logged_content(run.experiment, run.sensor, part.interval),
-            channels=part.raw.shape[1],
-            stamp_ns=(part.samples.stamp_ns,),
-            columns=(np.hstack([part.raw, part.samples.reference, part.samples.variables]),),
-        )
-
-    def __len__(self) -> int:
-        return sum(map(len, self.stamp_ns))
-
-    def moments(self, first: int, after: int) -> Moments:
-        """Reduce consecutive samples.
-
-        Args:
-            first: The first of them.
-            after: The first behind them.
-
-        Returns:
-            Their moments.
-        """
-        start, chosen = 0, []
-        for part in self.columns:
-            chosen.append(part[max(first - start, 0) : max(after - start, 0)])
-            start += len(part)
-        columns = np.concatenate(chosen)
-        forget_pages(self.columns)
-        raw, reference, variables = np.split(columns, [self.channels, self.channels + 6], axis=1)
-        return Moments.of(raw, reference, variables)
-
-
 class StoredEvaluation(StoredTable):
     """What an evaluation needs of one sensor in one recording."""
 
@@ -272,7 +215,7 @@ class StoredEvaluation(StoredTable):
     """Loads that the sensor itself weighed, as text."""
 
     @classmethod
-    def of(cls, run: SensorRun, intervals: Sequence[EvaluatedSamples] | None = None) -> StoredEvaluation:
+    def of(cls, run: SensorRun, intervals: Sequence[IntervalSamples] | None = None) -> StoredEvaluation:
         """Reduce the validation intervals of a recording.
 
         Args:
@@ -284,13 +227,11 @@ class StoredEvaluation(StoredTable):
         """
         sensor = StoredSensor.of(run)
         if intervals is None:
-            names = evaluated_variables(run)
-            parts = (run.interval_samples(one, variables=names) for one in run.intervals(Use.VALIDATION))
-            intervals = [EvaluatedSamples.of(run, part) for part in parts]
+            intervals = samples_of_use(run, Use.VALIDATION, evaluated_variables(run))
         return cls(
             sensor=sensor,
             log_sha256=tuple(sorted(run.experiment.log_sha256)),
-            intervals=tuple(_interval(run, one) for one in intervals),
+            intervals=tuple(_interval(run, one.interval) for one in intervals),
             blocks=tuple(_blocks(intervals)),
             sessions=tuple(_session_means(run, intervals)),
             load_cases=tuple(map(StoredLoadCase.of, operating_load_cases([run]))),
@@ -310,28 +251,29 @@ def evaluated_variables(run: SensorRun) -> list[str]:
     return [variable.name for variable in StoredSensor.of(run).variables]
 
 
-def _interval(run: SensorRun, samples: EvaluatedSamples) -> EvaluatedInterval:
-    interval = samples.interval
+def _interval(run: SensorRun, interval: Interval) -> EvaluatedInterval:
     return EvaluatedInterval(
         label=interval.label,
         start_ns=interval.start_ns,
         end_ns=interval.end_ns,
         session=run.experiment.roles[interval.label].session,
-        content=samples.content,
+        content=logged_content(run.experiment, run.sensor, interval),
     )
 
 
-def _blocks(intervals: Sequence[EvaluatedSamples]) -> Iterable[EvaluationBlock]:
-    lengths = [len(samples) for samples in intervals]
+def _blocks(intervals: Sequence[IntervalSamples]) -> Iterable[EvaluationBlock]:
+    lengths = [len(one.samples) for one in intervals]
     total, start = sum(lengths), 0
     counts = (*range(1, MOST_SEGMENTS + 1), BLOCKS)
     ends = {end for count in counts for end in part_ends(total, count)} | set(np.cumsum(lengths).tolist())
-    for samples, length in zip(intervals, lengths, strict=True):
+    for one, length in zip(intervals, lengths, strict=True):
         own = [start, *sorted(end for end in ends if start < end <= start + length)]
+        columns = one.raw, one.samples.reference, one.samples.variables
         for first, last in zip(own, own[1:], strict=False):
-            moments = samples.moments(first - start, last - start)
+            moments = Moments.of(*(values[first - start : last - start] for values in columns))
+            forget_pages(columns)
             yield EvaluationBlock(
-                interval=samples.interval.label,
+                interval=one.interval.label,
                 samples=moments.count,
                 channels=moments.channels,
                 mean=moments.mean,
@@ -340,13 +282,13 @@ def _blocks(intervals: Sequence[EvaluatedSamples]) -> Iterable[EvaluationBlock]:
         start += length
 
 
-def _session_means(run: SensorRun, intervals: Sequence[EvaluatedSamples]) -> Iterable[SessionMeans]:
-    groups: dict[str | None, list[EvaluatedSamples]] = {}
-    for samples in intervals:
-        groups.setdefault(run.experiment.roles[samples.interval.label].session, []).append(samples)
+def _session_means(run: SensorRun, intervals: Sequence[IntervalSamples]) -> Iterable[SessionMeans]:
+    groups: dict[str | None, list[IntervalSamples]] = {}
+    for one in intervals:
+        groups.setdefault(run.experiment.roles[one.interval.label].session, []).append(one)
     for session, own in groups.items():
-        channels = own[0].channels
-        time_s, means = means_of_parts(_timed_parts(own, run.experiment.recording.start_ns))
+        channels = own[0].raw.shape[1]
+        time_s, means, _ = means_of_parts(_timed_parts(own, run.experiment.recording.start_ns))
         variables = means[:, channels + 6 :]
         yield SessionMeans(
             session=session,
@@ -358,8 +300,8 @@ def _session_means(run: SensorRun, intervals: Sequence[EvaluatedSamples]) -> Ite
         )
 
 
-def _timed_parts(intervals: Sequence[EvaluatedSamples], start_ns: int) -> Iterator[tuple[FloatArray, FloatArray]]:
-    for samples in intervals:
-        for stamps, columns in zip(samples.stamp_ns, samples.columns, strict=True):
-            yield seconds_since(stamps, start_ns), columns
-            forget_pages((stamps, columns))
+def _timed_parts(intervals: Sequence[IntervalSamples], start_ns: int) -> Iterator[tuple[FloatArray, FloatArray]]:
+    for one in intervals:
+        samples = one.samples
+        for stamps, *columns in in_blocks(samples.stamp_ns, one.raw, samples.reference, samples.variables):
+            yield seconds_since(stamps, start_ns), np.hstack(columns)

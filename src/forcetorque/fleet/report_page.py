@@ -14,8 +14,18 @@ from forcetorque.evaluation.load_cases.verdict import TONES
 from forcetorque.fleet.report import DECISIONS, FleetReport, RankedSensor
 from forcetorque.fleet.report_figure import over_time_figure
 from forcetorque.fleet.sensor_evaluation import RecordingError
-from forcetorque.results.document.content import Block, Document, Figure, List, Picture, Section, Text, Tone, Verdict
-from forcetorque.results.document.html import html_bytes
+from forcetorque.results.document.content import (
+    Block,
+    Document,
+    Figure,
+    List,
+    Picture,
+    Section,
+    Text,
+    Tone,
+    Verdict,
+    html_bytes,
+)
 from forcetorque.results.number_text import amount, counted
 from forcetorque.results.result import created_now
 from forcetorque.results.table import Table, table_of, with_first_column

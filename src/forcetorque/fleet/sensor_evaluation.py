@@ -19,7 +19,7 @@ from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
-    evidence_of_means,
+    evidence,
     moved_and_load,
 )
 from forcetorque.evaluation.load_cases.verdict import (
@@ -305,7 +305,7 @@ class SensorEvaluation:
         """
         for name, calibration in self.calibrations.items():
             k = self.place(name)
-            measured: Evidence = evidence_of_means(self.means[k])
+            measured: Evidence = evidence(self.means[k])
             notes = [Reason(against=None, text=text) for text in self._notes(name, calibration)]
             for case in self._load_cases():
                 verdict = load_case_verdict(

@@ -19,9 +19,9 @@ from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts
-from forcetorque.calibration.doubts import SegmentedDoubts
+from forcetorque.calibration.interval_and_mount_doubts import SegmentedDoubts
+from forcetorque.calibration.moments import SegmentedMoments
 from forcetorque.calibration.reduced_recordings import recording_moments
-from forcetorque.calibration.segmented_moments import SegmentedMoments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import SensorIdentity
@@ -29,10 +29,10 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
+from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.address import is_address
-from forcetorque.fleet.evaluation_blocks import StoredEvaluation
-from forcetorque.fleet.segmented_evaluation import SegmentedEvaluation
+from forcetorque.fleet.evaluation_blocks import StoredEvaluation, evaluated_variables
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use
@@ -215,7 +215,8 @@ class _Segmented:
     def __init__(self, run: SensorRun, options: AddOptions) -> None:
         self._run, self._fits = run, run.has(Use.CALIBRATION)
         self._moments = SegmentedMoments(run, block_s=options.block_s)
-        self._evaluation, self._doubts = SegmentedEvaluation(run), SegmentedDoubts(run)
+        self._evaluation = SegmentedSamples(run, Use.VALIDATION, evaluated_variables(run))
+        self._doubts = SegmentedDoubts(run)
 
     def add(self, run: SensorRun) -> list[Finding]:
         """Reduce a segment, and give what is found in it."""
@@ -228,10 +229,10 @@ class _Segmented:
 
     def reduced(self, segments: Sequence[Segment]) -> _Reduced:
         """Put together what was computed."""
-        evaluated = self._evaluation.samples()
+        evaluated = self._evaluation.joined()
         return _Reduced(
             moments=self._moments.moments(),
-            evaluation=None if evaluated is None else StoredEvaluation.of(self._run, evaluated),
+            evaluation=StoredEvaluation.of(self._run, evaluated) if evaluated else None,
             warnings=self._doubts.warnings(segments) if self._fits else (),
             findings=(),
         )

@@ -7,9 +7,10 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.inspection.draft.draft import draft_experiment
-    from forcetorque.inspection.draft.resume import resume_experiment
-    from forcetorque.inspection.inspect import inspect_log, inspected
+    from forcetorque.inspection.draft.draft import draft_experiment as draft_experiment
+    from forcetorque.inspection.draft.questions import resume_experiment as resume_experiment
+    from forcetorque.inspection.inspect import inspect_log as inspect_log
+    from forcetorque.inspection.inspect import inspected as inspected
 
 CAPABILITY = Capability(
     page="recording.md",
@@ -20,19 +21,12 @@ CAPABILITY = Capability(
     ),
 )
 
-__all__ = [
-    "draft_experiment",
-    "inspect_log",
-    "inspected",
-    "resume_experiment",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "draft_experiment": "forcetorque.inspection.draft.draft",
         "inspect_log": "forcetorque.inspection.inspect",
         "inspected": "forcetorque.inspection.inspect",
-        "resume_experiment": "forcetorque.inspection.draft.resume",
+        "resume_experiment": "forcetorque.inspection.draft.questions",
     },
 )

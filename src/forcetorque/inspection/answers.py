@@ -145,9 +145,6 @@ def _kind_text(kind: str, rows: Sequence[FindingRow]) -> str:
 def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
     """Select what is wrong with the experiment file, the URDF or the log as a whole, by the robot model.
 
-    Args:
-        findings: Findings.
-
     Returns:
         Those of a fault that explains the measurements, and of what `calibrate` refuses; what it only warns of is none.
     """
@@ -213,9 +210,6 @@ def _belongs(row: FindingRow, event: Event) -> bool:
 
 def inspection_answers(inspection: Inspection) -> Iterator[Answer]:
     """Give the answer for a recording, or the log of a sensor by itself.
-
-    Args:
-        inspection: The inspection.
 
     Yields:
         One answer.

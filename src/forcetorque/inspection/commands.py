@@ -125,9 +125,8 @@ def _refuse_beside(file: Path, options: list[str]) -> None:
 
 
 def _resume(file: Path, output_format: Format, *, no_input: bool, yes: bool, details: bool) -> None:
-    from forcetorque.inspection.draft.questions import OPEN_QUESTIONS
-    from forcetorque.inspection.draft.resume import resume_experiment
-    from forcetorque.results.terminal.prompts import accepts, ask, has_piped_lines, is_terminal
+    from forcetorque.inspection.draft.questions import OPEN_QUESTIONS, resume_experiment
+    from forcetorque.results.terminal.options import accepts, ask, has_piped_lines, is_terminal
 
     if yes and no_input:
         raise ExperimentError("--yes: expected without --no-input, which changes nothing")
@@ -151,7 +150,7 @@ def _resume(file: Path, output_format: Format, *, no_input: bool, yes: bool, det
         raise typer.Exit(OPEN_QUESTIONS)
 
 
-@command()
+@command("when each kind of finding is there, and what is in use")
 def inspect(
     log: Annotated["Path | str", Option("Experiment file, or a log that is recognised, such as a YARP dumper folder.")],
     *,

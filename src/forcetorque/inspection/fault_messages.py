@@ -13,9 +13,6 @@ from forcetorque.inspection.plausibility.hypotheses import Explanation
 def fault_size(one: Explanation) -> tuple[float | None, str | None]:
     """Give the size of a fault, for its finding.
 
-    Args:
-        one: The fault.
-
     Returns:
         Size and unit; None each for a fault without a parameter.
     """

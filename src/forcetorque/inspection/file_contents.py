@@ -294,9 +294,6 @@ def times_text(sketch: LogSketch) -> str:
 def sketch_text(rows: Sequence[ColumnRow]) -> str:
     """Explain why a log needs an experiment file.
 
-    Args:
-        rows: Its columns.
-
     Returns:
         A message.
     """

@@ -41,9 +41,6 @@ _UNRELIABLE = UNEXPLAINED | {"drift", "saturation", "frozen", "stuck", "gap", "b
 def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     """Find faults of a recording, without a robot.
 
-    Args:
-        recording: The recording.
-
     Returns:
         Findings of its readers and of single streams; of patches that share their messages, one for all of them.
     """
@@ -381,9 +378,6 @@ _NAMED = 12
 def inspect_patches(experiment: PatchExperiment) -> tuple[Finding, ...]:
     """Find faults of a recording of skin, and of its taxels.
 
-    Args:
-        experiment: The experiment.
-
     Returns:
         Findings of the streams, then of the taxels in every interval with a pressure.
     """
@@ -392,9 +386,6 @@ def inspect_patches(experiment: PatchExperiment) -> tuple[Finding, ...]:
 
 def taxel_findings(experiment: PatchExperiment) -> tuple[Finding, ...]:
     """Find faults of the taxels of an experiment.
-
-    Args:
-        experiment: The experiment.
 
     Returns:
         Findings of every interval with a pressure.

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inspection of a log or the recording of an experiment: contents, and findings with their time and size."""
+"""Inspection of a log or the recording of an experiment: contents, and findings, of a long one by segments."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -12,7 +12,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, RecordingError
-from forcetorque.base.progress import Progress
+from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.toml_file import parsed_toml
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.applicability import one_per_sensor
@@ -21,6 +21,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import ExperimentFile, parse_experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.loading import Purpose, load_experiment
+from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
 from forcetorque.experiment.streams import load_tried_clocks
 from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
@@ -41,14 +42,47 @@ from forcetorque.inspection.file_contents import (
     stream_table,
     times_text,
 )
-from forcetorque.inspection.findings import inspect_patches, inspect_recording, taxel_findings
+from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
 from forcetorque.inspection.postures import PostureRow, posture_tables, unexplained_postures
-from forcetorque.inspection.segmented_findings import inspect_segments
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
+
+
+def inspect_segments(
+    experiment: Experiment,
+    *,
+    calibrations: Mapping[str, Calibration] | None = None,
+    sensors: Collection[str] | None = None,
+    progress: Progress = lambda _: None,
+) -> tuple[Finding, ...]:
+    """Find faults of the recording of an experiment, of a long one in one segment after the other.
+
+    Args:
+        experiment: The experiment.
+        calibrations: As of `inspect_experiment`.
+        sensors: As of `inspect_experiment`.
+        progress: As of `inspect_experiment`.
+
+    Returns:
+        Findings as of `inspect_experiment`; what was found in some segments alone says so.
+    """
+    segments = recorded_segments(experiment)
+    if len(segments) == 1:
+        return inspect_experiment(experiment, calibrations=calibrations, sensors=sensors, progress=progress)
+    time_left = TimeLeft(progress, f"inspecting {experiment.name}", len(segments))
+    forget_recording(experiment)  # which was looked at as it was read
+    findings: list[Sequence[Finding]] = []
+    for segment in segments:
+        part = replace(experiment, recording=segment.recording)
+        findings.append(inspect_experiment(part, calibrations=calibrations, sensors=sensors))
+        del part
+        forget_recording(experiment)
+        time_left.at(len(findings))
+    return joined_findings(segments, findings)
+
 
 _MOST_SHOWN = 8
 """Largest number of findings of one kind and channel in the table; JSON and CSV have all."""
@@ -86,10 +120,11 @@ ToCalibrate = Literal["sensor", "skin", "standing"] | None
 """What an experiment file states to be calibrated, or `standing` for vertical forces of soles alone."""
 
 
-class Inspection(Result):
+class Inspection(DrawnResult):
     """Contents of a log, and findings."""
 
     answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
+    drawn_by: ClassVar[str] = "forcetorque.inspection.figure:findings_figure"
 
     of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor", "times")
 

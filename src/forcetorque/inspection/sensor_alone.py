@@ -85,9 +85,6 @@ class SensorAlone(Row):
 def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | None:
     """Examine a sensor by its own log.
 
-    Args:
-        log: Its log.
-
     Returns:
         The summary, and findings in time; None for a log with fewer samples than a rate takes.
     """

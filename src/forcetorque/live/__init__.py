@@ -7,11 +7,20 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.live.bias_tracking import Tracking
-    from forcetorque.live.choices import FaultPolicy, OffsetSource
-    from forcetorque.live.corrector import Corrected, Corrector, CorrectorOptions
-    from forcetorque.live.sample_status import Status
-    from forcetorque.live.tool import Tool
+    from forcetorque.live.bias_tracking import Tracking as Tracking
+    from forcetorque.live.choices import FaultPolicy as FaultPolicy
+    from forcetorque.live.choices import OffsetSource as OffsetSource
+    from forcetorque.live.corrector import (
+        Corrected as Corrected,
+    )
+    from forcetorque.live.corrector import (
+        Corrector as Corrector,
+    )
+    from forcetorque.live.corrector import (
+        CorrectorOptions as CorrectorOptions,
+    )
+    from forcetorque.live.sample_status import Status as Status
+    from forcetorque.live.tool import Tool as Tool
 
 CAPABILITY = Capability(
     page="live.md",
@@ -19,18 +28,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.live.command:live",),
 )
 
-__all__ = [
-    "Corrected",
-    "Corrector",
-    "CorrectorOptions",
-    "FaultPolicy",
-    "OffsetSource",
-    "Status",
-    "Tool",
-    "Tracking",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Corrected": "forcetorque.live.corrector",

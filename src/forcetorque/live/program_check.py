@@ -25,7 +25,7 @@ from forcetorque.live.packets import Packet
 from forcetorque.live.result import LiveCheck
 from forcetorque.live.sample_status import FAULTS
 from forcetorque.live.tool import Tool
-from forcetorque.payload.robot_files.arm_load_files import READABLE_ARMS, read_arm_load
+from forcetorque.payload.robot_files.arms import READABLE_ARMS, read_arm_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.ros import read_gravity_filter
 

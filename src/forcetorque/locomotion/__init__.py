@@ -7,11 +7,27 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.locomotion.commands import balance, coherence, oscillation_causes, torque_loop
-    from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
-    from forcetorque.locomotion.motion_quality import motion
-    from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
-    from forcetorque.locomotion.torque_control.file import read_torque_loop
+    from forcetorque.locomotion.commands import (
+        balance as balance,
+    )
+    from forcetorque.locomotion.commands import (
+        coherence as coherence,
+    )
+    from forcetorque.locomotion.commands import (
+        oscillation_causes as oscillation_causes,
+    )
+    from forcetorque.locomotion.commands import (
+        torque_loop as torque_loop,
+    )
+    from forcetorque.locomotion.logged_signals import (
+        motion_signals as motion_signals,
+    )
+    from forcetorque.locomotion.logged_signals import (
+        motion_signals_of_arrays as motion_signals_of_arrays,
+    )
+    from forcetorque.locomotion.motion_quality import motion as motion
+    from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces as load_foot_forces
+    from forcetorque.locomotion.torque_control.file import read_torque_loop as read_torque_loop
 
 CAPABILITY = Capability(
     page="locomotion/balance.md",
@@ -31,19 +47,7 @@ CAPABILITY = Capability(
     sections=("forcetorque.locomotion.section:SOLES",),
 )
 
-__all__ = [
-    "balance",
-    "coherence",
-    "load_foot_forces",
-    "motion",
-    "motion_signals",
-    "motion_signals_of_arrays",
-    "oscillation_causes",
-    "read_torque_loop",
-    "torque_loop",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "balance": "forcetorque.locomotion.commands",

@@ -226,9 +226,6 @@ _MEASURED, _SWING = look(0), look(1)
 def motion_figure(motion: Motion) -> Figure:
     """Draw columns over time.
 
-    Args:
-        motion: The motion.
-
     Returns:
         The figure, a row for each column.
 

@@ -88,9 +88,6 @@ def read_soles(
 def refuse_without_soles(experiment: Experiment) -> None:
     """Refuse an experiment that does not state what the robot stands on.
 
-    Args:
-        experiment: The experiment.
-
     Raises:
         ExperimentError: If it has no sole; the message names the links that its intervals say are touched.
     """

@@ -7,9 +7,10 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.payload.identify import weigh_load
-    from forcetorque.payload.robot_files.export import export_load, robot_load
-    from forcetorque.payload.tare_offset import tare
+    from forcetorque.payload.identify import weigh_load as weigh_load
+    from forcetorque.payload.robot_files.export import export_load as export_load
+    from forcetorque.payload.robot_files.export import robot_load as robot_load
+    from forcetorque.payload.tare_offset import tare as tare
 
 CAPABILITY = Capability(
     page="payload/payload.md",
@@ -21,14 +22,7 @@ CAPABILITY = Capability(
     sections=("forcetorque.payload.section:LOAD",),
 )
 
-__all__ = [
-    "export_load",
-    "robot_load",
-    "tare",
-    "weigh_load",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "export_load": "forcetorque.payload.robot_files.export",

@@ -29,9 +29,6 @@ _PROGRAMS = {"ur_rtde": LoadFormat.UR, "franka": LoadFormat.FRANKA}
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
     """Give the answer for every load.
 
-    Args:
-        weighed: The loads.
-
     Yields:
         One answer each.
     """
@@ -55,9 +52,6 @@ def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
 
 def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
     """Give the answer for the load that joint torques hold.
-
-    Args:
-        held: The load.
 
     Yields:
         One answer.

@@ -36,9 +36,6 @@ from forcetorque.robot.mounting import rotation_vector
 def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
     """Give what hangs on a wrist sensor, or on the robot.
 
-    Args:
-        run: The sensor.
-
     Returns:
         The loads.
 

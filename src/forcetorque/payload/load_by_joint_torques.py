@@ -283,9 +283,6 @@ def _left(torque: FloatArray, design: FloatArray) -> tuple[float, int]:
 def postures_words(log: LoggedTorques) -> str:
     """Count the postures at rest of a log, where they are too few by themselves.
 
-    Args:
-        log: The log.
-
     Returns:
         A phrase.
     """

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, known_names
 from forcetorque.base.pose import skew
 from forcetorque.base.stored_model import read_json
-from forcetorque.base.validation_text import first_error
+from forcetorque.base.toml_file import first_error
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.raw_counts import full_scale_of

@@ -20,8 +20,8 @@ from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import BAG, LoggedWrist
 from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
 from forcetorque.inspection.draft.log import draft_of_description, recording_lines
+from forcetorque.inspection.draft.logged_robot import wrist_interval_lines, wrist_load_lines
 from forcetorque.inspection.draft.toml_lines import line, toml_value
-from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
 from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques, postures_words
 from forcetorque.payload.result import ArmLog, gravity_words
 from forcetorque.results.number_text import amount
@@ -46,9 +46,6 @@ class LogAlone:
 
 def is_experiment_file(path: Path) -> bool:
     """Check whether a file is an experiment file and no log.
-
-    Args:
-        path: A path.
 
     Returns:
         Whether its name ends in .toml, or there is no log there.

@@ -27,9 +27,6 @@ from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotMo
 def inertia_of_stated(load: Load) -> Inertia:
     """Give the inertia of a load of which nothing is to be estimated.
 
-    Args:
-        load: The load.
-
     Returns:
         Its inertia in its own frame; zero where nothing hangs, or something of it is to be estimated.
     """
@@ -142,9 +139,6 @@ class WristLoads:
     def left_out(self, experiment: Experiment) -> int:
         """Count samples of the calibration intervals that lack a finite reading or motion.
 
-        Args:
-            experiment: The experiment.
-
         Returns:
             Their number.
         """
@@ -237,9 +231,6 @@ def stated_loads(tables: Sequence[LoadTable], inputs: Inputs) -> tuple[tuple[Loa
 def stated_inertia(loads: Sequence[Load]) -> Inertia:
     """Give what a file says of the load.
 
-    Args:
-        loads: Its loads.
-
     Returns:
         Inertia in the frame of the sensor; zero where there are several, or something is to be estimated.
     """
@@ -311,9 +302,6 @@ def load_model(load: LoadTable, sensor: str, inertia: Inertia) -> RobotModel:
 def is_wrist_load(model: RobotModel) -> bool:
     """Tell the robot of a wrist sensor from that of a URDF file.
 
-    Args:
-        model: A robot.
-
     Returns:
         Whether `load_model` made it.
     """
@@ -322,9 +310,6 @@ def is_wrist_load(model: RobotModel) -> bool:
 
 def wrist_loads(experiment: Experiment) -> WristLoads | None:
     """Give what hangs on a wrist sensor.
-
-    Args:
-        experiment: The experiment.
 
     Returns:
         The loads; None for a robot.

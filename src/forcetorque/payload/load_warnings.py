@@ -25,9 +25,6 @@ from forcetorque.results.number_text import amount, plus_minus
 def reversed_sense(run: SensorRun) -> Iterator[str]:
     """Name the sense of a reading on an arm whose tool is a `[[load]]`, where the accelerations say the other one.
 
-    Args:
-        run: The sensor.
-
     Yields:
         A sentence where they do; none where the arm moves too slowly to tell, where the base moves, or for raw counts.
     """
@@ -90,9 +87,6 @@ _BETTER = 0.7
 def load_doubts(run: SensorRun) -> Iterator[str]:
     """Say what makes loads on links of a robot doubtful.
 
-    Args:
-        run: The sensor.
-
     Yields:
         A sentence where loads are weighed with the sensor's own reading, one for every load that it weighed before, and
         one for every stated load without which the readings fit better.
@@ -123,9 +117,6 @@ def load_doubts(run: SensorRun) -> Iterator[str]:
 
 def circular_loads(run: SensorRun) -> Iterator[str]:
     """Name loads that the sensor itself weighed before, as if its matrix were right.
-
-    Args:
-        run: The sensor.
 
     Yields:
         A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
@@ -180,9 +171,6 @@ def _about_means(values: FloatArray, block: IntArray) -> float:
 def reference_doubts(run: SensorRun) -> tuple[str, ...]:
     """Say why what mechanics demands of a sensor may be wrong, so that it flatters the calibration fitted to it.
 
-    Args:
-        run: The sensor.
-
     Returns:
         A sentence for each statement that the readings contradict, and for each load that the sensor itself weighed;
         none for a bias that steps or a reading that comes late, which change a load little.
@@ -212,9 +200,6 @@ def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterato
 
 def overweight_loads(run: SensorRun) -> Iterator[str]:
     """Name loads that were estimated and weigh more than their sensor reads: a wrong unit makes a load of any size.
-
-    Args:
-        run: The sensor.
 
     Yields:
         A sentence for each.
@@ -251,9 +236,6 @@ _MANY = 0.05
 def samples_disagree(weighed: WeighedLoad) -> bool:
     """Decide whether recordings, or too many samples, disagree for one load to explain them.
 
-    Args:
-        weighed: The load.
-
     Returns:
         Whether they do.
     """
@@ -262,9 +244,6 @@ def samples_disagree(weighed: WeighedLoad) -> bool:
 
 def reason_to_withhold(weighed: WeighedLoad) -> str | None:
     """Say why a robot is not to be told of a load.
-
-    Args:
-        weighed: The load.
 
     Returns:
         The first reason; None where there is none. That nothing hangs there is none where the file states it.
@@ -287,9 +266,6 @@ _WIDE_CENTRE_M = 0.02
 
 def torque_doubt(load: LoadRow) -> str | None:
     """Say why a robot is not to be told of a load that joint torques hold.
-
-    Args:
-        load: The load.
 
     Returns:
         What its postures leave too wide an interval of; None where they do not.
@@ -335,9 +311,6 @@ _RARE = 0.01
 
 def payload_doubts(weighed: WeighedLoad) -> Iterator[str]:
     """Say what makes a weighed load doubtful.
-
-    Args:
-        weighed: The load.
 
     Yields:
         A sentence for each matter.

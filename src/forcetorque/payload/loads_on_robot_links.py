@@ -212,9 +212,6 @@ class LinkLoads:
 def link_loads(experiment: Experiment) -> LinkLoads | None:
     """Return the loads on links of a robot beyond those of its URDF.
 
-    Args:
-        experiment: The experiment.
-
     Returns:
         The loads; None where there are none.
     """

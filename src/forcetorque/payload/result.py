@@ -145,9 +145,6 @@ _MOST_DIGITS = 9
 def load_words(load: LoadRow) -> str:
     """Say where a load is and what it weighs.
 
-    Args:
-        load: The load.
-
     Returns:
         A sentence without the sensor.
     """
@@ -164,9 +161,6 @@ def load_words(load: LoadRow) -> str:
 
 def inertia_words(load: LoadRow) -> str | None:
     """Say what the inertia of a load is.
-
-    Args:
-        load: The load.
 
     Returns:
         A sentence; None where the inertia was not asked for.
@@ -242,9 +236,6 @@ _HOUR_S = 3600.0
 
 def fitted_drifts(session: BiasRow) -> Iterator[tuple[str, str, float, float]]:
     """Give the drift of the bias of a session.
-
-    Args:
-        session: The session.
 
     Yields:
         Name and unit of a component, its drift and the half-width of its 95 % interval; N/h, N m/h. None where no drift

@@ -188,10 +188,6 @@ def load_number(support: Support | MovingSupport | None, supports: Sequence[Movi
 def samples_left_out(experiment: Experiment, sensor: ExperimentSensor) -> int:
     """Count samples of the calibration intervals that lack a finite reading or motion.
 
-    Args:
-        experiment: The experiment.
-        sensor: The sensor.
-
     Returns:
         Their number.
     """

@@ -147,9 +147,6 @@ def _loads(value: Any) -> Any:
 def require_one_sensor(loads: Sequence[Load]) -> None:
     """Refuse no load, one on a link, loads of one name, or that say different things of the sensor.
 
-    Args:
-        loads: The loads.
-
     Raises:
         PydanticCustomError: If it is so.
     """
@@ -248,9 +245,6 @@ AnyLoad = Annotated[
 
 def require_link_loads(loads: Sequence[Load | LinkLoad]) -> None:
     """Refuse loads beside a robot that are not fastened to a link, or share a name.
-
-    Args:
-        loads: The loads.
 
     Raises:
         PydanticCustomError: If it is so.

@@ -7,9 +7,9 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.planning.joint_calibration_plan import plan_jointly
-    from forcetorque.planning.planning import plan
-    from forcetorque.planning.trajectory_files import write_plan
+    from forcetorque.planning.joint_calibration_plan import plan_jointly as plan_jointly
+    from forcetorque.planning.planning import plan as plan
+    from forcetorque.planning.trajectory_files import write_plan as write_plan
 
 CAPABILITY = Capability(
     page="planning.md",
@@ -22,13 +22,7 @@ CAPABILITY = Capability(
     sections=("forcetorque.planning.section:PLAN",),
 )
 
-__all__ = [
-    "plan",
-    "plan_jointly",
-    "write_plan",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "plan": "forcetorque.planning.planning",

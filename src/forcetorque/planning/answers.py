@@ -19,14 +19,7 @@ if TYPE_CHECKING:
 
 
 def plan_answer(plan: Plan) -> Answer:
-    """Give the answer of a plan for one sensor.
-
-    Args:
-        plan: The plan.
-
-    Returns:
-        The answer.
-    """
+    """Give the answer of a plan for one sensor."""
     first = plan.recordings[0]
     subject = f"{plan.sensor} ({plan.serial}), {plan.load_case}"
     if not helps(first):
@@ -89,14 +82,7 @@ def _beyond(row: PlannedRecording) -> bool:
 
 
 def joint_plan_answer(plan: JointPlan) -> Answer:
-    """Give the answer of a plan for all sensors of a robot.
-
-    Args:
-        plan: The plan.
-
-    Returns:
-        The answer.
-    """
+    """Give the answer of a plan for all sensors of a robot."""
     useful = useful_steps([plan.steps[0].excess_before, *(step.excess_after for step in plan.steps)])
     last = [row for row in plan.sensors if row.step == len(plan.steps)]
     sensors = len({row.sensor for row in last})

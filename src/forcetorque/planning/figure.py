@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 def plan_figure(plan: Plan) -> Figure:
     """Draw what a plan expects.
 
-    Args:
-        plan: The plan.
-
     Returns:
         The figure: force errors beside moment errors, typical ones as points, up to what they are with 95 % at most.
 

@@ -208,9 +208,6 @@ def posture_tables(rows: Sequence[PlannedPosture]) -> Iterator[Table]:
 def helps(row: PlannedRecording) -> bool:
     """Tell whether a recording lowers an error that matters.
 
-    Args:
-        row: The recording.
-
     Returns:
         Whether the force error or the moment error, where it is limited, falls by enough.
     """
@@ -253,8 +250,8 @@ def advice(
     return (
         f"record first {first.postures} postures in {first.seconds:.0f} s, held at {first.support}, {attached}{warm}: "
         f"the expected error falls from {first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m to "
-        f"{first.force_after_N:.3g} N (at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
-        f"(at most {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{of_model(rows[-1])}{left}"
+        f"{first.force_after_N:.3g} N (95 %: {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
+        f"(95 %: {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{of_model(rows[-1])}{left}"
     )
 
 
@@ -268,9 +265,6 @@ def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
 
 def of_model(row: PlannedRecording) -> str:
     """Say what errors of the robot model make of the error after a recording.
-
-    Args:
-        row: The recording.
 
     Returns:
         The end of a sentence; empty where it is little.

@@ -7,7 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.plates.commands import fit_plate, plate
+    from forcetorque.plates.commands import fit_plate as fit_plate
+    from forcetorque.plates.commands import plate as plate
 
 CAPABILITY = Capability(
     page="guides/plates.md",
@@ -15,9 +16,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.plates.commands:plate", "forcetorque.plates.commands:fit_plate"),
 )
 
-__all__ = ["fit_plate", "plate"]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "fit_plate": "forcetorque.plates.commands",

@@ -104,9 +104,6 @@ class Interpolation:
     def __init__(self, stream: Stream) -> None:
         """Find the samples.
 
-        Args:
-            stream: The stream.
-
         Raises:
             RecordingError: If it holds no two samples that step forward in time.
         """

@@ -28,9 +28,6 @@ class ScalarSource:
     def unit(self, recording: Recording) -> str:
         """Give its unit.
 
-        Args:
-            recording: The recording.
-
         Returns:
             Unit of the column.
 
@@ -58,9 +55,6 @@ class ScalarSource:
 def named_columns(recording: Recording) -> Iterator[tuple[str, ScalarSource]]:
     """Name every column.
 
-    Args:
-        recording: The recording.
-
     Yields:
         `stream.quantity.column` and the column, in the order of the log.
     """
@@ -73,10 +67,6 @@ def named_columns(recording: Recording) -> Iterator[tuple[str, ScalarSource]]:
 
 def find_column(recording: Recording, name: str) -> ScalarSource:
     """Find a column by `column`, `stream.column` or `stream.quantity.column`, whichever is enough.
-
-    Args:
-        recording: The recording.
-        name: Its name.
 
     Returns:
         The column.
@@ -117,9 +107,6 @@ def known_columns(wanted: str, units: Mapping[str, str]) -> str:
 
 def column_units(recording: Recording) -> dict[str, str]:
     """List the columns as people may name them, with their units.
-
-    Args:
-        recording: The recording.
 
     Returns:
         Units by name: `stream` where that is enough, `stream.column` else, and the full name where that is another's

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.rows_on_disk import BLOCK_ROWS, forget_pages
 
 WINDOW = 16
 """Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""
@@ -39,8 +40,16 @@ def window_hashes(values: FloatArray) -> Hashes:
     Returns:
         Hashes, each once, the smallest first; none of windows with a missing value, or that hardly change.
     """
-    if len(values) < WINDOW:
-        return np.empty(0, dtype=np.uint64)
+    # a block has the sample before it, from which its first may differ
+    starts = range(0, max(len(values) - WINDOW + 1, 0), BLOCK_ROWS)
+    hashes = [np.empty(0, dtype=np.uint64)]
+    for start in starts:
+        hashes.append(_hashes(values[max(start - 1, 0) : start + BLOCK_ROWS + WINDOW - 1]))
+        forget_pages([values])
+    return np.unique(np.concatenate(hashes))
+
+
+def _hashes(values: FloatArray) -> Hashes:
     rounded = _rounded(values)
     row = np.zeros(len(values), dtype=np.uint64)
     with np.errstate(over="ignore"):
@@ -70,9 +79,6 @@ def fingerprint(values: FloatArray) -> str:
 
 def joined_fingerprint(parts: Iterable[str]) -> str:
     """Give the hashes by which consecutive parts of samples are known again, together.
-
-    Args:
-        parts: Fingerprints of the parts.
 
     Returns:
         That of all samples, but for windows in which two parts meet.

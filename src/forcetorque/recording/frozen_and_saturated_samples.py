@@ -64,9 +64,6 @@ class UnusableCounts:
     def total(cls, parts: Iterable[UnusableCounts]) -> Self:
         """Add up the counts of disjoint sets of samples.
 
-        Args:
-            parts: The counts.
-
         Returns:
             Their sum.
         """

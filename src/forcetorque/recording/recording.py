@@ -230,9 +230,6 @@ class Recording(ArrayRecord):
     def stream(self, name: str) -> Stream:
         """Give one stream.
 
-        Args:
-            name: Name of the stream.
-
         Returns:
             The stream.
 

@@ -62,9 +62,6 @@ def write_recording(folder: Path | str, recording: Recording) -> None:
 def read_recording(folder: Path | str) -> Recording:
     """Read a recording that `write_recording` wrote.
 
-    Args:
-        folder: Folder of the recording.
-
     Returns:
         The recording, equal to the written one bit by bit.
 

@@ -281,9 +281,6 @@ class Signal:
     def column(self, name: str) -> FloatArray:
         """Give one column.
 
-        Args:
-            name: Name of the column.
-
         Returns:
             Its samples; shape (n,).
 

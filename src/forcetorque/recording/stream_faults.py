@@ -35,9 +35,6 @@ _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
 def stream_findings(stream: Stream) -> tuple[Finding, ...]:
     """Look for what is wrong with a stream, without a model of what it measures.
 
-    Args:
-        stream: The stream.
-
     Returns:
         Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels and reported saturation.
     """

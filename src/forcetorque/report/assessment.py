@@ -31,9 +31,10 @@ from forcetorque.evaluation.sphere.result import SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, contact_forces
-from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, joint_torques
+from forcetorque.evaluation.validation.validation import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibrations_under_test import PRIOR, EvaluatedWrenches
+from forcetorque.experiment.calibrations_under_test import PRIOR
+from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, require_unseen, sentences
@@ -164,7 +165,7 @@ def assess(
         torques = tried.attempt("joint torques", partial(joint_torques, run, unseen))
     clouds = tried.attempt("spheres", partial(spheres, run, calibrations))
     if evaluation:
-        judged = run.judged(unseen)
+        judged = evaluated_wrenches(run, unseen)
         counts = tried.attempt("independence", partial(independence, judged))
     static, criteria = _checked(run, calibrations, others or {}, demands or Demands(), tried)
     assessment = Assessment(
@@ -275,9 +276,6 @@ class IntervalOverview(Row):
 def stream_overviews(recording: Recording) -> tuple[StreamOverview, ...]:
     """Describe the streams of a recording.
 
-    Args:
-        recording: The recording.
-
     Returns:
         A row per stream.
     """
@@ -294,9 +292,6 @@ def stream_overviews(recording: Recording) -> tuple[StreamOverview, ...]:
 
 def interval_overviews(recording: Recording) -> tuple[IntervalOverview, ...]:
     """Describe the intervals of a recording.
-
-    Args:
-        recording: The recording.
 
     Returns:
         A row per interval, in the order of the file.

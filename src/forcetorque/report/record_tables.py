@@ -86,9 +86,6 @@ def noise_table(name: str, posterior: Posterior) -> Table:
 def static_table(rows: Sequence[StaticChecks]) -> Table:
     """Show resolution and full scale per component.
 
-    Args:
-        rows: Static checks.
-
     Returns:
         A row per candidate and quantity.
     """
@@ -113,9 +110,6 @@ def static_table(rows: Sequence[StaticChecks]) -> Table:
 
 def result_tables(content: Mapping[str, Any]) -> list[Table]:
     """Show the lists of a result of another command.
-
-    Args:
-        content: The result.
 
     Returns:
         A table per list of rows; lists and tables inside a row become columns of their own.

@@ -18,15 +18,13 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.all_sensors_page import all_sensors_page
 from forcetorque.report.assessment import Demands
-from forcetorque.report.decision import NextSteps, Undecided, decide_uses, next_steps, sensor_key, sensor_keys
-from forcetorque.report.decision_page import decision_page
+from forcetorque.report.decision_page import all_sensors_page, decision_page
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
+from forcetorque.report.pooled_verdicts import NextSteps, Undecided, decide_uses, next_steps, sensor_key, sensor_keys
 from forcetorque.report.sections import report_document
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.document.content import Document, Section
-from forcetorque.results.document.html import html_bytes
+from forcetorque.results.document.content import Document, Section, html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
 from forcetorque.results.figures import new_figure
 from forcetorque.results.result import Result

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.figures.joint import joint_figure
+from forcetorque.calibration.figures.information import joint_figure
 from forcetorque.calibration.report_blocks import (
     excitation_blocks,
     lambda_blocks,
@@ -217,9 +217,6 @@ def report_document(
 
 def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
     """Draw the results of other commands whose JSON holds all that is drawn.
-
-    Args:
-        content: The result.
 
     Yields:
         Figures; none for most commands.

@@ -294,9 +294,6 @@ def _width_in_columns(widths: Sequence[float], columns: int) -> float:
 def png_bytes(figure: Figure) -> bytes:
     """Draw a figure.
 
-    Args:
-        figure: The figure.
-
     Returns:
         It as PNG at `DOTS_PER_INCH`.
     """

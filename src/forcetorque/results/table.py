@@ -311,10 +311,6 @@ _WITH_ERROR: Final = re.compile(r"([0-9.]+) ±([0-9.]+|inf)")
 def without_columns(table: Table, headings: Collection[str]) -> Table:
     """Leave columns out of a table.
 
-    Args:
-        table: The table.
-        headings: Their headings.
-
     Returns:
         The other columns.
     """

@@ -166,14 +166,7 @@ def html_lines(text: str) -> str:
 
 
 def html_table(table: Table) -> str:
-    """Write a table for a page.
-
-    Args:
-        table: The table.
-
-    Returns:
-        HTML.
-    """
+    """Write a table for a page."""
 
     def line(cells: Sequence[str], tag: str) -> str:
         aligned = ("right" if numeric else "left" for numeric in table.numeric)

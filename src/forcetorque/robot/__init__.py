@@ -6,17 +6,11 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.robot.dynamics import expected_wrenches
-    from forcetorque.robot.model import RobotModel
-    from forcetorque.robot.urdf import read_urdf
+    from forcetorque.robot.dynamics import expected_wrenches as expected_wrenches
+    from forcetorque.robot.model import RobotModel as RobotModel
+    from forcetorque.robot.urdf import read_urdf as read_urdf
 
-__all__ = [
-    "RobotModel",
-    "expected_wrenches",
-    "read_urdf",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "RobotModel": "forcetorque.robot.model",

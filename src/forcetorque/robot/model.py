@@ -155,9 +155,6 @@ class RobotModel(ArrayRecord):
     def sensor(self, name: str) -> ForceTorqueSensor:
         """Find a force-torque sensor by its name or an alias.
 
-        Args:
-            name: Name of the sensor.
-
         Returns:
             The sensor.
 

@@ -25,9 +25,6 @@ def urdf_text(model: RobotModel) -> str:
     `read_urdf` reads the same robot from it: the same names, and numbers that differ by rounding. Sensors are written
     in the plain form, which readers of models take, and again in that of the simulator.
 
-    Args:
-        model: The robot.
-
     Returns:
         The text of the file.
 

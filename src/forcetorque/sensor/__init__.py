@@ -7,10 +7,11 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.sensor.bandwidth.bandwidth import response
-    from forcetorque.sensor.choice.command import choose_sensor
-    from forcetorque.sensor.commands import drift, thermal
-    from forcetorque.sensor.gains.gains import select_gains
+    from forcetorque.sensor.bandwidth.bandwidth import response as response
+    from forcetorque.sensor.choice.command import choose_sensor as choose_sensor
+    from forcetorque.sensor.commands import drift as drift
+    from forcetorque.sensor.commands import thermal as thermal
+    from forcetorque.sensor.gains.gains import select_gains as select_gains
 
 CAPABILITY = Capability(
     page="sensor/temperature.md",
@@ -23,15 +24,7 @@ CAPABILITY = Capability(
     ),
 )
 
-__all__ = [
-    "choose_sensor",
-    "drift",
-    "response",
-    "select_gains",
-    "thermal",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "choose_sensor": "forcetorque.sensor.choice.command",

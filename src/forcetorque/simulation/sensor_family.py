@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, wrench_matrix
-from forcetorque.sensor.reference_design import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT, Electronics
+from forcetorque.sensor.electronics import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT, Electronics
 from forcetorque.simulation.effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
 from forcetorque.simulation.scenario.file import Sensors
 from forcetorque.simulation.sensor import (

@@ -17,7 +17,6 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.simulation.imu_and_motor import SimulatedImu
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.motions.movement import Movement, MovementKind
@@ -301,3 +300,64 @@ def simulate_recording(
     stand = Stand(model=model, support=support, gravity_direction=gravity_direction, ranges=ranges)
     movement = stand.movement("random", MovementKind.RANDOM, trajectory, duration_s)
     return record(movement, sensors, rate_hz=rate_hz, rng=rng)
+
+
+_XYZ = ("x", "y", "z")
+
+
+def _none() -> FloatArray:
+    return np.zeros(3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SimulatedImu(ArrayRecord):
+    """An IMU that reads along the axes of a link, at its origin."""
+
+    link: str
+    """The link."""
+    accelerometer_bias: FloatArray = field(default_factory=_none, metadata=array(3))
+    """What it reads too much; shape (3,); m/s2."""
+    gyroscope_bias: FloatArray = field(default_factory=_none, metadata=array(3))
+    """What it reads too much; shape (3,); rad/s."""
+    accelerometer_noise: float = 0.0
+    """Standard deviation of white noise; m/s2."""
+    gyroscope_noise: float = 0.0
+    """Standard deviation of white noise; rad/s."""
+
+    def __post_init__(self) -> None:
+        check_arrays(self)
+        for name in ("accelerometer_noise", "gyroscope_noise"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise RobotError(f"IMU at {self.link!r}: {name}: expected at least 0, got {getattr(self, name):g}")
+
+    def read(self, motion: RootMotion, rng: np.random.Generator) -> tuple[Signal, Signal]:
+        """Read the motion of the link.
+
+        Args:
+            motion: Motion of the link's frame, in its own axes; n samples.
+            rng: Source of noise.
+
+        Returns:
+            Proper acceleration and angular velocity, as the streams of an IMU have them.
+        """
+        shape = motion.proper_acceleration.shape
+        acceleration = self.accelerometer_bias + self.accelerometer_noise * rng.standard_normal(shape)
+        velocity = self.gyroscope_bias + self.gyroscope_noise * rng.standard_normal(shape)
+        return (
+            self._signal("proper_acceleration", motion.proper_acceleration + acceleration, "m/s2"),
+            self._signal("angular_velocity", motion.angular_velocity + velocity, "rad/s"),
+        )
+
+    def turning(self, motion: RootMotion) -> Signal:
+        """Compute the angular acceleration of the link, which gyroscopes do not measure.
+
+        Args:
+            motion: Motion of the link's frame, in its own axes; n samples.
+
+        Returns:
+            The true angular acceleration.
+        """
+        return self._signal("angular_acceleration", motion.angular_acceleration, "rad/s2")
+
+    def _signal(self, quantity: str, values: FloatArray, unit: str) -> Signal:
+        return Signal(quantity=quantity, values=values, columns=_XYZ, units=(unit,) * 3, frame=self.link)

@@ -7,8 +7,16 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.skin.commands import calibrate_skin, check_skin, skin_wrench
-    from forcetorque.skin.taxels.calibrate import read_patches
+    from forcetorque.skin.commands import (
+        calibrate_skin as calibrate_skin,
+    )
+    from forcetorque.skin.commands import (
+        check_skin as check_skin,
+    )
+    from forcetorque.skin.commands import (
+        skin_wrench as skin_wrench,
+    )
+    from forcetorque.skin.taxels.calibrate import read_patches as read_patches
 
 CAPABILITY = Capability(
     page="skin/layout.md",
@@ -17,14 +25,7 @@ CAPABILITY = Capability(
     sections=("forcetorque.skin.experiment:PATCHES",),
 )
 
-__all__ = [
-    "calibrate_skin",
-    "check_skin",
-    "read_patches",
-    "skin_wrench",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "calibrate_skin": "forcetorque.skin.commands",

@@ -7,10 +7,10 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.study.command import study_skin
-    from forcetorque.study.result import Studies
-    from forcetorque.study.study import study_sensor
-    from forcetorque.study.study_data import read_study_data
+    from forcetorque.study.command import study_skin as study_skin
+    from forcetorque.study.result import Studies as Studies
+    from forcetorque.study.study import study_sensor as study_sensor
+    from forcetorque.study.study_data import read_study_data as read_study_data
 
 CAPABILITY = Capability(
     page="study.md",
@@ -25,14 +25,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.study.command:study", "forcetorque.study.command:study_skin"),
 )
 
-__all__ = [
-    "Studies",
-    "read_study_data",
-    "study_sensor",
-    "study_skin",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "Studies": "forcetorque.study.result",

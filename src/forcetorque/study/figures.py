@@ -41,9 +41,8 @@ from forcetorque.results.figures import (
     shown_name,
 )
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.candidate import Candidate
 from forcetorque.study.one_sensor import WORKBENCH
-from forcetorque.study.selection import with_offset
+from forcetorque.study.selection import Candidate, with_offset
 from forcetorque.study.study import SensorStudy
 
 if TYPE_CHECKING:
@@ -59,10 +58,6 @@ _PAUSE_S = 2.0
 
 def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
     """Draw figures 5.2 to 5.7 and 5.9; those over the types are of the best candidate's data set.
-
-    Args:
-        sensor: The study of one sensor.
-        folder: Folder to write to.
 
     Returns:
         Names of the files.

@@ -23,15 +23,18 @@ from forcetorque.experiment.calibration.excitation import Excitation, excitation
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, ValidationSet
-from forcetorque.study.candidate import SWEEP_LAMBDAS, Candidate, GenerativeCandidate, relative_lambda
 from forcetorque.study.candidate_errors import BlockErrors, PushError, evaluator_of_work, push_error
 from forcetorque.study.selection import (
+    SWEEP_LAMBDAS,
+    Candidate,
+    GenerativeCandidate,
     SessionScore,
     best_by_axis,
     best_by_magnitude,
     choosable,
     evaluate_models,
     push_deviations,
+    relative_lambda,
     scored_across_sessions,
 )
 
@@ -216,9 +219,6 @@ class Study:
     def name(self, index: int) -> str:
         """Name a model.
 
-        Args:
-            index: Its index.
-
         Returns:
             Name of the candidate, or that of the workbench.
         """
@@ -226,9 +226,6 @@ class Study:
 
     def push_error(self, index: int) -> PushError | None:
         """Compute the errors of a model for pushes that were not recorded.
-
-        Args:
-            index: Its index.
 
         Returns:
             Its error against the true matrix; None where that is not known.

@@ -15,10 +15,9 @@ from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.candidate import CONVENTION
 from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.study.one_sensor import WORKBENCH, Study
-from forcetorque.study.selection import FAR_SD
+from forcetorque.study.selection import CONVENTION, FAR_SD
 from forcetorque.study.study import SensorStudy
 
 
@@ -144,9 +143,6 @@ def unfitted_load(study: Study, rows: Sequence[int]) -> UnfittedLoad:
 
 def unfitted_warnings(sensor: SensorStudy) -> Iterator[str]:
     """Say which choices make the sensor worse, or may, at loads that were not fitted.
-
-    Args:
-        sensor: The study of one sensor.
 
     Yields:
         A sentence per choice and reason.
@@ -325,7 +321,7 @@ class StudiedSensor(Row):
 class Studies(Result):
     """Studies of sensors over the same recordings."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.study.answers:study_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.study.command:study_answers"
 
     interval_uses = ()
 
@@ -361,9 +357,6 @@ class Studies(Result):
 def studied_sensor(study: SensorStudy) -> StudiedSensor:
     """Summarise the study of a sensor.
 
-    Args:
-        study: The study.
-
     Returns:
         The choice; no files are written.
     """
@@ -396,9 +389,6 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
 
 def study_warnings(study: SensorStudy) -> tuple[str, ...]:
     """List the warnings about the choice.
-
-    Args:
-        study: The study.
 
     Returns:
         A text per session that is fitted and validated, one per type that a combination cannot give, one per choice

@@ -31,7 +31,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.recording import Use
 from forcetorque.simulation.recordings import true_matrix
-from forcetorque.study.candidate import GenerativeCandidate
+from forcetorque.study.selection import GenerativeCandidate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

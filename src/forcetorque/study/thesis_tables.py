@@ -11,8 +11,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
-from forcetorque.study.candidate import Candidate, GenerativeCandidate, lambda_text
 from forcetorque.study.one_sensor import WORKBENCH, Study
+from forcetorque.study.selection import Candidate, GenerativeCandidate, lambda_text
 
 Row = dict[str, str | float]
 """One row: cell by heading; numbers in N and N m unless the heading says otherwise."""
@@ -23,9 +23,6 @@ DIFFERENCE_UNIT = 1e-4
 
 def squared_errors(study: Study) -> list[Row]:
     """Table 5.2: mean squared error of every type on the data that it was fitted to, at the smallest lambda.
-
-    Args:
-        study: The study.
 
     Returns:
         One row per combination and type, those of the generative fits last; N2, (N m)2 (5.19).
@@ -56,9 +53,6 @@ def matrix_differences(study: Study, data_set: str) -> tuple[tuple[str, ...], Fl
 
 def offsets(study: Study) -> list[Row]:
     """Table 5.4: offset of every type at the smallest lambda, where its variables have their reference values.
-
-    Args:
-        study: The study.
 
     Returns:
         One row per combination and type, those of the generative fits last, in their last session; N, N m.
@@ -95,9 +89,6 @@ def mean_forces(study: Study, source: Offset) -> list[Row]:
 def best_by_axis_table(study: Study) -> list[Row]:
     """Table 5.7: the best candidate of every axis in both modes, and the workbench.
 
-    Args:
-        study: The study.
-
     Returns:
         One row per component; mean absolute value in N, N m.
     """
@@ -117,9 +108,6 @@ def best_by_axis_table(study: Study) -> list[Row]:
 
 def candidate_rows(study: Study) -> list[Row]:
     """Give everything about every candidate, and the workbench.
-
-    Args:
-        study: The study.
 
     Returns:
         One row each: data set, type, lambda in three conventions, mean errors in both modes; N, N m. Then, where the
@@ -187,9 +175,6 @@ def differences_to_workbench(study: Study, data_set: str) -> tuple[tuple[float, 
 
 def unregularised(study: Study) -> Iterable[Candidate]:
     """Give the candidates with the smallest lambda of the sweep.
-
-    Args:
-        study: The study.
 
     Returns:
         One per combination and type.

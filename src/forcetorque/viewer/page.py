@@ -26,7 +26,7 @@ from pydantic import ValidationError
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress
-from forcetorque.base.validation_text import first_error
+from forcetorque.base.toml_file import first_error
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
 from forcetorque.viewer.packing import packed
 from forcetorque.viewer.scene import scene_json

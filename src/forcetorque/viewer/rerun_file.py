@@ -11,8 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import MissingExtraError, install_line
-from forcetorque.base.output_file import real_path, temporary_beside
-from forcetorque.base.run_files import refuse_input
+from forcetorque.base.output_file import replaced_file
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.mcap_file import colour_of
@@ -44,9 +43,7 @@ def write_rrd(path: Path, log: ViewerLog) -> int:
         Its size; bytes.
     """
     rerun = imported_rerun(path)
-    refuse_input(path)
-    target = real_path(path)
-    with temporary_beside(target) as temporary:
+    with replaced_file(path) as temporary:
         stream = rerun.RecordingStream("forcetorque")
         stream.save(temporary, default_blueprint=_layout(log))
         stream.send_recording_name(log.title)
@@ -61,9 +58,7 @@ def write_rrd(path: Path, log: ViewerLog) -> int:
             stream.log("events", rerun.TextLog(event.text, level="WARN" if event.is_warning else "INFO"))
         stream.flush()
         stream.disconnect()
-        size = temporary.stat().st_size
-        temporary.replace(target)
-    return size
+        return temporary.stat().st_size
 
 
 def imported_rerun(path: Path) -> Any:

@@ -16,7 +16,7 @@ from pydantic import BaseModel, Field, ValidationError
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.run_files import declare_input
-from forcetorque.base.validation_text import first_error
+from forcetorque.base.toml_file import first_error
 from forcetorque.collisions.findings import with_collisions
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import by_sensor

@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.workbench.calibrate import workbench
-    from forcetorque.workbench.recording import read_bench
+    from forcetorque.workbench.calibrate import workbench as workbench
+    from forcetorque.workbench.recording import read_bench as read_bench
 
 CAPABILITY = Capability(
     page="workbench.md",
@@ -21,12 +21,7 @@ CAPABILITY = Capability(
     commands=("forcetorque.workbench.command:workbench",),
 )
 
-__all__ = [
-    "read_bench",
-    "workbench",
-]
-
-__getattr__, __dir__ = lazy_names(
+__all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "read_bench": "forcetorque.workbench.recording",

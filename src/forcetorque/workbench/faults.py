@@ -68,9 +68,6 @@ class Signatures:
 def signatures(loads: BenchLoads) -> Iterator[Signatures]:
     """List the possible faults of loads.
 
-    Args:
-        loads: The loads.
-
     Yields:
         Faults by kind. Of weights: swapped, wrong, tilted, displaced, the plate; of specified wrenches: swapped as a
         whole or in one component, and single components.

@@ -163,9 +163,6 @@ def rotation_derivatives(loads: BenchLoads) -> FloatArray:
 def shift_derivatives(loads: BenchLoads) -> FloatArray:
     """Compute the derivatives of the loads by a shift of the weights.
 
-    Args:
-        loads: Loads.
-
     Returns:
         Change of every wrench per metre along each axis; shape (n, 6, 3); N/m, N m/m.
     """

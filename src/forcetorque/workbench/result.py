@@ -282,7 +282,7 @@ class Workbench(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.workbench.figure:bench_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
-    answered_by: ClassVar[str | None] = "forcetorque.workbench.answers:workbench_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.workbench.command:workbench_answers"
 
     schema_name: Literal["forcetorque/workbench/2"] = Field(default="forcetorque/workbench/2", alias="schema")
     """Form of the result."""

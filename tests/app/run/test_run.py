@@ -200,7 +200,7 @@ def test_the_next_command_has_all_recordings_and_sensors(
     assert shlex.split(json.loads(outcome.out)["stages"][0]["command"]) == list(typed)
     row = ProposalRow(line=None, kind="sign", proposal="turn it", residual_before_N=None, residual_after_N=None)
     draft = Draft(file=PARQUET, format="toml", streams={}, questions=(), proposals=(row,), notes=(), content="")
-    monkeypatch.setattr("forcetorque.inspection.draft.resume.resume_experiment", lambda *_, **__: draft)
+    monkeypatch.setattr("forcetorque.inspection.draft.questions.resume_experiment", lambda *_, **__: draft)
     (stage,) = json.loads(run(*typed, "--no-input", "--format", "json").out)["stages"]
     assert stage["remedy"].endswith(f"forcetorque {shlex.join(typed)} declines them all")
 
@@ -232,6 +232,13 @@ def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytes
     stopped = run("run", swapped, "-o", "other")
     assert stopped.code == 3
     assert not Path("other").exists()
+    swapped, _ = write_bench(bad, faults=BenchFaults(swapped=(3, 8)))
+    went_on = run("run", swapped, "-o", "other", "--override", "the swap is known", "--format", "json")
+    warnings = read_calibration(Path(json.loads(went_on.out)["files"][0])).warnings
+    assert any("the swap is known" in warning for warning in warnings)
+    assert not any(
+        "override" in warning for warning in read_calibration(Path(json.loads(good.out)["files"][0])).warnings
+    )
 
 
 @pytest.mark.long
@@ -303,7 +310,7 @@ def test_the_robot_s_file_is_written_only_of_a_sensor_that_may_be_used(folder: P
         written = (folder / output / "matrix_SIM001.txt").is_file()
         assert (outcome.code, written) == (code, code == 0)
         exported = json.loads(outcome.out)["stages"][-1]["text"]
-        assert ("matrix_SIM001.txt is not written" in exported) is not written
+        assert ("for the sensor may not be used yet: matrix_SIM001.txt; forcetorque export" in exported) is not written
         assert (folder / output / "calibrations.csv").is_file()
 
 

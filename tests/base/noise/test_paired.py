@@ -68,8 +68,8 @@ def _judged(recordings: Recordings) -> ErrorRatio:
     """Judge by force errors alone; the moments are the same."""
     return compare_errors(
         [
-            PairedErrors(first=np.pad(first, ((0, 0), (0, 3))), second=np.pad(second, ((0, 0), (0, 3))))
-            for first, second in recordings
+            PairedErrors.of(*(np.pad(errors, ((0, 0), (0, 3))) for errors in pair), np.zeros((len(pair[0]), 6)))
+            for pair in recordings
         ]
     ).force
 

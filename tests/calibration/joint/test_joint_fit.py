@@ -21,8 +21,7 @@ from forcetorque.calibration.joint.robust_fit import (
     residuals,
     residuals_by,
 )
-from forcetorque.calibration.joint.sensor_prior import EVEN
-from forcetorque.calibration.joint.unknowns import UNITS, JointFit
+from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts

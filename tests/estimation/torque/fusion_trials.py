@@ -28,11 +28,11 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.imu_and_motor import SimulatedMotor
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import ARM_URDF
 from tests.estimation.torque.sources import three
+from tests.scenes.simulated_motor import SimulatedMotor
 
 JOINTS: Final = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow")
 """Joints that bear the push; the torque of the wrist is that of the model, whatever FT and skin say."""

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, FitError
 from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, friction_terms, motor_source
-from forcetorque.simulation.imu_and_motor import SimulatedMotor
+from tests.scenes.simulated_motor import SimulatedMotor
 
 RATE_HZ = 50.0
 MOTOR = SimulatedMotor(

@@ -35,7 +35,7 @@ def test_intervals_and_medians_lie_at_their_values(drawn: list[Figure]) -> None:
     assert _intervals(force) == [[10.0, 40.0], [2.0, 8.0]]
     np.testing.assert_allclose([value for _, value in _marks(moment)], [0.2, 0.04])
     texts = [text.get_text() for text in force.texts]
-    assert texts == ["before 20 N, at most 40", "after 4.0 N, at most 8.0", "8.0 N allowed"]
+    assert texts == ["before 20 N (95 %: 40)", "after 4.0 N (95 %: 8.0)", "8.0 N allowed"]
     assert [panel.get_xscale() for panel in (force, moment)] == ["log", "log"]
     assert [panel.get_title(loc="left") for panel in (force, moment)] == ["force error, N", "moment error, N m"]
 

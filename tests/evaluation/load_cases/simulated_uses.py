@@ -19,7 +19,7 @@ from forcetorque.evaluation.load_cases.load_case import (
     pushes_around_sensor,
     pushes_at,
 )
-from forcetorque.evaluation.load_cases.validation_evidence import Evidence, ValidationSegment, evidence
+from forcetorque.evaluation.load_cases.validation_evidence import Evidence, SecondMeans, evidence
 from forcetorque.evaluation.load_cases.verdict import Decision, LoadCaseAssessment
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
@@ -136,17 +136,13 @@ def _uses(case: Case) -> tuple[LoadCase, ...]:
     return tuple(LoadCase(name=k, words=k, wrench=wrench, offset=LoadCaseOffset.TARED) for k, wrench in loads.items())
 
 
+def _error(fit: GenerativeFit, data: DataSet) -> FloatArray:
+    return fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))) - data.reference
+
+
 def _evidence(fit: GenerativeFit, judged: list[DataSet]) -> Evidence:
     return evidence(
-        [
-            ValidationSegment(
-                session=data.session,
-                time_s=data.time_s,
-                error=fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))) - data.reference,
-                reference=data.reference,
-            )
-            for data in judged
-        ]
+        [SecondMeans.of(data.session, [(data.time_s, _error(fit, data), data.reference)]) for data in judged]
     )
 
 

@@ -18,7 +18,7 @@ from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
-    ValidationSegment,
+    SecondMeans,
     compare_with_prior,
     evidence,
     static_loads_text,
@@ -316,9 +316,7 @@ def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned
         reference[:, 0] = 40.0 * (k + 1) + sway * np.sin(time)
         error = 0.01 * rng.normal(size=(300, 6)) + [offset, 0.0, 0.0, 0.0, 0.0, 0.0]
         measured = (reference[:, [1, 0, 2, 3, 4, 5]] if turned else reference) + error
-        stretches.append(
-            ValidationSegment(session=session, time_s=time, error=measured - reference, reference=reference)
-        )
+        stretches.append(SecondMeans.of(session, [(time, measured - reference, reference)]))
     return evidence(stretches)
 
 

@@ -16,7 +16,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.contact_wrenches import contact_wrenches
-from forcetorque.evaluation.validation.joint_torques import joint_torques
+from forcetorque.evaluation.validation.validation import joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import wrench_errors
 from forcetorque.experiment.experiment import Experiment

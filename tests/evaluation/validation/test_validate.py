@@ -10,8 +10,7 @@ import pytest
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import validate
 from forcetorque.evaluation.validation.contact_forces import contact_forces
-from forcetorque.evaluation.validation.joint_torques import joint_torques
-from forcetorque.evaluation.validation.validation import Validation
+from forcetorque.evaluation.validation.validation import Validation, joint_torques
 from forcetorque.experiment import sensor_run
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment

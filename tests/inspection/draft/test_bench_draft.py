@@ -11,8 +11,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.inspection.draft.draft import draft_experiment
-from forcetorque.inspection.draft.questions import answer_questions, logs_of
-from forcetorque.inspection.draft.resume import resume_experiment
+from forcetorque.inspection.draft.questions import answer_questions, logs_of, resume_experiment
 from forcetorque.workbench.loads import THESIS_TABLE
 from forcetorque.workbench.recording import read_bench
 from tests.app.outcome import Run

@@ -19,9 +19,8 @@ from forcetorque.locomotion.torque_control.causes import (
     _row,
     study_causes,
 )
-from forcetorque.locomotion.torque_control.elastic_joints import massless_drives, with_springs
 from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
-from forcetorque.locomotion.torque_control.linear_robot import linear_robot
+from forcetorque.locomotion.torque_control.linear_robot import linear_robot, massless_drives, with_springs
 from forcetorque.locomotion.torque_control.stability import Stability
 from forcetorque.locomotion.torque_control.study import share_interval
 from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,14 +17,14 @@ from forcetorque.locomotion.torque_control.file import TorqueLoopFile
 from forcetorque.locomotion.torque_control.walking_loop import WalkingController, zmp_sensitivity
 from forcetorque.locomotion.torque_control.world import Biped
 
-CONTROLLER = TorqueLoopFile().walking_controller
+CONTROLLER = TorqueLoopFile().walking
 TRUE = np.eye(2, 4)
 """What a sensor without errors measures."""
 
 
 def test_without_feedback_of_the_point_the_body_sways() -> None:
     """By its natural frequency and damping, which is the slowest mode there."""
-    alone = replace(CONTROLLER, zmp_gain=0.0).stability(TRUE, 30.0)
+    alone = CONTROLLER.model_copy(update={"zmp_gain": 0.0}).stability(TRUE, 30.0)
     natural = 2.0 * math.pi * CONTROLLER.sway_hz
     assert alone.growth == pytest.approx(-CONTROLLER.damping * natural, rel=1e-6)
     assert alone.frequency_hz == pytest.approx(CONTROLLER.sway_hz * math.sqrt(1.0 - CONTROLLER.damping**2), rel=1e-6)
@@ -60,7 +59,7 @@ def _simulated(controller: WalkingController, sensitivity: FloatArray, mass: flo
 @pytest.mark.parametrize(("sway_hz", "grows"), [(4.0, False), (5.5, True)])
 def test_a_simulation_in_time_grows_or_dies_as_predicted(sway_hz: float, grows: bool) -> None:
     """At the rate of the mode, with a sensor that mixes the axes."""
-    controller = replace(CONTROLLER, sway_hz=sway_hz)
+    controller = CONTROLLER.model_copy(update={"sway_hz": sway_hz})
     sensitivity = np.array([[1.05, 0.04, 1e-4, 0.0], [-0.06, 0.97, 0.0, -1e-4]])
     predicted = controller.stability(sensitivity, 30.0)
     assert predicted.stable is not grows

@@ -30,9 +30,9 @@ from forcetorque.results.document.content import (
     Text,
     Tone,
     Verdict,
+    html_bytes,
     small_png,
 )
-from forcetorque.results.document.html import html_bytes
 from forcetorque.results.document.pdf import MISSING_LETTERS, pdf_bytes
 from forcetorque.results.document.pdf_layout import lines_of, spelled
 from forcetorque.results.figures import DOTS_PER_INCH, new_figure, png_bytes

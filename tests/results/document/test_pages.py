@@ -10,8 +10,18 @@ import pytest
 from matplotlib.figure import Figure as MplFigure
 from pypdf import PageObject, PdfReader
 
-from forcetorque.results.document.content import Document, Figure, List, Picture, Place, Section, Text, Tone, Verdict
-from forcetorque.results.document.html import html_bytes
+from forcetorque.results.document.content import (
+    Document,
+    Figure,
+    List,
+    Picture,
+    Place,
+    Section,
+    Text,
+    Tone,
+    Verdict,
+    html_bytes,
+)
 from forcetorque.results.document.pdf import pdf_bytes
 from forcetorque.results.figures import DOTS_PER_INCH
 from forcetorque.results.table import Table

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.results.document.content import Document, Figure, Picture, Section
-from forcetorque.results.document.html import html_bytes
+from forcetorque.results.document.content import Document, Figure, Picture, Section, html_bytes
 from tests.report import drawing
 from tests.results.figures import test_every_figure as every_figure
 from tests.toys.figure import toy_figure

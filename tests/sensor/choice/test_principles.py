@@ -19,7 +19,7 @@ from forcetorque.sensor.choice.principles import (
     resonance_hz,
     stimulus_matrix,
 )
-from forcetorque.sensor.reference_design import Y_ELEMENT
+from forcetorque.sensor.electronics import Y_ELEMENT
 
 SENSORS = {sensor.channel.principle: sensor for sensor in principle_sensors()}
 LOAD = np.array([40.0, -30.0, 300.0, 4.0, 2.0, -3.0])

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.transfer.network import Network
 from forcetorque.sensor.transfer.parametric import Linear, Polynomial, Power
-from forcetorque.sensor.transfer.piecewise import PiecewiseLinear, Spline
+from forcetorque.sensor.transfer.sections_and_network import Network, PiecewiseLinear, Spline
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 KNOTS = np.array([0.0, 1.0, 2.5, 4.0, 6.0])

@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.sensor.transfer.parametric import fit_polynomial
-from forcetorque.sensor.transfer.piecewise import fit_piecewise_linear, fit_spline
+from forcetorque.sensor.transfer.sections_and_network import fit_piecewise_linear, fit_spline
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 
 STIMULUS = np.linspace(0.0, 50.0, 60)

@@ -24,10 +24,9 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, Loading
 from forcetorque.study.command import study_skin
 from forcetorque.study.skin import result as of
-from forcetorque.study.skin.printed import contradictions
 from forcetorque.study.skin.raised_leg import KNEE, LINK, LOADS, SENSOR, Load, leg_motion, loaded_leg
 from forcetorque.study.skin.result import SkinStudy, skin_study
-from forcetorque.study.skin.trial import LoadTrial, trial
+from forcetorque.study.skin.trial import LoadTrial, contradictions, trial
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.patches import cylinder_patch

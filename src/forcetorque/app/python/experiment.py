@@ -51,9 +51,6 @@ class Experiment(ExperimentContent):
     def of(cls, content: ExperimentContent) -> Self:
         """Hold an experiment.
 
-        Args:
-            content: Its content.
-
         Returns:
             The same, with its sensors by name.
         """

@@ -88,10 +88,6 @@ class ExpectedWrenches(tuple[FloatArray, FloatArray]):
     def of(cls, run: SensorRun, interval: Interval) -> Self:
         """Compute them.
 
-        Args:
-            run: The sensor.
-            interval: The interval.
-
         Returns:
             Instants and wrenches.
         """
@@ -259,6 +255,7 @@ class Run(SensorRun):
             A figure of matplotlib.
         """
         from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure
+        from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 
-        judged = self.judged(named(calibrations))
+        judged = evaluated_wrenches(self, named(calibrations))
         return comparison_figure(judged.time_s, judged.reference, dict(judged.measured))

@@ -161,8 +161,8 @@ def _begun(
 def _unanswered(file: Path, again: str, *, no_input: bool) -> WholeRun | None:
     """Ask what only a person can answer, then for proposals; what comes out if something stays open, else None."""
     from forcetorque.app.run.result import Stage, WholeRun
-    from forcetorque.inspection.draft.resume import resume_experiment
-    from forcetorque.results.terminal.prompts import accepts, ask, is_terminal
+    from forcetorque.inspection.draft.questions import resume_experiment
+    from forcetorque.results.terminal.options import accepts, ask, is_terminal
 
     asks = is_terminal() and not no_input
     draft = resume_experiment(file, ask=ask if asks else None, accepts=accepts if asks else None)

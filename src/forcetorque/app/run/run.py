@@ -196,8 +196,11 @@ def _by_known_loads(way: _Way) -> None:
     way.results.append(result)
     way.answers = tuple(result.answers())
     if result.faults:
-        way.stop("workbench", [fault.message for fault in result.faults], "correct the bench")
+        remedy = "record these positions again, or name them in leave_out of [loads]"
+        way.stop("workbench", [fault.message for fault in result.faults], remedy)
     if len(result.sensors) == 1:
+        doubted = tuple(_doubted(one, way.doubts) for one in result.calibrations)
+        result = result.model_copy(update={"calibrations": doubted})
         way.output.mkdir(parents=True, exist_ok=True)
         file = way.output / f"{way.files[0].stem}.json"
         result.save(file, force=way.force)
@@ -490,9 +493,11 @@ def _evaluate(way: _Way, campaigns: Mapping[str, Campaign], fitted: SensorCalibr
 
 
 def _with_doubts(entry: SensorCalibration, doubts: Sequence[str]) -> SensorCalibration:
-    calibration = entry.calibration
-    doubted = calibration.model_copy(update={"warnings": tuple(dict.fromkeys((*calibration.warnings, *doubts)))})
-    return entry.model_copy(update={"calibration": doubted}) if doubts else entry
+    return entry.model_copy(update={"calibration": _doubted(entry.calibration, doubts)}) if doubts else entry
+
+
+def _doubted(calibration: Calibration, doubts: Sequence[str]) -> Calibration:
+    return calibration.model_copy(update={"warnings": tuple(dict.fromkeys((*calibration.warnings, *doubts)))})
 
 
 def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCalibrations) -> None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Final
@@ -89,7 +89,7 @@ def _means(
 
 def means_of_parts(
     parts: Iterable[tuple[FloatArray, FloatArray]], window_s: float = WINDOW_S
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """Average samples that come in parts, as `means_over` does all of them.
 
     Args:
@@ -97,7 +97,7 @@ def means_of_parts(
         window_s: Length of a window; s.
 
     Returns:
-        Mean instants of the windows, shape (m,), in s; means of the signals, shape (m, k).
+        As of `means_over`.
 
     Raises:
         FitError: As of `means_over`, or if there is no sample.
@@ -119,7 +119,8 @@ def means_of_parts(
     if rest is None or origin is None:
         raise FitError("means over windows: expected at least one sample, got none")
     means.append(_means(*rest, origin, window_s))
-    return np.concatenate([one[0] for one in means]), np.concatenate([one[1] for one in means])
+    middle, mean, counts = zip(*means, strict=True)
+    return np.concatenate(middle), np.concatenate(mean), np.concatenate(counts)
 
 
 def joined_times(instants: Sequence[FloatArray]) -> FloatArray:
@@ -178,15 +179,42 @@ def mean_error(values: Any, time_s: Any) -> MeanError:
         ShapeError: If the shapes differ.
         FitError: If time falls, or anything is no finite number.
     """
-    signals = np.asarray(values, dtype=np.float64)
+    signals, time = np.asarray(values, dtype=np.float64), np.asarray(time_s, dtype=np.float64)
     require_shape(signals, name="values", shape=(None, None))
-    line, means = means_in_windows(time_s, signals)
-    plain = signals.mean(axis=0)
-    fit = regress(line, np.ones((len(line), 1)), means - plain, about=np.zeros((signals.shape[1], 1)))
+    require_shape(time, name="time_s", shape=(len(signals),))
+    return mean_error_of_parts([(time, signals)], window_for(time))
+
+
+def mean_error_of_parts(parts: Iterable[tuple[FloatArray, FloatArray]], window_s: float) -> MeanError:
+    """Estimate the same from samples that come in parts.
+
+    Args:
+        parts: Instants and signals of consecutive samples; at least one sample in all.
+        window_s: Length of a window, by `window_for`; s.
+
+    Returns:
+        As of `mean_error`.
+    """
+    total, count = np.zeros(()), 0
+
+    def summed() -> Iterator[tuple[FloatArray, FloatArray]]:
+        nonlocal total, count
+        for time, signals in parts:
+            total, count = total + signals.sum(axis=0), count + len(signals)
+            yield time, signals
+
+    line, means = _in_windows(means_of_parts(summed(), window_s), window_s)
+    plain = total / count
+    fit = regress(line, np.ones((len(line), 1)), means - plain, about=np.zeros((len(plain), 1)))
     error = fit.standard_error[:, 0]
     return MeanError(
         standard_error=np.where(np.isfinite(error), error, np.nan), degrees_of_freedom=fit.degrees_of_freedom[:, 0]
     )
+
+
+def _in_windows(means: tuple[FloatArray, FloatArray, IntArray], window_s: float) -> tuple[Timeline, FloatArray]:
+    middle, values, counts = means
+    return Timeline.of(middle / window_s, share=counts / np.median(counts)), values
 
 
 def means_in_windows(time_s: Any, columns: Any) -> tuple[Timeline, FloatArray]:
@@ -206,8 +234,7 @@ def means_in_windows(time_s: Any, columns: Any) -> tuple[Timeline, FloatArray]:
     """
     time = np.asarray(time_s, dtype=np.float64)
     window = window_for(time)
-    middle, means, counts = means_over(time, columns, window)
-    return Timeline.of(middle / window, share=counts / np.median(counts)), means
+    return _in_windows(means_over(time, columns, window), window)
 
 
 def window_for(time_s: FloatArray) -> float:

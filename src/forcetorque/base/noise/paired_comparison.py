@@ -18,7 +18,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.base.rows_on_disk import in_blocks
+from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 
 CONFIDENCE = 0.95
 """Probability with which the interval holds the ratio: one side of it is passed by chance half as often as 1 in 20,
@@ -71,10 +72,10 @@ class ErrorRatio:
 class PairedErrors:
     """Errors of two calibrations under test at the same n instants of one recording, in the order of time."""
 
-    first: FloatArray
-    """Errors of the first; shape (n, 6); N, N m."""
-    second: FloatArray
-    """Errors of the second; shape (n, 6); N, N m."""
+    squares: FloatArray
+    """Squared norms of the errors of the first and of the second, of force and moment; shape (2, 2, n); N2, N2 m2."""
+    mean: FloatArray
+    """Mean error of the first; shape (6,); N, N m; 0 without a sample."""
 
     @classmethod
     def of(cls, first: Any, second: Any, reference: Any) -> Self:
@@ -93,18 +94,22 @@ class PairedErrors:
         """
         truth = np.asarray(reference, dtype=np.float64)
         require_shape(truth, name="reference", shape=(None, 6))
-        errors = []
-        for name, given in (("first", first), ("second", second)):
-            values = np.asarray(given, dtype=np.float64)
+        wrenches = [np.asarray(given, dtype=np.float64) for given in (first, second)]
+        for name, values in zip(("first", "second"), wrenches, strict=True):
             require_shape(values, name=name, shape=truth.shape)
-            errors.append(values - truth)
-        whole = np.isfinite(errors[0]).all(axis=1) & np.isfinite(errors[1]).all(axis=1)
-        return cls(first=errors[0][whole], second=errors[1][whole])
+        squares, total, count = [], np.zeros(6), 0
+        for expected, *measured in in_blocks(truth, *wrenches):
+            errors = [values - expected for values in measured]
+            whole = np.isfinite(np.hstack(errors)).all(axis=1)
+            errors = [error[whole] for error in errors]
+            squares.append([[(error[:, axes] ** 2).sum(axis=1) for axes in FORCE_AND_MOMENT] for error in errors])
+            total, count = total + errors[0].sum(axis=0), count + len(errors[0])
+        return cls(squares=np.concatenate(squares, axis=2), mean=total / max(count, 1))
 
     @property
     def samples(self) -> int:
         """Number of samples."""
-        return len(self.first)
+        return self.squares.shape[2]
 
     def of_quantity(self, axes: slice) -> SquaredErrors:
         """Give the squared norms of the errors of force or moment.
@@ -115,7 +120,7 @@ class PairedErrors:
         Returns:
             Them, a block per sample.
         """
-        squares = np.stack([(errors[:, axes] ** 2).sum(axis=1) for errors in (self.first, self.second)])
+        squares = self.squares[:, FORCE_AND_MOMENT.index(axes)]
         return SquaredErrors(ends=np.arange(1, self.samples + 1), sums=squares)
 
 

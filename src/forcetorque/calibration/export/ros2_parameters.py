@@ -78,9 +78,6 @@ def _sensor(name: str, calibration: Calibration, frame_id: str) -> list[str]:
 def raw_unit(calibration: Calibration) -> str:
     """Give the unit of the raw samples that a calibration takes.
 
-    Args:
-        calibration: The calibration.
-
     Returns:
         `count`, or `N, N m` where it corrects a calibrated stream.
     """

@@ -14,7 +14,7 @@ from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrati
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
-from forcetorque.calibration.joint.sensor_prior import SensorPrior
+from forcetorque.calibration.joint.unknowns import SensorPrior
 from forcetorque.calibration.joint.untouched_interval import JointInterval, joint_interval, required_prior
 from forcetorque.calibration.moments import assumptions_of
 from forcetorque.calibration.summary import information_gains

@@ -30,8 +30,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES
 from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer
 from forcetorque.calibration.generative.whitening import Border, Whitened
-from forcetorque.calibration.joint.sensor_prior import EVEN, SensorPrior
-from forcetorque.calibration.joint.unknowns import CHANGES, JointFit, Places
+from forcetorque.calibration.joint.unknowns import CHANGES, EVEN, JointFit, Places, SensorPrior
 from forcetorque.calibration.joint.windows import PartWindows
 from forcetorque.experiment.calibration.assumptions import LOADS, MODEL, Scale
 from forcetorque.experiment.calibration.model_error import ErrorTerm

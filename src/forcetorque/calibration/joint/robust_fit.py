@@ -14,8 +14,7 @@ from forcetorque.calibration.contact_windows import FEWEST, disagreeing, minorit
 from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
 from forcetorque.calibration.joint.nodes import Stretch
-from forcetorque.calibration.joint.sensor_prior import SensorPrior
-from forcetorque.calibration.joint.unknowns import UNITS, JointFit
+from forcetorque.calibration.joint.unknowns import UNITS, JointFit, SensorPrior
 from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows, part_windows
 from forcetorque.experiment.calibration.assumptions import LOADS
 from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelTolerance

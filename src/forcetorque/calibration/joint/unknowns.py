@@ -1,16 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Unknowns of a joint fit: their units, their places in the vector, and their most probable values."""
+"""Unknowns of a joint fit: units, places in the vector, most probable values, how far sensors are from priors."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.base.arrays import FloatArray, IntArray, require_shape
+from forcetorque.calibration.generative.fit import FRAME_CHANGES
+from forcetorque.experiment.calibration.assumptions import (
+    COEFFICIENTS_TOGETHER,
+    GAIN,
+    LOADS,
+    Assumptions,
+    Scale,
+    mount_scales,
+    sensor_root,
+)
 from forcetorque.experiment.calibration.joint_posterior import LENGTH_M
 from forcetorque.experiment.calibration.model_error import ZERO, ErrorTerm
 
@@ -55,9 +64,6 @@ class Places:
     def changes(self, sensor: str) -> slice:
         """Give the places of the changes of a sensor, row by row.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             36 places.
         """
@@ -66,10 +72,6 @@ class Places:
 
     def offset(self, sensor: str, session: str) -> slice:
         """Give the places of an offset.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
 
         Returns:
             Six places.
@@ -117,9 +119,6 @@ class JointFit:
     def change(self, sensor: str) -> FloatArray:
         """Give what the wrenches by the prior matrix of a sensor are to be multiplied by.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             1 + D; shape (6, 6); N, N m.
         """
@@ -128,10 +127,6 @@ class JointFit:
 
     def offset(self, sensor: str, session: str) -> FloatArray:
         """Give what is to be added to the wrenches of a sensor.
-
-        Args:
-            sensor: The sensor.
-            session: The session.
 
         Returns:
             Offset; shape (6,); N, N m.
@@ -193,9 +188,6 @@ class JointFit:
     def prior_covariance(self, sensor: str) -> FloatArray:
         """Give the covariance of the changes of a sensor before any data.
 
-        Args:
-            sensor: The sensor.
-
         Returns:
             Covariance, row by row; shape (36, 36); in `UNITS`.
         """
@@ -212,3 +204,48 @@ class JointFit:
         own = self.places.errors
         deviations = np.sqrt(np.diag(self.covariance)[own])
         return list(zip(self.places.terms, self.mean[own].tolist(), deviations.tolist(), strict=True))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorPrior:
+    """The q unknowns of a sensor, and what they are worth in its changes D."""
+
+    basis: FloatArray
+    """What the unknowns add to D row by row, in `UNITS`; shape (36, q)."""
+    scales: tuple[Scale, ...]
+    """Expected sizes of their kinds."""
+    kinds: tuple[int, ...]
+    """Number of the kind of every unknown; q of them."""
+
+    @classmethod
+    def of(cls, matrix: FloatArray, assumptions: Assumptions) -> Self:
+        """Tell it from a prior matrix.
+
+        Args:
+            matrix: Prior matrix; shape (6, c); N/count, N m/count.
+            assumptions: Full scales of the channels, and how far the frame may be off.
+
+        Returns:
+            The prior distribution: every coefficient relative to the root mean square of its row, gains of channels,
+            rotation (rad) and shift (m) of the frame.
+        """
+        channels = matrix.shape[1]
+        require_shape(assumptions.full_scale, name="full_scale", shape=(channels,))
+        scaled = matrix * assumptions.full_scale
+        response = np.asarray(np.linalg.pinv(scaled), dtype=np.float64)
+        size = np.sqrt((scaled**2).mean(axis=1))
+        coefficients = np.zeros((LOADS, LOADS, CHANGES))
+        for row in range(LOADS):
+            coefficients[row, :, LOADS * row : LOADS * (row + 1)] = size[row] * sensor_root(response)
+        gains = np.einsum("kc,cd->kdc", scaled, response)
+        moved = FRAME_CHANGES.transpose(1, 2, 0)
+        basis = np.concatenate([coefficients, gains, moved], axis=2) * UNITS[:, None] / UNITS[:, None, None]
+        return cls(
+            basis=basis.reshape(CHANGES, -1),
+            scales=(COEFFICIENTS_TOGETHER, COEFFICIENTS_TOGETHER, GAIN, *mount_scales(assumptions.mount)),
+            kinds=tuple(np.repeat(np.arange(5), [CHANGES // 2, CHANGES // 2, channels, 3, 3]).tolist()),
+        )
+
+
+EVEN: Final = SensorPrior(basis=np.eye(CHANGES), scales=(COEFFICIENTS_TOGETHER,), kinds=(0,) * CHANGES)
+"""Every coefficient of D scatters alike: for a sensor of which no matrix is known."""

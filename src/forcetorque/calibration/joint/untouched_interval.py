@@ -222,9 +222,6 @@ def joint_interval(
 def required_prior(sensor: ExperimentSensor) -> FloatArray:
     """Give the prior matrix of a sensor, which a joint calibration changes.
 
-    Args:
-        sensor: The sensor.
-
     Returns:
         The matrix; shape (6, c); N/count, N m/count.
 

@@ -307,11 +307,7 @@ class TorqueHistory:
     """Its fusions; none where torques are not fused."""
 
     def picture(self) -> TorquePicture:
-        """Put torques of all intervals beside each other.
-
-        Returns:
-            As of `torque_picture`.
-        """
+        """Put torques of all intervals beside each other."""
         return torque_picture(self.experiment, self.spans, self.fusions)
 
 

@@ -54,9 +54,6 @@ class IntervalMotion:
     def of_joints(self, names: Sequence[str]) -> tuple[FloatArray, FloatArray]:
         """Give velocities and accelerations of joints.
 
-        Args:
-            names: The joints.
-
         Returns:
             Velocities and accelerations; shape (n, j) each; rad/s, rad/s2.
         """
@@ -83,9 +80,6 @@ class TorqueSources:
 
     def over(self, interval: Interval) -> list[TorqueSource]:
         """Give what every source says over an interval.
-
-        Args:
-            interval: The interval.
 
         Returns:
             Sources with the same joints and instants, at least two.

@@ -50,9 +50,6 @@ class Scene:
     def equations(self, parts: Sequence[SubModel]) -> Affine:
         """Stack the equations of sub-models, with r on the left side: what acts less what is needed.
 
-        Args:
-            parts: The sub-models.
-
         Returns:
             Six rows each.
         """

@@ -99,9 +99,6 @@ class UncertainEstimates:
     def contact(self, name: str) -> FloatArray:
         """Give the wrenches of a contact.
 
-        Args:
-            name: Its name.
-
         Returns:
             Wrenches in the contact frame; shape (n, 6); N, N m.
         """
@@ -110,9 +107,6 @@ class UncertainEstimates:
     def contact_sd(self, name: str) -> FloatArray:
         """Give the standard deviations of the wrench of a contact.
 
-        Args:
-            name: Its name.
-
         Returns:
             One for each component; shape (n, 6); N, N m.
         """
@@ -120,9 +114,6 @@ class UncertainEstimates:
 
     def covariance_of(self, name: str) -> FloatArray:
         """Give the covariance of the wrench of a contact.
-
-        Args:
-            name: Its name.
 
         Returns:
             Covariances; shape (n, 6, 6).

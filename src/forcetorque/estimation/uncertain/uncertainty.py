@@ -37,9 +37,6 @@ class Tangents(ArrayRecord):
     def of_samples(self, kept: slice | BoolArray) -> Tangents:
         """Keep some samples.
 
-        Args:
-            kept: Which.
-
         Returns:
             The same in those.
         """

@@ -150,7 +150,7 @@ def _draw_interval(panel: Axes, height: float, quantiles: tuple[float, float, fl
 
 def _words(quantiles: tuple[float, float, float], unit: str) -> str:
     _, middle, high = quantiles
-    return f"{two_digits(middle)} {unit}, at most {two_digits(high)}"
+    return f"{two_digits(middle)} {unit} (95 %: {two_digits(high)})"
 
 
 def _centre(low: float, high: float) -> float:

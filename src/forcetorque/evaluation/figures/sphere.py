@@ -274,9 +274,6 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     every trial and, where there are several, one for their mean and one for the pooled fit. What is not identifiable is
     hollow and grey; groups of which nothing is identifiable come last, in the order that they were given in.
 
-    Args:
-        groups: The groups.
-
     Returns:
         The figure, as high as it has lines.
 

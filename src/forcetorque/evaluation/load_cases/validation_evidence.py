@@ -10,16 +10,16 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import joined_times, mean_error, means_over
+from forcetorque.base.noise.means import joined_times, mean_error, means_of_parts
 from forcetorque.base.noise.paired_comparison import Conclusion, ErrorRatio, PairedErrors, compare_errors
+from forcetorque.base.rows_on_disk import in_blocks, mean_over_rows
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.excitation import hardly_moved
-from forcetorque.experiment.calibrations_under_test import EvaluatedWrenches
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
@@ -55,20 +55,6 @@ class Evidence:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ValidationSegment:
-    """Measured wrenches of one calibration in a recording, or in the samples of one power cycle."""
-
-    session: str
-    """Name of the session."""
-    time_s: FloatArray
-    """Instants, not falling; shape (n,); s."""
-    error: FloatArray
-    """Measured minus expected reading; shape (n, 6); N, N m."""
-    reference: FloatArray
-    """Expected wrenches; shape (n, 6); N, N m."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SecondMeans:
     """Errors of one calibration in a recording, or in the samples of one power cycle, in means of a second."""
 
@@ -82,21 +68,22 @@ class SecondMeans:
     """Mean expected wrenches; shape (n, 6); N, N m."""
 
     @classmethod
-    def of(cls, segment: ValidationSegment) -> SecondMeans:
-        """Average the errors of samples.
+    def of(cls, session: str, parts: Iterable[tuple[FloatArray, FloatArray, FloatArray]]) -> SecondMeans:
+        """Average the errors of consecutive samples of one session in a recording.
 
         Args:
-            segment: The samples.
+            session: Name of the session.
+            parts: Instants, not falling, shape (n,), in s; measured minus expected readings and expected wrenches,
+                shape (n, 6), in N and N m; at least one sample in all.
 
         Returns:
-            Their means.
+            The same segment in means of a second, with their mean instants.
         """
-        columns = np.hstack([segment.error, segment.reference])
-        time_s, means, _ = means_over(segment.time_s, columns)
-        return cls(session=segment.session, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
+        time_s, means, _ = means_of_parts((time, np.hstack([error, load])) for time, error, load in parts)
+        return cls(session=session, time_s=time_s, error=means[:, :6], reference=means[:, 6:])
 
 
-def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
+def evidence(stretches: Sequence[SecondMeans]) -> Evidence:
     """Compute the errors of one calibration in any number of recordings.
 
     Args:
@@ -105,18 +92,6 @@ def evidence(stretches: Sequence[ValidationSegment]) -> Evidence:
     Returns:
         The errors. The constant part is that of the session in which it is largest: of two that cancel each other
         either would hurt. What is left is about the mean of each session.
-    """
-    return evidence_of_means([SecondMeans.of(segment) for segment in stretches])
-
-
-def evidence_of_means(stretches: Sequence[SecondMeans]) -> Evidence:
-    """Compute the same from means of a second.
-
-    Args:
-        stretches: Mean errors in each, at least one.
-
-    Returns:
-        As of `evidence`.
     """
     instants, errors, references = [], [], []
     in_session = sorted(stretches, key=lambda stretch: stretch.session)
@@ -169,33 +144,30 @@ def evidence_by_calibration(campaign: Campaign, calibrations: Mapping[str, Calib
     Returns:
         Evidence by name of the calibration; none where no recording has such an interval.
     """
-    stretches: dict[str, list[ValidationSegment]] = {name: [] for name in calibrations}
+    stretches: dict[str, list[SecondMeans]] = {name: [] for name in calibrations}
     for run in campaign.runs:
         if not run.has(Use.VALIDATION):
             continue
-        judged = run.judged(calibrations)
+        judged = evaluated_wrenches(run, calibrations)
+        sessions: dict[str, list[slice]] = {}
+        for label, samples in judged.intervals:
+            sessions.setdefault(campaign.session(run, label), []).append(samples)
         # the calibrations come last: a prior may have the name of one
         measured = dict(judged.measured[-len(calibrations) :])
-        for session, samples in _sessions(campaign, run, judged).items():
-            for name in calibrations:
-                stretches[name].append(
-                    ValidationSegment(
-                        session=session,
-                        time_s=judged.time_s[samples],
-                        error=(measured[name] - judged.reference)[samples],
-                        reference=judged.load[samples],
-                    )
-                )
+        for name, parts in stretches.items():
+            for session, intervals in sessions.items():
+                parts.append(SecondMeans.of(session, _errors(judged, measured[name], intervals)))
     return {name: evidence(parts) for name, parts in stretches.items() if parts}
 
 
-def _sessions(campaign: Campaign, run: SensorRun, judged: EvaluatedWrenches) -> dict[str, IntArray]:
-    """Samples by session, in the order of time."""
-    indices: dict[str, list[IntArray]] = {}
-    for label, samples in judged.intervals:
-        own = np.arange(samples.start, samples.stop)
-        indices.setdefault(campaign.session(run, label), []).append(own)
-    return {session: np.concatenate(parts) for session, parts in indices.items()}
+def _errors(
+    judged: EvaluatedWrenches, measured: FloatArray, intervals: Sequence[slice]
+) -> Iterator[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Instants, errors and loads of intervals, block by block."""
+    for samples in intervals:
+        columns = (values[samples] for values in (judged.time_s, measured, judged.reference, judged.load))
+        for time_s, wrench, reference, load in in_blocks(*columns):
+            yield time_s, wrench - reference, load
 
 
 MovedAndLoad = tuple[float, float]
@@ -216,8 +188,11 @@ def validation_excitation(
         Movement and size of the force, then of the moment. The size is the larger of the root mean square of the
         validation loads and the standard deviation of the fitted ones.
     """
-    moving = np.sqrt((reference if moved is None else moved).var(axis=0))
-    return moved_and_load(moving, np.sqrt((reference**2).mean(axis=0)), calibrations)
+    loads = reference if moved is None else moved
+    mean = mean_over_rows(np.asarray, loads)
+    variance = mean_over_rows(lambda block: (block - mean) ** 2, loads)
+    square = mean_over_rows(lambda block: block**2, reference)
+    return moved_and_load(np.sqrt(variance), np.sqrt(square), calibrations)
 
 
 def moved_and_load(
@@ -261,18 +236,32 @@ def static_loads_text(force: MovedAndLoad, moment: MovedAndLoad) -> str | None:
     return f"the {what} hardly moved in the validation samples ({of}): {wrong} would show nothing"
 
 
-def fewest_independent(error: FloatArray, time_s: FloatArray) -> float | None:
+def fewest_independent(components: Iterable[FloatArray], time_s: FloatArray) -> float | None:
     """Count the independent samples that errors are worth, of the component that is worth the fewest.
 
     Args:
-        error: Errors in the order of time; shape (n, 6); N, N m; NaN in gaps.
+        components: Errors of every component in the order of time; shape (n,) each; N, N m; NaN in gaps.
         time_s: Instants of the samples, not falling; shape (n,); s.
 
     Returns:
         The number; None where no component changes.
     """
-    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
+    counts = [autocorrelation(component, time_s).effective_count for component in components]
     return min((count for count in counts if np.isfinite(count)), default=None)
+
+
+def errors_by_component(measured: FloatArray, reference: FloatArray) -> Iterator[FloatArray]:
+    """Give errors, one component after the other.
+
+    Args:
+        measured: Wrenches; shape (n, 6); N, N m.
+        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+
+    Yields:
+        Measured minus reference of each component; shape (n,); N or N m.
+    """
+    for component in range(measured.shape[1]):
+        yield np.concatenate([one[:, component] - other[:, component] for one, other in in_blocks(measured, reference)])
 
 
 Quantity = Literal["force", "moment"]
@@ -343,9 +332,6 @@ class ErrorComparison(Row):
 def known_interval(ratio: ErrorRatio) -> tuple[float, float] | tuple[None, None]:
     """Give the 95 % interval of a ratio.
 
-    Args:
-        ratio: The ratio.
-
     Returns:
         Its ends; None twice where too few stretches give no upper end.
     """
@@ -407,7 +393,7 @@ def independence(judged: EvaluatedWrenches) -> tuple[Independence, ...]:
             samples=len(judged.time_s),
             independent=tuple(
                 finite_or_none(autocorrelation(error, judged.time_s).effective_count)
-                for error in (wrench - judged.reference).T
+                for error in errors_by_component(wrench, judged.reference)
             ),
         )
         for name, wrench in judged.measured
@@ -425,7 +411,7 @@ def compare_with_prior(runs: Runs, calibrations: Mapping[str, Calibration]) -> t
         Two rows, force and moment, per calibration that has a prior and offset.
     """
     campaign = Campaign.of(runs)
-    recordings = [run.judged(calibrations) for run in campaign.runs_with(Use.VALIDATION)]
+    recordings = [evaluated_wrenches(run, calibrations) for run in campaign.runs_with(Use.VALIDATION)]
     return prior_comparisons(campaign.sensor.name, recordings)
 
 
@@ -468,16 +454,18 @@ def _compared(
     sensor: str, candidate: str, prior: str, offset: Offset, pairs: Sequence[PairedErrors]
 ) -> Iterator[PriorComparison]:
     comparison = compare_errors(pairs)
-    new, old = (np.concatenate(errors) for errors in zip(*((pair.first, pair.second) for pair in pairs), strict=True))
+    constant = np.average([pair.mean for pair in pairs], axis=0, weights=[pair.samples for pair in pairs])
     quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, ErrorRatio], ...] = (
         ("force", "N", FORCE, comparison.force),
         ("moment", "N m", MOMENT, comparison.moment),
     )
     for quantity, unit, axes, ratio in quantities:
-        if not (new[:, axes].any() or old[:, axes].any()):  # the sensor does not measure it
+        squares = [pair.of_quantity(axes).sums for pair in pairs]
+        if not any(square.any() for square in squares):  # the sensor does not measure it
             continue
         low, high = known_interval(ratio)
-        mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
+        sums = np.sum([np.sqrt(square).sum(axis=1) for square in squares], axis=0)
+        mean, prior_mean = (sums / comparison.count).tolist()
         yield PriorComparison(
             sensor=sensor,
             calibration=candidate,
@@ -488,7 +476,7 @@ def _compared(
             samples=comparison.count,
             mean=mean,
             prior_mean=prior_mean,
-            constant=float(np.linalg.norm(new[:, axes].mean(axis=0))),
+            constant=float(np.linalg.norm(constant[axes])),
             ratio=ratio.ratio,
             ratio_low=low,
             ratio_high=high,

@@ -160,9 +160,6 @@ class LoadCaseVerdict(Row):
 def verdict_texts(verdicts: tuple[LoadCaseVerdict, ...]) -> list[str]:
     """Give the verdicts as sentences, each with the name of its calibration.
 
-    Args:
-        verdicts: Verdicts.
-
     Returns:
         A sentence each.
     """

@@ -71,14 +71,7 @@ def failed(failures: Sequence[FailureRow]) -> Iterator[Answer]:
 
 
 def index_verdict(fit: EllipsoidRow) -> str:
-    """Say by how much axes differ, or that it is not identifiable.
-
-    Args:
-        fit: The ellipsoid.
-
-    Returns:
-        The verdict.
-    """
+    """Say by how much axes differ, or that it is not identifiable."""
     if not fit.identifiable or fit.index_kg is None:
         return "NOT IDENTIFIABLE"
     return f"axes differ by {bounded(fit.index_kg, fit.index_high_kg, 'kg')}"

@@ -39,9 +39,6 @@ class NormalEquations:
 def ellipsoid_parameters(ellipsoid: Ellipsoid) -> FloatArray:
     """Describe an ellipsoid.
 
-    Args:
-        ellipsoid: The ellipsoid.
-
     Returns:
         Centre, then the lower triangle of L by rows; shape (9,).
     """

@@ -128,9 +128,6 @@ class GroupRow(Row):
 def group_rows(groups: Sequence[TrialGroup]) -> tuple[GroupRow, ...]:
     """Put groups into the form of the result, and rank those that are identifiable by what their intervals tell apart.
 
-    Args:
-        groups: The groups.
-
     Returns:
         Their rows, in the same order.
     """

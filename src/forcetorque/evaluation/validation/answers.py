@@ -15,8 +15,7 @@ from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, ContactForces
-    from forcetorque.evaluation.validation.joint_torques import JointTorqueErrors, JointTorques
-    from forcetorque.evaluation.validation.validation import Validation
+    from forcetorque.evaluation.validation.validation import JointTorqueErrors, JointTorques, Validation
 
 
 def validation_answers(validation: Validation) -> Iterator[Answer]:
@@ -103,9 +102,6 @@ def _force(row: ContactForceErrors) -> str:
 
 def torque_answers(joint_torques: JointTorques) -> Iterator[Answer]:
     """Give the answer for every sensor and candidate, where joint torques alone are evaluated.
-
-    Args:
-        joint_torques: Joint torques.
 
     Yields:
         One answer each.

@@ -359,7 +359,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             moment_mean_Nm=errors.moment_mean,
             mean_absolute=errors.mean_absolute,
             bias=errors.bias,
-            independent=fewest_independent(wrenches, contacts.time_s[index, offset]),
+            independent=fewest_independent(wrenches.T, contacts.time_s[index, offset]),
             excitation_N=moved_N,
             excitation_Nm=moved_Nm,
         )
@@ -395,9 +395,6 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
 
 def constant_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
     """Put the constant part of contact wrenches into a table, with what tells how much the wrenches are worth.
-
-    Args:
-        rows: The rows.
 
     Returns:
         A line per row.

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from forcetorque.base.errors import MissingExtraError, install_line
-from forcetorque.base.output_file import real_path, temporary_beside
-from forcetorque.base.run_files import refuse_input
+from forcetorque.base.output_file import replaced_file
 
 
 def typestore(path: Path) -> Any:
@@ -44,11 +43,10 @@ def mcap_writer(path: Path) -> Iterator[Any]:
     """
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-    refuse_input(path)
-    target = real_path(path)
-    with temporary_beside(target, folder=True) as folder:
-        writer = Writer(folder / "bag", version=9, storage_plugin=StoragePlugin.MCAP)
+    with replaced_file(path) as temporary:
+        bag = temporary.with_suffix(".bag")
+        writer = Writer(bag, version=9, storage_plugin=StoragePlugin.MCAP)
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with writer:
             yield writer
-        (folder / "bag" / "bag.mcap").replace(target)
+        next(bag.glob("*.mcap")).replace(temporary)

@@ -101,6 +101,11 @@ def bench_lines(table: LogSketch, loads: str | None, folder: Path) -> list[str]:
         lines.append(line("components", components, "of which the table has the loads"))
         words = "largest fx, fy, fz, tx, ty, tz to come, as [100, 100, 200, 10, 10, 10]; N, N m"
         lines.append(question("load_full_scale", words))
+    if in_table and not known:
+        lines += [
+            remark('components = ["fx", "fy", "fz"]: of a sensor that measures fewer than six, with the line below'),
+            remark("load_full_scale = [100, 100, 200, 10, 10, 10]: largest fx, fy, fz, tx, ty, tz to come; N, N m"),
+        ]
     lines.append(
         remark('prior = "matrix.txt": matrix that the sensor came with; "identity" where the readings are wrenches')
     )
@@ -146,6 +151,7 @@ def _columns_lines(
         yield question("channels", f"columns of the sensor, among {listed(rest)}")
     if not in_table:
         return
+    yield remark("series_from_zero = true: where every row without load begins a series with an offset of its own")
     if not known:
         yield question("known", f"columns of the load fx fy fz tx ty tz, or of those measured, among {listed(rest)}")
         yield question("known_units", 'unit of each, as ["N", "N", "N", "N m", "N m", "N m"]')

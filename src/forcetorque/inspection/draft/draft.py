@@ -30,7 +30,14 @@ from forcetorque.inspection.draft.intervals import (
 )
 from forcetorque.inspection.draft.joints import standing_lines
 from forcetorque.inspection.draft.log import ColumnNames, draft_log, recording_lines, without_streams
-from forcetorque.inspection.draft.logged_robot import difference, logged_robot, model_of, with_fixed_frame
+from forcetorque.inspection.draft.logged_robot import (
+    difference,
+    logged_robot,
+    model_of,
+    with_fixed_frame,
+    wrist_interval_lines,
+    wrist_load_lines,
+)
 from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
@@ -47,7 +54,6 @@ from forcetorque.inspection.draft.sensors_and_supports import (
 from forcetorque.inspection.draft.streams import DraftedLog, relative
 from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names, few_components
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
-from forcetorque.inspection.draft.wrist_of_arm import wrist_interval_lines, wrist_load_lines
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import NO_MOTION, Recording
 from forcetorque.results.answer import Answer, Concern, typed

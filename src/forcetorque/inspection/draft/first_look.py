@@ -11,8 +11,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.toml_file import unanswered_keys
-from forcetorque.base.validation_text import expected_text
+from forcetorque.base.toml_file import expected_text, unanswered_keys
 from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.formats.registry import format_named
 from forcetorque.inspection.draft.log import draft_log, recording_lines

@@ -266,10 +266,6 @@ def _probe(model: RobotModel, joint: str) -> RobotModel:
 def mass_beyond(model: RobotModel, joint: str) -> float:
     """Add up the masses beyond a joint.
 
-    Args:
-        model: The robot.
-        joint: One of its joints.
-
     Returns:
         Mass of all distal links; kg.
     """

@@ -124,10 +124,6 @@ _MOST_JOINTS = 12
 def unlogged_joints(log: DraftedLog, model: RobotModel) -> tuple[str, ...]:
     """Find the joints without a stream.
 
-    Args:
-        log: The log.
-        model: The robot.
-
     Returns:
         Independent joints, in the order of the robot; none where the log has no names of joints, or streams hold joints
         without names.

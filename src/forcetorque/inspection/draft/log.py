@@ -249,9 +249,6 @@ def _link_in(name: str, model: RobotModel | None) -> str | None:
 def likely_quantities(sketch: LogSketch) -> dict[int, str]:
     """Say what each column of a log looks like, without a robot.
 
-    Args:
-        sketch: The log.
-
     Returns:
         A quantity or `time`, by the place of the column; what looks like nothing is left out.
     """

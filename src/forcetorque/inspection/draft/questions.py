@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Questions of an experiment file that was begun from a log, asked one by one in a terminal."""
+"""Questions of an experiment file that was begun from a log, asked in a terminal now or later."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ from forcetorque.base.toml_file import (
     with_answer,
 )
 from forcetorque.inspection.draft.bench import is_bench, logs_of_bench
+from forcetorque.inspection.draft.draft import Draft, ProposalRow, QuestionRow
 from forcetorque.inspection.draft.priors import serial_of
+from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, toml_value, write_text_of
 
 OPEN_QUESTIONS = 4
@@ -132,3 +134,45 @@ def with_serials(text: str, folder: Path) -> str:
         if serial is not None:
             text = with_answer(text, key, toml_value(serial))
     return text
+
+
+def resume_experiment(
+    file: Path | str, *, ask: Callable[[str], str] | None = None, accepts: Callable[[str], bool] | None = None
+) -> Draft:
+    """Take up an experiment file again.
+
+    Args:
+        file: The file; it is rewritten at every answer and accepted proposal, and keeps its comments.
+        ask: Shows a question and gives the answer, empty to leave it open; None to ask nothing.
+        accepts: Shows a proposal and gives whether it is accepted; None to list all and change nothing.
+
+    Returns:
+        The file with the questions that are open; with those that are answered, the proposals that are left.
+    """
+    path = Path(file)
+    open_questions(path)  # what is no TOML file is refused before anything is asked
+    if ask is not None:
+        answer_questions(path, ask)
+    questions = open_questions(path)
+    is_whole = bool(questions) or is_bench(tomllib.loads(text_of(path)))  # nothing is proposed of a bench
+    left = () if is_whole else proposals(path) if accepts is None else settle(path, accepts)
+    return Draft(
+        file=str(path),
+        format="toml",
+        streams={},
+        questions=tuple(QuestionRow(line=one.line, key=one.key, question=one.words) for one in questions),
+        proposals=tuple(map(_row, left)),
+        notes=(),
+        content=path.read_text(encoding="utf-8-sig"),
+    )
+
+
+def _row(proposal: Proposal) -> ProposalRow:
+    residuals = proposal.residuals
+    return ProposalRow(
+        line=None if proposal.edit is None else proposal.edit.line,
+        kind=proposal.kind,
+        proposal=proposal.sentence,
+        residual_before_N=None if residuals is None else float(residuals.before[0]),
+        residual_after_N=None if residuals is None else float(residuals.after[0]),
+    )

@@ -64,9 +64,6 @@ class Residual:
     def is_worse_than(self, other: Residual) -> bool:
         """Compare with another residual of the same sensors.
 
-        Args:
-            other: The other one.
-
         Returns:
             Whether force or moment has clearly more, by the matrix as it is or beside its errors.
         """

@@ -129,10 +129,6 @@ def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> t
 def sensor_joints(sensor: DraftedSensor, model: RobotModel) -> tuple[str, ...]:
     """Name the fixed joints that a sensor may sit in.
 
-    Args:
-        sensor: The sensor.
-        model: The robot.
-
     Returns:
         One where its name or a tag of the robot's file tells it; else the likeliest first.
     """
@@ -310,9 +306,6 @@ _MOST_SUPPORTS = 12
 def base_of_arm(model: RobotModel) -> str | None:
     """Give the link that an arm is bolted down by.
 
-    Args:
-        model: The robot.
-
     Returns:
         Its root, or the first link with a mass behind it, which fixed joints hold there; None for a robot with several
         limbs, which may stand on any of them.
@@ -334,9 +327,6 @@ def base_of_arm(model: RobotModel) -> str | None:
 def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
     """Name the links without another beyond them that moving joints lead to.
 
-    Args:
-        model: The robot.
-
     Returns:
         The links that are called like soles first, then feet, bases, and the others in the order of the model, its root
         last of each.
@@ -355,10 +345,6 @@ def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
 
 def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
     """Tell whether the robot's model has nothing that a sensor could feel.
-
-    Args:
-        sensor: The sensor.
-        model: The robot.
 
     Returns:
         Whether all joints that it may sit in have no mass beyond them.
@@ -399,15 +385,7 @@ def support_lines(base: str | None, model: RobotModel, imu_streams: Sequence[str
 
 
 def load_lines(sensor: DraftedSensor, model: RobotModel) -> list[str]:
-    """Write the `[[load]]` of an arm whose model ends at the sensor.
-
-    Args:
-        sensor: The sensor.
-        model: The robot.
-
-    Returns:
-        Its lines.
-    """
+    """Write the `[[load]]` of an arm whose model ends at the sensor."""
     joint = model.sensors[sensor.name].joint if sensor.name in model.sensors else sensor.joint
     lines = ["", "# what hangs on the sensor: the URDF has no mass there", "[[load]]"]
     lines.append(question("name", "a name for the tool; in another recording the same name is the same tool"))

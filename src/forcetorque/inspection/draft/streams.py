@@ -302,9 +302,6 @@ def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> I
 def array_words(name: str) -> list[str]:
     """Take the name of an array apart.
 
-    Args:
-        name: The name.
-
     Returns:
         Its words, in small letters.
     """
@@ -366,10 +363,6 @@ class DraftedLog:
 
 def relative(path: Path, folder: Path) -> str:
     """Make a path relative to the folder of the experiment file.
-
-    Args:
-        path: The path.
-        folder: The folder.
 
     Returns:
         Relative, with `/`; absolute on another drive.

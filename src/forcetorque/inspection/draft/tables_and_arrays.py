@@ -243,7 +243,10 @@ def _stamp_lines(sketch: LogSketch) -> list[str]:
     place = time_column(_headings(sketch), [column.step for column in sketch.columns])
     if place is None:
         words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
-        choice = f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place'
+        choice = (
+            f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place; of known loads on a '
+            "bench begin again with `forcetorque init` --loads"
+        )
         return [question("stamp", choice), *RATE_LINES]
     column = sketch.columns[place]
     name = column.name
@@ -441,9 +444,6 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
 
 def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
     """Find the array that looks like the time.
-
-    Args:
-        columns: Arrays.
 
     Returns:
         One that rises as times do, the first that is called so if any is; None for none.

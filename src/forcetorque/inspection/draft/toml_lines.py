@@ -253,9 +253,6 @@ def axes_line(quantity: str, stream: str, frames: Mapping[str, str]) -> str:
 def text_of(file: Path) -> str:
     r"""Read the text of an experiment file, whose keys may still be to be filled in.
 
-    Args:
-        file: The file.
-
     Returns:
         The text without a byte-order mark, its line ends `\n`.
 

@@ -188,9 +188,6 @@ class Evidence(ArrayRecord):
     def follows(self, fit: Fit) -> bool:
         """Tell whether the measurements are mostly what a fit explains, so that nothing else, as a contact, moves them.
 
-        Args:
-            fit: The fit.
-
         Returns:
             Whether it explains most of the movement of the force, and of the moment.
         """

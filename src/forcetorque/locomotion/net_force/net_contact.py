@@ -388,9 +388,6 @@ def contact_warnings(phases: Sequence[NetContact], readers: Sequence[Reader], we
 def leans(phases: Sequence[NetContact]) -> Iterator[str]:
     """Give warnings about links that stand on level ground and lean by the joints.
 
-    Args:
-        phases: The phases.
-
     Yields:
         A sentence for each.
     """

@@ -179,9 +179,6 @@ class BalanceScene:
     def root_H_sole(self, sole: Sole) -> FloatArray:
         """Find where a sole is.
 
-        Args:
-            sole: The sole.
-
         Returns:
             Its pose in the support; shape (n, 4, 4), those around the interval included; m.
         """
@@ -189,9 +186,6 @@ class BalanceScene:
 
     def ground_H_sole(self, sole: Sole) -> FloatArray:
         """Find where a sole is on the ground.
-
-        Args:
-            sole: The sole.
 
         Returns:
             Its pose in the ground's frame in the interval; shape (n, 4, 4); m.

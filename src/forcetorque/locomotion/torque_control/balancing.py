@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import cross, invert_pose, make_pose
+from forcetorque.base.toml_file import NotNegative, Positive, Table
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import centre_of_mass
 from forcetorque.locomotion.torque_control.world import JOINTS, LEGS, SOLE_CENTRE, SOLES, Biped, Posture
@@ -35,18 +36,17 @@ class Phase(StrEnum):
     RIGHT = "right"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Timing:
-    """How long everything takes."""
+class Timing(Table):
+    """How long the robot stands on both feet, the left, both, the right, both."""
 
-    hold_s: float
-    """Standing still on both feet, each time; s."""
-    shift_s: float
-    """Moving the weight from one place to the next; s."""
-    single_s: float
-    """Standing on one foot, in which the other is lifted and put down; s."""
-    lift_m: float
-    """How high the free foot is lifted; m."""
+    hold_s: Positive = 0.5
+    """Standing on both feet, each time; s."""
+    shift_s: Positive = 0.8
+    """Moving the weight; s."""
+    single_s: Positive = 1.0
+    """Standing on one foot, while the other is lifted and put down; s."""
+    lift_m: NotNegative = 0.03
+    """How high; m."""
 
     @property
     def duration_s(self) -> float:

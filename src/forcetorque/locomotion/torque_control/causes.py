@@ -14,9 +14,13 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.torque_control.balancing import Balance, Phase, standing
 from forcetorque.locomotion.torque_control.closed_loop import LoopSetting, drawn_matrices
-from forcetorque.locomotion.torque_control.elastic_joints import massless_drives, with_springs
 from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
-from forcetorque.locomotion.torque_control.linear_robot import linear_robot, require_stable
+from forcetorque.locomotion.torque_control.linear_robot import (
+    linear_robot,
+    massless_drives,
+    require_stable,
+    with_springs,
+)
 from forcetorque.locomotion.torque_control.stability import Stability
 from forcetorque.locomotion.torque_control.study import share_interval
 from forcetorque.locomotion.torque_control.walking_loop import WalkingController, zmp_sensitivity
@@ -246,21 +250,21 @@ def _balance_times(setting: LoopSetting, factor: float) -> Balance:
 
 def _zmp_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
     """Properties of the loop of the walking controller."""
-    controller = file.walking_controller
+    controller = file.walking
     foot, late = SENSORS.index("l_foot_ft"), float(round(controller.delay_s / PERIOD_S))
 
     def of(changed: Callable[[float], WalkingController]) -> Callable[[float, FloatArray], Stability]:
         return lambda value, matrix: changed(value).stability(zmp_sensitivity(biped, matrix[foot]), biped.mass)
 
     def scaled(key: str) -> Callable[[float, FloatArray], Stability]:
-        return of(lambda value: replace(controller, **{key: value * getattr(controller, key)}))
+        return of(lambda value: controller.model_copy(update={key: value * getattr(controller, key)}))
 
     yield _Cause(
         loop=ZMP,
         name="delay of the zero moment point, ms",
         value=late,
         grid=_milliseconds(late, 100.0),
-        stability=of(lambda value: replace(controller, delay_s=PERIOD_S * value)),
+        stability=of(lambda value: controller.model_copy(update={"delay_s": PERIOD_S * value})),
         whole=True,
     )
     yield _Cause(
@@ -268,7 +272,7 @@ def _zmp_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
         name="natural frequency on the compliance, Hz",
         value=controller.sway_hz,
         grid=np.geomspace(controller.sway_hz, 10.0 * controller.sway_hz, 20),
-        stability=of(lambda value: replace(controller, sway_hz=value)),
+        stability=of(lambda value: controller.model_copy(update={"sway_hz": value})),
     )
     for name, key in (
         ("gain of the zero moment point", "zmp_gain"),

@@ -237,9 +237,6 @@ class LoopRun:
     def of(self, copies: slice) -> LoopRun:
         """Give some of the copies.
 
-        Args:
-            copies: Which.
-
         Returns:
             What they did.
         """

@@ -80,19 +80,6 @@ class SensorTable(Table):
     """The same of moments; N m."""
 
 
-class MotionTable(Table):
-    """Both feet, the left, both, the right, both."""
-
-    hold_s: Positive = 0.5
-    """Standing on both feet, each time; s."""
-    shift_s: Positive = 0.8
-    """Moving the weight; s."""
-    single_s: Positive = 1.0
-    """Standing on one foot, while the other is lifted and put down; s."""
-    lift_m: NotNegative = 0.03
-    """How high; m."""
-
-
 class BalanceTable(Table):
     """The controller above: what torques are wanted."""
 
@@ -104,32 +91,6 @@ class BalanceTable(Table):
     """Pull of every joint to its posture; N m/rad."""
     posture_damping: NotNegative = 2.0
     """Its damping; N m s/rad."""
-
-
-class WalkingTable(Table):
-    """A walking controller that feeds the measured zero moment point back.
-
-    Gains, period and height are those that its authors publish for iCubGenova04 (robotology/walking-controllers).
-    """
-
-    zmp_gain: NotNegative = 3.5
-    """K_zmp, while walking; 1/s."""
-    centre_gain: NotNegative = 10.0
-    """K_com, while walking; 1/s."""
-    dcm_gain: NotNegative = 1.1
-    """K_dcm."""
-    period_s: Annotated[float, Field(ge=PERIOD_S, le=0.1)] = 0.01
-    """Period; whole milliseconds; s."""
-    delay_s: Annotated[float, Field(ge=0.0, le=0.5)] = 0.01
-    """How late the measured point is; whole milliseconds; s. Assumed."""
-    height_m: Positive = 0.53
-    """Height of the centre of mass; m."""
-    lag_s: Positive = 0.02
-    """Time constant of the position control of the joints; s. Assumed."""
-    sway_hz: Positive = 3.0
-    """Natural frequency of the body on the compliance of ankles, gears and soles; Hz. Assumed."""
-    damping: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.05
-    """Its damping ratio. Assumed."""
 
 
 class TorqueLoopFile(Table):
@@ -162,11 +123,11 @@ class TorqueLoopFile(Table):
     """Estimates of torques."""
     sensor: SensorTable = SensorTable()
     """Sensors."""
-    motion: MotionTable = MotionTable()
+    motion: Timing = Timing()
     """What the robot does."""
     balance: BalanceTable = BalanceTable()
     """What torques are wanted."""
-    walking: WalkingTable = WalkingTable()
+    walking: WalkingController = WalkingController()
     """The walking controller of `oscillation-causes`."""
 
     @model_validator(mode="after")
@@ -230,17 +191,6 @@ class TorqueLoopFile(Table):
             hold_steps=round(self._hold()),
             delay_steps=round(self.estimator.delay_s / PERIOD_S),
         )
-
-    @property
-    def walking_controller(self) -> WalkingController:
-        """The walking controller."""
-        return WalkingController(**self.walking.model_dump())
-
-    @property
-    def timing(self) -> Timing:
-        """How long everything takes."""
-        motion = self.motion
-        return Timing(hold_s=motion.hold_s, shift_s=motion.shift_s, single_s=motion.single_s, lift_m=motion.lift_m)
 
 
 def read_torque_loop(path: Path | str) -> TorqueLoopFile:

@@ -164,7 +164,7 @@ def study_torque_loop(settings: TorqueLoopFile, progress: Callable[[str], None])
     onsets: list[TorqueLoopOnsetRow] = []
     for tilt_deg in settings.tilt_deg:
         biped = Biped.on_soles(tilt_deg)
-        reference = switching(biped, settings.timing, PERIOD_S)
+        reference = switching(biped, settings.motion, PERIOD_S)
         for gain_factor in settings.gain_factors:
             setting = settings.setting(biped, gain_factor)
             case = _Case(file=settings, biped=biped, setting=setting, reference=reference, gain_factor=gain_factor)
@@ -176,7 +176,7 @@ def study_torque_loop(settings: TorqueLoopFile, progress: Callable[[str], None])
     return TorqueLoopStudy(
         name=settings.name,
         weight_N=weight_N,
-        duration_s=settings.timing.duration_s,
+        duration_s=settings.motion.duration_s,
         delay_s=settings.estimator.delay_s + 1.0 / settings.estimator.rate_hz - PERIOD_S,
         rows=tuple(rows),
         onsets=tuple(onsets),

@@ -14,13 +14,14 @@ joints follows with a lag, the true one stands on a spring, the compliance of an
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
+from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import invert_pose
+from forcetorque.base.toml_file import NotNegative, Positive, Table
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.locomotion.torque_control.stability import Stability
@@ -31,28 +32,30 @@ _STEP_S: Final = 0.001
 _SOLE: Final = "l_sole_joint"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WalkingController:
-    """Gains of the controller and what stands on the foot."""
+class WalkingController(Table):
+    """A walking controller that feeds the measured zero moment point back.
 
-    zmp_gain: float
-    """K_zmp; 1/s."""
-    centre_gain: float
-    """K_com; 1/s."""
-    dcm_gain: float
+    Gains, period and height are those that its authors publish for iCubGenova04 (robotology/walking-controllers).
+    """
+
+    zmp_gain: NotNegative = 3.5
+    """K_zmp, while walking; 1/s."""
+    centre_gain: NotNegative = 10.0
+    """K_com, while walking; 1/s."""
+    dcm_gain: NotNegative = 1.1
     """K_dcm."""
-    period_s: float
-    """Period of the controller; whole milliseconds; s."""
-    delay_s: float
-    """How late the measured point is when it is used; whole milliseconds; s."""
-    height_m: float
+    period_s: Annotated[float, Field(ge=_STEP_S, le=0.1)] = 0.01
+    """Period; whole milliseconds; s."""
+    delay_s: Annotated[float, Field(ge=0.0, le=0.5)] = 0.01
+    """How late the measured point is; whole milliseconds; s. Assumed."""
+    height_m: Positive = 0.53
     """Height of the centre of mass; m."""
-    lag_s: float
-    """Time constant of the position control of the joints; s."""
-    sway_hz: float
-    """Natural frequency of the body on its compliance, commands held; Hz."""
-    damping: float
-    """Its damping ratio."""
+    lag_s: Positive = 0.02
+    """Time constant of the position control of the joints; s. Assumed."""
+    sway_hz: Positive = 3.0
+    """Natural frequency of the body on the compliance of ankles, gears and soles; Hz. Assumed."""
+    damping: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.05
+    """Its damping ratio. Assumed."""
 
     def transition(self, sensitivity: FloatArray, mass: float) -> FloatArray:
         """Give what one period does to all states.

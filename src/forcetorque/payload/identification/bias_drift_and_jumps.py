@@ -9,10 +9,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
+from forcetorque.payload.identification.estimate_under_noise import noise_sizes
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import BiasTestRow, DriftRow, six
 from forcetorque.payload.identification.measurement_model import expected, masses
-from forcetorque.payload.identification.noise_model import noise_sizes
 from forcetorque.payload.identification.parameter_vector import Kind, places
 from forcetorque.payload.identification.robust_fit import Fit, fit, plain_fit
 from forcetorque.results.number_text import finite_or_none
@@ -108,9 +108,6 @@ def choose_drift(problem: LoadProblem) -> DriftRow:
     from all others, with a constant bias and with one that moves evenly, which is taken if it does better by more than
     a standard error.
 
-    Args:
-        problem: The problem.
-
     Returns:
         The choice.
     """
@@ -172,9 +169,6 @@ _LEAST_LEFT = 1e-3
 
 def strongest_jump(fitted: Fit) -> tuple[int, int] | None:
     """Look for a step of one axis at every row.
-
-    Args:
-        fitted: The fit.
 
     Returns:
         First row after the strongest step, and the component that it is strongest in; None where noise explains it.

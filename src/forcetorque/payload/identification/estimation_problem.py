@@ -234,9 +234,6 @@ class LoadProblem:
     def load(self, name: str) -> Load:
         """Find a load.
 
-        Args:
-            name: Its name.
-
         Returns:
             The load.
 

@@ -82,11 +82,7 @@ class LoadEstimate(ArrayRecord):
         return bool(np.isfinite(self.mass) and np.isfinite(self.first_moment).all())
 
     def as_inertia(self) -> Inertia:
-        """Give the load as an inertia in the sensor's frame.
-
-        Returns:
-            The inertia.
-        """
+        """Give the load as an inertia in the sensor's frame."""
         return Inertia.about_centre_of_mass(
             mass=self.mass, centre_of_mass=self.centre_of_mass, second_moment=self.inertia
         )

@@ -33,9 +33,6 @@ def solve(problem: LoadProblem) -> LoadSolution:
 
     Nothing is refused because the rows tell it badly: its interval is wide, or infinite.
 
-    Args:
-        problem: The problem.
-
     Returns:
         The solution.
 
@@ -73,9 +70,6 @@ def solve(problem: LoadProblem) -> LoadSolution:
 def load_estimates(fitted: Fit) -> tuple[LoadEstimate, ...]:
     """Give the loads of a fit.
 
-    Args:
-        fitted: The fit.
-
     Returns:
         Loads, in the order of the problem.
     """
@@ -84,9 +78,6 @@ def load_estimates(fitted: Fit) -> tuple[LoadEstimate, ...]:
 
 def session_estimates(fitted: Fit) -> tuple[BiasRow, ...]:
     """Give the biases of a fit.
-
-    Args:
-        fitted: The fit.
 
     Returns:
         Sessions, in the order of the problem.

@@ -24,9 +24,9 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import reading_sign
 from forcetorque.experiment.calibration.assumptions import FRAME, SENSOR, Assumptions, rows_of
+from forcetorque.payload.identification.estimate_under_noise import noise_sizes
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.measurement_model import load_columns, load_wrench
-from forcetorque.payload.identification.noise_model import noise_sizes
 from forcetorque.payload.identification.parameter_vector import Guess, Kind
 from forcetorque.payload.identification.robust_fit import plain_fit
 

@@ -240,10 +240,6 @@ def _difference(problem: LoadProblem, guess: Guess, place: int) -> FloatArray:
 def variable_about_mean(rows: LoadRows, number: int) -> FloatArray:
     """Count a variable from its mean.
 
-    Args:
-        rows: The rows.
-        number: Number of the variable.
-
     Returns:
         Shape (n,).
     """
@@ -269,9 +265,6 @@ def since_middle(rows: LoadRows) -> FloatArray:
 
 def instants(rows: LoadRows) -> FloatArray:
     """Give instants, or the order of rows that have none.
-
-    Args:
-        rows: The rows.
 
     Returns:
         Shape (n,); s, or numbers from 0.
@@ -300,9 +293,6 @@ def first_mount(problem: LoadProblem) -> FloatArray:
 
     Forces are `sign m R a + bias`, whatever the centre of mass: R is the rotation that is nearest to the best matrix.
 
-    Args:
-        problem: The problem.
-
     Returns:
         `sensor_R_motion`; shape (3, 3).
     """
@@ -313,9 +303,6 @@ def first_mount(problem: LoadProblem) -> FloatArray:
 
 def force_response(problem: LoadProblem) -> FloatArray:
     """Covariance of forces with proper accelerations within sessions and loads, which is that of `m R` for even turns.
-
-    Args:
-        problem: The problem.
 
     Returns:
         Shape (3, 3); N m/s2.

@@ -14,10 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import SHAPES
 from forcetorque.base.units import MAD_TO_DEVIATION, SI_FACTORS
 from forcetorque.base.wrench import FORCE, MOMENT
-from forcetorque.payload.identification.estimation_problem import LoadProblem
-from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identification.measurement_model import changes, expected, first_mount, inertial, load_wrench
-from forcetorque.payload.identification.noise_model import (
+from forcetorque.payload.identification.estimate_under_noise import (
     Estimate,
     Group,
     estimate,
@@ -25,6 +22,9 @@ from forcetorque.payload.identification.noise_model import (
     noise_sizes,
     sizes_under,
 )
+from forcetorque.payload.identification.estimation_problem import LoadProblem
+from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.identification.measurement_model import changes, expected, first_mount, inertial, load_wrench
 from forcetorque.payload.identification.parameter_vector import OF_LOAD, Guess, Kind, places, unknowns_of
 
 FALSE_ALARMS = 0.01

@@ -43,9 +43,6 @@ _SCALE = "state the mass of one load: known masses give the scale"
 def open_directions(fitted: Fit) -> tuple[str, ...]:
     """Name what is open.
 
-    Args:
-        fitted: The fit.
-
     Returns:
         Directions that no row tells, and loads that are told too vaguely to be of use.
     """
@@ -186,9 +183,6 @@ def spanned_directions(wrench: FloatArray, session: np.ndarray) -> int:
 
 def spanned_by(fitted: Fit) -> int:
     """Count the directions of wrench that the loads of a fit move.
-
-    Args:
-        fitted: The fit.
 
     Returns:
         From 0 to 6.

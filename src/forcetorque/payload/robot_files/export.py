@@ -23,11 +23,10 @@ from forcetorque.payload.load_warnings import overruled, overweight_loads, reaso
 from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.payload.result import WeighedLoad
 from forcetorque.payload.robot_files.arms import ARMS, arm_text, not_held
-from forcetorque.payload.robot_files.flange_load import flange_load
 from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.payload.robot_files.held_load import held_load
 from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
-from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.payload.robot_files.robot_load import RobotLoad, flange_load
 from forcetorque.payload.robot_files.ros import (
     broadcaster_text,
     force_torque_tools_text,
@@ -199,9 +198,6 @@ def _is_estimated(run: SensorRun) -> bool:
 
 def require_agreeing_logs(weighed: WeighedLoad) -> None:
     """Refuse a load of logs whose other fields contradict its frame.
-
-    Args:
-        weighed: The load.
 
     Raises:
         ExperimentError: If one of them does.

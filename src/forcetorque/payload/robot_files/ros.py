@@ -141,9 +141,6 @@ _FT_TOOLS_KEYS = ("mass", "sensor_frame_to_com", "force_offset", "torque_offset"
 def ft_tools_text(load: RobotLoad) -> str:
     """Write the parameters.
 
-    Args:
-        load: The load.
-
     Returns:
         YAML.
     """
@@ -183,9 +180,6 @@ _FORCE_TORQUE_TOOLS_KEYS = ("bias", "gripper_com_frame_id", "gripper_com_pose", 
 
 def force_torque_tools_text(load: RobotLoad) -> str:
     """Write the parameters.
-
-    Args:
-        load: The load.
 
     Returns:
         YAML.

@@ -24,9 +24,6 @@ Value = float | str | list[float]
 def number(value: float) -> str:
     """Write a number that YAML and ROS read as one with a fraction, and that reads back exactly.
 
-    Args:
-        value: The number.
-
     Returns:
         Its digits, without an exponent: YAML 1.1 takes 1e-05 for a word.
     """
@@ -36,9 +33,6 @@ def number(value: float) -> str:
 def numbers(values: Iterable[float]) -> str:
     """Write a list of numbers.
 
-    Args:
-        values: The numbers.
-
     Returns:
         The list.
     """
@@ -47,9 +41,6 @@ def numbers(values: Iterable[float]) -> str:
 
 def word(text: str) -> str:
     """Write a word, in quotes.
-
-    Args:
-        text: The word.
 
     Returns:
         The word as YAML and JSON read it.

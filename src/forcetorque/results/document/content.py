@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Content of a document: text, tables, figures with their pictures, and messages for pictures that cannot be drawn."""
+"""Content of a document: text, tables, figures, messages for pictures that cannot be drawn; and it as HTML."""
 
 from __future__ import annotations
 
+import base64
 import io
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import datetime
 from enum import StrEnum
 from functools import cached_property
+from importlib import resources
 from typing import TYPE_CHECKING
 
-from forcetorque.base.errors import ForceTorqueError, FormatError
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, install_line
 from forcetorque.results.figures import png_bytes
+from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
+from forcetorque.results.visual_roles import css_variables
 
 if TYPE_CHECKING:
     import matplotlib.figure
-
 
 _COLOURS = 96
 """Colours of the palette: eight hues and their shades against white, which smooth edges need."""
@@ -206,9 +209,6 @@ class Document:
 def without_undrawn(document: Document) -> Document:
     """Draw every picture, and say of those that cannot be drawn why.
 
-    Args:
-        document: The document.
-
     Returns:
         It with a sentence in the place of every figure that its data do not make.
     """
@@ -226,3 +226,46 @@ def _block(block: Block) -> Block:
         except ForceTorqueError as error:
             return Text(text=f"A figure could not be drawn: {error}")
     return block
+
+
+_KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
+
+
+def html_bytes(document: Document) -> bytes:
+    """Write a document as HTML.
+
+    Returns:
+        The file, UTF-8. A page inside it runs its own scripts and cannot reach the document.
+
+    Raises:
+        MissingExtraError: If jinja2 is not installed.
+    """
+    try:
+        from jinja2 import Environment, StrictUndefined
+    except ImportError as error:
+        raise MissingExtraError(f"reports are written by jinja2: {install_line('report')}") from error
+    folder = resources.files("forcetorque.results.document")
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces, "joined": with_joined_units}
+    template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
+    rules = (folder / "document.css").read_text(encoding="utf-8")
+    style = f":root {{\n{css_variables(dark=False)}\n}}\n{rules}"
+    return template.render(document=without_undrawn(document), style=style, no_rows=NO_ROWS).encode(
+        errors="backslashreplace"
+    )
+
+
+def _kind(block: Block) -> str:
+    return _KINDS[type(block)]
+
+
+def _pieces(text: str) -> list[tuple[str, bool]]:
+    """Cut a text at backquotes: its pieces, and whether each is a command, which stands between two of them."""
+    pieces = text.split("`")
+    if len(pieces) % 2 == 0:  # one that has no other is a letter of a name
+        return [(text, False)]
+    return [(piece, bool(k % 2)) for k, piece in enumerate(pieces)]
+
+
+def _data_url(png: bytes) -> str:
+    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")

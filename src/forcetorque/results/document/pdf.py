@@ -209,9 +209,6 @@ _LEAST_FIGURE = 0.2
 def pdf_bytes(document: Document) -> bytes:
     """Write a document as PDF, A4 upright.
 
-    Args:
-        document: The document.
-
     Returns:
         The file.
 

@@ -119,9 +119,6 @@ def lines_of(text: str, width: float, measure: Measure) -> list[str]:
 def pieces_of(text: str) -> list[str]:
     """Cut a text where a line may end.
 
-    Args:
-        text: The text.
-
     Returns:
         Words, and parts of long words, each with the spaces behind it.
     """

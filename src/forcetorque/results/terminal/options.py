@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments and options that several commands share."""
+"""What several commands share at the terminal: arguments, options, questions, and help in whole sentences."""
 
 from __future__ import annotations
 
+import select
+import sys
+from collections.abc import Mapping
+from io import BufferedReader
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, ClassVar
 
 import typer
+from typer.core import TyperGroup
 
 from forcetorque.results.terminal.output import Format
 
@@ -64,3 +69,75 @@ PopulationOption = Annotated[
 def between_commas(texts: list[str] | None) -> list[list[str]]:
     """Give the parts of each text of an option between commas; none where the option is not given."""
     return [[part.strip() for part in text.split(",")] for text in texts or ()]
+
+
+_WHOLE = 1000
+"""Characters of a sentence that are shown: all."""
+
+
+class WholeSentences(TyperGroup):
+    """A group whose help cuts nothing off."""
+
+    panels: ClassVar[Mapping[str, tuple[str, ...]] | None] = None
+    """Titles, and commands in their order, the last with all others; None for one panel of all."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write a section for every panel.
+
+        Args:
+            ctx: The context.
+            formatter: What the help is written to.
+        """
+        panels = {title: list(names) for title, names in (self.panels or {"Commands": ()}).items()}
+        shown = {name for names in panels.values() for name in names}
+        panels[list(panels)[-1]] += [name for name in self.list_commands(ctx) if name not in shown]
+        for title, names in panels.items():
+            known = {name: command for name in names if (command := self.get_command(ctx, name)) is not None}
+            with formatter.section(title):
+                formatter.write_dl(
+                    [(name, command.get_short_help_str(limit=_WHOLE)) for name, command in known.items()]
+                )
+
+
+def is_terminal() -> bool:
+    """Tell whether a person can answer.
+
+    Returns:
+        Whether standard input is a terminal; none that is closed.
+    """
+    return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()
+
+
+def has_piped_lines() -> bool:
+    """Tell whether lines wait on a standard input that is no terminal.
+
+    Returns:
+        Whether there are; an empty or closed one, such as `/dev/null`, has none, and so has one that cannot be asked.
+    """
+    if is_terminal():
+        return False
+    try:
+        ready, _, _ = select.select([sys.stdin], [], [], 0.0)
+        return bool(ready) and isinstance(sys.stdin.buffer, BufferedReader) and bool(sys.stdin.buffer.peek(1))
+    except (OSError, ValueError, AttributeError):
+        return False
+
+
+def ask(question: str) -> str:
+    """Ask for a value.
+
+    Returns:
+        The answer; empty to leave it open.
+    """
+    sys.stderr.write(f"{question}\n")
+    return str(typer.prompt("answer (empty to leave it open)", default="", show_default=False, err=True))
+
+
+def accepts(proposal: str) -> bool:
+    """Ask whether a proposal is accepted.
+
+    Returns:
+        Whether it is; no if the answer is empty.
+    """
+    sys.stderr.write(f"{proposal}\n")
+    return bool(typer.confirm("change the file so", default=False, err=True))

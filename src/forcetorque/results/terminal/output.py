@@ -110,9 +110,6 @@ def report_error(error: Exception) -> None:
 def end_with(refusals: Sequence[ForceTorqueError]) -> None:
     """Say what was refused, and leave with exit code 2 if anything was.
 
-    Args:
-        refusals: The errors.
-
     Raises:
         typer.Exit: If there is one.
     """
@@ -183,9 +180,6 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
 def shows_colours(stream: TextIO) -> bool:
     """Tell whether a stream is a terminal that shows colours.
 
-    Args:
-        stream: The stream.
-
     Returns:
         False for a file or a pipe, for a terminal without colours, and where the variable NO_COLOR is not empty.
 
@@ -199,9 +193,6 @@ def shows_colours(stream: TextIO) -> bool:
 
 def files_text(files: Sequence[Path]) -> str:
     """Write files as they are typed in a command.
-
-    Args:
-        files: The files.
 
     Returns:
         All of them where they are few; of many a pattern that a shell expands to the same files, or empty where there
@@ -221,11 +212,7 @@ def files_text(files: Sequence[Path]) -> str:
 
 
 def show_warnings(result: Result) -> None:
-    """Print the warnings of a result, each once, to standard error.
-
-    Args:
-        result: The result.
-    """
+    """Print the warnings of a result, each once, to standard error."""
     log = start_logging()
     print_messages()
     for sentence in result.cautions():

@@ -153,6 +153,16 @@ def driver() -> Callable[..., bool]:
     return drive
 
 
+def has_copy() -> bool:
+    """Tell whether the compiled evaluator is on disk.
+
+    Returns:
+        Whether it is; also where the copy is of another version, which is compiled anew.
+    """
+    folder = driver().stats.cache_path  # type: ignore[attr-defined]  # of numba, without types
+    return folder is not None and any(Path(folder).glob("run.driver.locals.drive-*.nbi"))
+
+
 _CHUNK = 16384
 """Most samples of one task: long against the cost of starting it, and small in memory."""
 

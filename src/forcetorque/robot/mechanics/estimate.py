@@ -19,6 +19,9 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 
 _FEW = 20000
 """Fewer samples than this take the readable evaluator no longer than loading the compiled one."""
+_FEW_TO_COMPILE, _FEW_EXPECTED_TO_COMPILE = 100_000, 400_000
+"""Fewer samples than this take the readable evaluator up to 6 s, 50 us each for contacts and torques and 15 us for
+expected wrenches alone: where nothing is compiled yet, that is sooner than the 33 s of compiling."""
 
 _BLOCK = 4096
 """Samples per pass of the readable evaluator: its working arrays stay in the processor's cache."""
@@ -33,16 +36,26 @@ class Evaluator(StrEnum):
     """Blocks of samples in compiled code, on several threads."""
 
 
-def evaluator_of_samples(samples: int) -> Evaluator:
+def evaluator_of_samples(samples: int, *, expected_only: bool = False) -> Evaluator:
     """Choose who computes so many samples.
 
     Args:
         samples: Number of samples, of all calls of `estimate` together.
+        expected_only: Whether nothing but expected wrenches is wanted.
 
     Returns:
-        The readable evaluator for few.
+        The readable evaluator for few, and for more on a machine that has nothing compiled yet.
     """
-    return Evaluator.READABLE if samples < _FEW else Evaluator.COMPILED
+    if samples < _FEW:
+        return Evaluator.READABLE
+    enough = samples >= (_FEW_EXPECTED_TO_COMPILE if expected_only else _FEW_TO_COMPILE)
+    return Evaluator.COMPILED if enough or _is_compiled() else Evaluator.READABLE
+
+
+def _is_compiled() -> bool:
+    from forcetorque.robot.compiled.run import has_copy  # here: it loads the compiler
+
+    return has_copy()
 
 
 def estimate(

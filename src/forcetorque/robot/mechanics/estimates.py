@@ -131,9 +131,6 @@ class Estimates:
     def contact(self, name: str) -> FloatArray:
         """Give the wrenches of a contact.
 
-        Args:
-            name: Name of the contact.
-
         Returns:
             Wrenches in the contact frame; shape (n, 6); N, N m.
         """

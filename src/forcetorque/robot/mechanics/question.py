@@ -115,9 +115,6 @@ class Question:
     def body_of(self, contact: Contact) -> int:
         """Find the body that a contact is on.
 
-        Args:
-            contact: One of its contacts.
-
         Returns:
             Index of the body.
         """
@@ -125,9 +122,6 @@ class Question:
 
     def unknown_in(self, part: SubModel) -> tuple[Contact, ...]:
         """Pick the contacts of a sub-model that have an unknown.
-
-        Args:
-            part: The sub-model.
 
         Returns:
             Its contacts, in the order of the question.
@@ -219,9 +213,6 @@ def needs_of(question: Question, *, switched: Collection[str] = ()) -> Needs:
 def required_joints_of(question: Question) -> tuple[str, ...]:
     """Name the joints whose motion the answer depends on.
 
-    Args:
-        question: The question.
-
     Returns:
         Joints, each once, from the root outwards; leaders instead of joints that mimic.
     """
@@ -230,10 +221,6 @@ def required_joints_of(question: Question) -> tuple[str, ...]:
 
 def closed_form(question: Question, part: SubModel) -> bool:
     """Check whether one full wrench is the exact solution of the equation of a sub-model.
-
-    Args:
-        question: The question.
-        part: One of its sub-models.
 
     Returns:
         True for a single unknown contact of type wrench.

@@ -26,9 +26,6 @@ IMU_QUANTITIES: Final = ("proper_acceleration", "angular_velocity", "angular_acc
 def imu_streams(recording: Recording) -> tuple[str, ...]:
     """Name the streams of a recording in which an IMU tells how a link moves.
 
-    Args:
-        recording: The recording.
-
     Returns:
         Names of the streams; those of an orientation, which tells gravity alone, only where nothing tells more.
     """

@@ -147,11 +147,6 @@ def _same(first: Support | MovingSupport | None, second: Support | MovingSupport
 def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, BoolArray]:
     """Find the samples of an interval that are not to be ignored.
 
-    Args:
-        recording: The recording.
-        source: One of its streams.
-        interval: The interval.
-
     Returns:
         Indices of its samples with increasing stamps, shape (k,), and which samples of the stream are its at all,
         shape (N,).
@@ -407,7 +402,7 @@ def _expected(
         question = question_of(names)
         joints, filters = required_joints_of(question), None if shared is None else shared.filters
         robot = LoggedRobot(recording, model, support, joints, source, processing=processing, filters=filters)
-        by = evaluator_of_samples(len(at_ns)) if evaluator is None else evaluator
+        by = evaluator_of_samples(len(at_ns), expected_only=True) if evaluator is None else evaluator
         expected = {name: np.empty((len(at_ns), 6)) for name in names}
         for block in blocks_of(len(at_ns)):
             estimates = estimate(question, *robot.at(at_ns[block]), evaluator=by)

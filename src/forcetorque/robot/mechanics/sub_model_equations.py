@@ -98,9 +98,6 @@ def untouched_parts(tree: BodyTree, sensors: Sequence[str], touched: Sequence[st
 def sensors_of(part: SubModel) -> tuple[str, ...]:
     """Name the sensors of a part.
 
-    Args:
-        part: The part.
-
     Returns:
         The sensor at its base, then those at its other cuts.
     """

@@ -12,8 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, SensorError
-from forcetorque.base.toml_file import Finite, Table, Text, read_toml
-from forcetorque.base.validation_text import first_error
+from forcetorque.base.toml_file import Finite, Table, Text, first_error, read_toml
 
 Three = tuple[Finite, Finite, Finite]
 

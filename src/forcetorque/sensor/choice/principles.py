@@ -17,7 +17,7 @@ from forcetorque.base.errors import SensorError
 from forcetorque.sensor.choice.load_case import considerable_sizes
 from forcetorque.sensor.choice.result import PrincipleCurve, PrincipleRow
 from forcetorque.sensor.elastic import Bending, ElasticElement
-from forcetorque.sensor.electronics import HALF_BRIDGE, QUARTER_BRIDGE, Bridge
+from forcetorque.sensor.electronics import HALF_BRIDGE, QUARTER_BRIDGE, Y_ELEMENT, Bridge, Electronics
 from forcetorque.sensor.gauge import (
     GAUGE_MATERIALS,
     FibreBraggGrating,
@@ -26,7 +26,6 @@ from forcetorque.sensor.gauge import (
     ReflectedIntensity,
     ResistiveGauge,
 )
-from forcetorque.sensor.reference_design import Y_ELEMENT, Electronics
 
 BOLTZMANN = 1.380649e-23
 """Boltzmann constant, J/K (SI, exact)."""

@@ -69,9 +69,6 @@ def moved_channels(run: SensorRun, counts: RawCounts) -> BoolArray:
 def has_contact(run: SensorRun) -> bool:
     """Check whether the file specifies a contact distal to the sensor in any interval.
 
-    Args:
-        run: The sensor.
-
     Returns:
         Whether the robot stands on what is beyond the sensor, a contact is specified there, or a known wrench is
         applied.

@@ -12,7 +12,6 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError
-from forcetorque.sensor.transfer.network import fit_network
 from forcetorque.sensor.transfer.parametric import (
     fit_exponential,
     fit_linear,
@@ -20,7 +19,7 @@ from forcetorque.sensor.transfer.parametric import (
     fit_polynomial,
     fit_power,
 )
-from forcetorque.sensor.transfer.piecewise import fit_piecewise_linear, fit_spline
+from forcetorque.sensor.transfer.sections_and_network import fit_network, fit_piecewise_linear, fit_spline
 from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points
 
 Fitter = Callable[[FloatArray, FloatArray], TransferFunction]

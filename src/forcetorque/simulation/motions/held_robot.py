@@ -24,9 +24,6 @@ from forcetorque.simulation.motions.trajectories import Waypoints
 def free_joints(model: RobotModel) -> tuple[str, ...]:
     """Name the joints that have a coordinate of their own.
 
-    Args:
-        model: The robot.
-
     Returns:
         Joints that move and mimic no other, in the order of the robot.
     """

@@ -23,7 +23,6 @@ from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors, with_load
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.imu_and_motor import SimulatedImu
 from forcetorque.simulation.motions.contact_switching import contact_switching_movement
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import (
@@ -44,7 +43,7 @@ from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.scenario.file import Imu, Recorded, RobotErrorSizes, ScenarioFile
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
-from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
+from forcetorque.simulation.trace import EPOCH_NS, SimulatedImu, Trace, trace_movement
 
 _MOVEMENTS, _STAMPS, _PLACEMENTS = 3, 5, 7
 """What a stream of random numbers is for: each has its own, so that one more recording changes no other."""
@@ -326,9 +325,6 @@ def build_scenario(content: ScenarioFile, *, folder: Path | str = ".") -> Scenar
 
 def trace_recordings(scenario: Scenario) -> dict[str, Trace]:
     """Find the loads on all sensors in all recordings, to read any number of sensors under them.
-
-    Args:
-        scenario: The scenario.
 
     Returns:
         Traces by the names of the recordings; eight bytes per sample of every joint and component of a load.

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.dynamics import expected_wrenches
-from forcetorque.robot.mechanics.part_derivatives import PartDerivatives, part_derivatives
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
+from forcetorque.robot.mechanics.wrench_derivatives import PartDerivatives, part_derivatives
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An evaluation of a long recording, whose segments are read one after the other, is that of the recording."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.evaluation.commands import evaluate
+from forcetorque.evaluation.evaluation import Evaluation
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.recording.fingerprint import window_hashes
+from tests.scenes.campaigns import by_day, two_days
+from tests.scenes.segments import SEGMENT_S, short_segments
+
+_ROUNDING = 1e-9
+"""Sums over blocks against sums over all samples."""
+_OF_LOAD = 1e-5
+"""The grid on which joints are differentiated begins elsewhere in a segment."""
+_OF_LOAD_ONCE = 1e-4
+"""The same of a single sample."""
+
+
+def _numbers(evaluation: Evaluation) -> list[tuple[str, object]]:
+    """Every number and text of an evaluation, with its name."""
+
+    def of(name: str, value: object) -> list[tuple[str, object]]:
+        if isinstance(value, dict):
+            return [one for key, item in value.items() for one in of(f"{name}.{key}", item)]
+        if isinstance(value, list | tuple):
+            return [one for item in value for one in of(name, item)]
+        return [(name, value)]
+
+    return of("", evaluation.model_dump())
+
+
+@pytest.fixture(name="in_blocks")
+def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Blocks of a hundred rows, mapped from files."""
+    for name, size in (("BLOCK_ROWS", 100), ("IN_MEMORY", 4096), ("_WITHOUT_FILE", 0)):
+        monkeypatch.setattr(f"forcetorque.base.rows_on_disk.{name}", size)
+
+
+@pytest.mark.parametrize("sessions", [2, 1])
+def test_an_evaluation_in_blocks_is_that_of_all_samples(
+    recorded: Path, request: pytest.FixtureRequest, sessions: int
+) -> None:
+    """Every number and text; with the offset of a session, and where it was not fitted."""
+    calibration = by_day(recorded)
+    calibration = calibration.model_copy(update={"sessions": calibration.sessions[:sessions]})
+    one = _numbers(evaluate(two_days(recorded), {"new": calibration}))
+    request.getfixturevalue("in_blocks")
+    other = _numbers(evaluate(two_days(recorded), {"new": calibration}))
+    assert [name for name, _ in one] == [name for name, _ in other]
+    for (name, value), (_, again) in zip(one, other, strict=True):
+        expected = pytest.approx(value, rel=_ROUNDING, abs=1e-12) if isinstance(value, float) else value
+        assert again == expected, name
+
+
+@pytest.mark.usefixtures("in_blocks")
+def test_an_evaluation_of_segments_is_that_of_the_recordings(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same samples, errors and readings outside, though no sample of a whole recording is computed."""
+    calibration = by_day(recorded)
+    whole = evaluate(two_days(recorded), {"new": calibration})
+    lengths: list[float] = []
+    samples = SensorRun.interval_samples
+
+    def measured(run: SensorRun, *args: Any, **options: Any) -> IntervalSamples:
+        result = samples(run, *args, **options)
+        lengths.append(float(np.ptp(result.samples.stamp_ns)) * 1e-9)
+        return result
+
+    monkeypatch.setattr(SensorRun, "interval_samples", measured)
+    with short_segments():
+        segmented = evaluate(two_days(recorded), {"new": calibration})
+    assert 0.0 < max(lengths) < SEGMENT_S + 1.5
+    for row, same in zip(whole.verdicts, segmented.verdicts, strict=True):
+        assert (row.samples, row.offset, row.calibration) == (same.samples, same.offset, same.calibration)
+        for name, of_load in (("rmse", _OF_LOAD), ("bias", _OF_LOAD), ("largest", _OF_LOAD_ONCE)):
+            changes = np.abs(np.subtract(getattr(row, name), getattr(same, name)))
+            assert (changes[:3] < of_load * row.load_N).all()
+            assert (changes[3:] < of_load * row.load_Nm).all()
+    for outside, same_outside in zip(whole.validity, segmented.validity, strict=True):
+        assert (outside.samples, outside.outside) == (same_outside.samples, same_outside.outside)
+    assert [case.decision for case in whole.load_cases] == [case.decision for case in segmented.load_cases]
+
+
+def test_hashes_of_blocks_are_those_of_all_samples(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every window once, also those that reach across blocks."""
+    values = np.random.default_rng(3).normal(size=(500, 6))
+    values[100:130] = values[100]
+    expected = window_hashes(values)
+    monkeypatch.setattr("forcetorque.recording.fingerprint.BLOCK_ROWS", 37)
+    np.testing.assert_array_equal(window_hashes(values), expected)
+    assert len(expected) > 400

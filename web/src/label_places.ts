@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where texts go that would lie on each other.
+
+import { Vector3, type PerspectiveCamera, type Sprite } from "three";
+
+/** Where a text is in a picture: its middle and its size. */
+export interface Box {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Heights that a text may go up, those nearest to its place first. */
+const STEPS = [0, 1, -1, 2, -2, 3, -3, 4, -4];
+
+/** Give heights to move boxes up by, so that none lies on one before it; 0 where all places are taken. */
+export function heightsUp(boxes: readonly Box[]): number[] {
+  const placed: Box[] = [];
+  return boxes.map((box) => {
+    const at = (step: number): Box => ({ ...box, y: box.y + step * box.height });
+    const step = STEPS.find((k) => placed.every((other) => !meet(at(k), other))) ?? 0;
+    placed.push(at(step));
+    return step;
+  });
+}
+
+function meet(a: Box, b: Box): boolean {
+  return 2 * Math.abs(a.x - b.x) < a.width + b.width && 2 * Math.abs(a.y - b.y) < a.height + b.height;
+}
+
+/** Move the texts that are seen off each other in the picture of a camera; the nearest ones stay.
+ *
+ * Matrices of the world are up to date.
+ */
+export function spread(texts: readonly Sprite[], camera: PerspectiveCamera): void {
+  camera.updateMatrixWorld();
+  const high = Math.tan((camera.fov * Math.PI) / 360);
+  const seen = texts
+    .filter((text) => text.visible && text.parent?.visible)
+    .map((text) => {
+      const place = new Vector3().setFromMatrixPosition(text.matrixWorld);
+      const depth = -place.clone().applyMatrix4(camera.matrixWorldInverse).z;
+      const { x, y } = place.project(camera);
+      const height = text.scale.y / (high * depth);
+      return { text, depth, x, y, width: text.scale.x / (high * depth * camera.aspect), height };
+    })
+    .filter(({ depth }) => depth > 0)
+    .sort((a, b) => a.depth - b.depth);
+  heightsUp(seen).forEach((step, k) => seen[k]?.text.center.set(0.5, 0.5 - step));
+}
