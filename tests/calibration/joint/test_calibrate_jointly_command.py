@@ -5,15 +5,19 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from forcetorque.app.python.experiment import calibrate_jointly, load_experiment
-from forcetorque.base.errors import FormatError
+from forcetorque.base.errors import FitError, FormatError
+from forcetorque.calibration.joint.calibrate import require_positive_masses
+from forcetorque.calibration.joint.unknowns import JointFit, Places
 from forcetorque.experiment.calibration.artefact import JOINT, read_calibration
 from forcetorque.experiment.calibration.joint_posterior import read_joint_posterior
+from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, TWO, edit, edit_lines, snapshot
@@ -89,6 +93,29 @@ def test_a_file_is_no_folder(arm: Path, run: Run) -> None:
     """Nor is the experiment overwritten."""
     assert re.search("expected a folder", run("calibrate", PARQUET, "--jointly", "-o", "out.json").error())
     assert re.search("expected a folder", run("calibrate", PARQUET, "--jointly", "-o", PARQUET).error())
+
+
+def test_a_wrong_sign_is_refused(arm: Path, run: Run) -> None:
+    """Gravity that is stated upwards is refused as in the fit of the sensor alone."""
+    edit(Path(PARQUET), "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
+    error = run("calibrate", PARQUET, "--jointly", "-o", "joint").error()
+    assert "opposite to the expected force" in error
+    assert "'arm_ft'" in error
+    assert not Path("joint").exists()
+
+
+@pytest.mark.parametrize(("found", "refused"), [(-1.2, True), (-1.02, False), (-0.3, False)])
+def test_no_body_has_a_mass_below_zero(found: float, refused: bool) -> None:
+    """Only where it is sure: three standard deviations."""
+    term = ErrorTerm(name="mass of foot", kind=TermKind.MASS, deviation=0.03, nominal=1.0)
+    fit = JointFit(
+        places=Places.of([("ft", "day")], [term]),
+        mean=np.r_[np.zeros(42), found],
+        covariance=np.diag(np.r_[np.ones(42), 0.02**2]),
+        prior_root=np.eye(43),
+    )
+    with pytest.raises(FitError, match="mass of foot: by the data it is -0.2 times") if refused else nullcontext():
+        require_positive_masses(fit)
 
 
 def test_two_sensors_in_one_cut_are_refused(arm: Path, run: Run) -> None:

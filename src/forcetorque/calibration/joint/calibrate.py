@@ -6,25 +6,27 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Self
+from typing import Final, Self
 from urllib.parse import quote
 
-from forcetorque.base.errors import EstimationError, FitError
+from forcetorque.base.errors import EstimationError, FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
-from forcetorque.calibration.joint.unknowns import SensorPrior
+from forcetorque.calibration.joint.unknowns import JointFit, SensorPrior
 from forcetorque.calibration.joint.untouched_interval import JointInterval, joint_interval, required_prior
 from forcetorque.calibration.moments import assumptions_of
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.model_error import ModelTolerance, TermKind
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.recording.recording import Use
 
 JOINT_FILE = "joint.json"
@@ -238,11 +240,16 @@ def calibrate_jointly(
         ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no untouched
             part has all joints in the log.
         EstimationError: If every part is touched in every interval.
-        FitError: If a sensor that was asked for is beside no untouched part whose joints were logged.
+        FitError: If a sensor that was asked for is beside no untouched part whose joints were logged; the data of one
+            cannot be those under the load beyond it, where that is known; or a body comes out with a mass below zero,
+            as where gravity or a sensor has the wrong sign.
     """
     data = JointData.of(experiments, sensors, progress)
+    for campaign in data.campaigns.values():
+        _require_plausible(campaign)
     specified = experiments[0].fit_options.tolerance if tolerance is None else tolerance
     result = data.fit(data.intervals, specified, progress)
+    require_positive_masses(result.fit)
     calibrations = data.calibrations(data.intervals, result, code_version=code_version, created=created)
     if not calibrations:
         raise FitError(
@@ -278,6 +285,43 @@ def calibrate_jointly(
         has_validation=any(run.has(Use.VALIDATION) for one in data.campaigns.values() for run in one.runs),
         warnings=tuple(dict.fromkeys(doubts)),
     )
+
+
+def _require_plausible(campaign: Campaign) -> None:
+    """Refuse what the fit of this sensor alone refuses, where nothing touches the robot beyond it."""
+    if any(is_long(run) for run in campaign.runs):
+        return  # its samples are not held at once
+    try:
+        data = campaign.data_sets(Use.CALIBRATION)
+    except ForceTorqueError:
+        return  # the load beyond it is not known
+    try:
+        examine(data, campaign.sensor.prior, campaign.sensor.full_scale)
+    except FitError as error:
+        raise FitError(f"sensor {campaign.sensor.name!r}: {error}") from error
+
+
+_SURE: Final = 3.0
+"""Standard deviations by which a mass is below zero."""
+
+
+def require_positive_masses(fit: JointFit) -> None:
+    """Refuse what no robot can be, but the wrong sign of gravity or of a sensor makes of it.
+
+    Args:
+        fit: The fit.
+
+    Raises:
+        FitError: If the mass of a body is below zero by three standard deviations.
+    """
+    masses = [(1.0 + value, left, term.name) for term, value, left in fit.model_errors() if term.kind is TermKind.MASS]
+    share, deviation, name = min(masses, key=lambda mass: mass[0] / mass[1], default=(1.0, 0.0, ""))
+    if share < -_SURE * deviation:
+        raise FitError(
+            f"{name}: by the data it is {share:.2g} times that of the model (standard deviation {deviation:.2g}), as "
+            "if a sign were wrong; check gravity_direction of the support, and which side acts in the readings of the "
+            "sensors beside this body (measure_direction)"
+        )
 
 
 def _without_equation(sensor: str) -> str:
