@@ -2,12 +2,13 @@
 """Contacts found by `robot collisions` on simulated limbs: pushes noticed by their size, and false alarms per hour.
 
 Robots, sensors and families of errors are those of `benchmarks.model_errors`, without its delays, quadratic terms and
-contacts. A limb of the hanging biped moves at random for three minutes; the first minute is stated as free of contact,
-and in the other two something pushes a link of the limb every 6 s for 0.4 s: within 2 cm of its centre of mass along
-each axis, in a random direction, with a force of the stated sizes in turn. The same recording without pushes gives the
-false alarms. A push is noticed where a contact overlaps it by some of its time; the link is right where it is named,
-alone or among others. The planted wrenches take the equation of the links that places the contacts too; tests of
-`tests/collisions` plant them from the poses of links alone.
+contacts. A limb of the hanging biped moves at random for three minutes; the first minute is stated as free of
+contact, and in the other two something pushes a link of the limb every 6 s for 0.4 s: within 2 cm of its centre of
+mass along each axis, in a random direction, with a force of the stated sizes in turn. The same recording without
+pushes gives the false alarms. Several rates give the curve of pushes noticed against false alarms. A push is noticed
+where a contact overlaps it by some of its time; the link is right where it is named, alone or among others. The
+planted wrenches take the equation of the links that places the contacts too; tests of `tests/collisions` plant them
+from the poses of links alone.
 """
 
 from __future__ import annotations
@@ -61,6 +62,8 @@ class Case:
     seed: int
     family: str
     limb: str
+    alarms_per_hour: float
+    """Rate of false alarms that the threshold is set for."""
     noticed: tuple[int, ...]
     """Pushes of every size that were noticed."""
     named: tuple[int, ...]
@@ -124,15 +127,15 @@ def _run(folder: Path, name: str, seed: int, limb: str, family: str, trace: Trac
     return SensorRun(load_experiment(file), limb)
 
 
-def measured(task: tuple[int, str, str], alarms_per_hour: float) -> Case:
+def measured(task: tuple[int, str, str], rates_per_hour: Sequence[float]) -> list[Case]:
     """Push one limb, and leave it alone.
 
     Args:
         task: Seed, family and limb.
-        alarms_per_hour: As of `find_collisions`.
+        rates_per_hour: Rates of false alarms, as of `find_collisions`.
 
     Returns:
-        What was found.
+        What was found, at each rate.
     """
     seed, family, limb = task
     rng = np.random.default_rng([seed, _MOTION, LIMBS.index(limb)])
@@ -146,10 +149,21 @@ def measured(task: tuple[int, str, str], alarms_per_hour: float) -> Case:
         units, links = _wrenches(alone, at_ns, np.random.default_rng([seed, _PUSH, LIMBS.index(limb)]))
         pushed = _pushed(trace, limb, starts.tolist(), [size * unit for size, unit in zip(sizes, units, strict=True)])
         touched = _run(Path(name), "touched", seed, limb, family, pushed)
-        quiet, found = (
-            find_collisions(run, run.read_by(None, None).bare, ["watched"], ["free"], alarms_per_hour)
-            for run in (alone, touched)
-        )
+        return [_case(task, rate, alone, touched, starts, sizes, links) for rate in rates_per_hour]
+
+
+def _case(
+    task: tuple[int, str, str],
+    rate: float,
+    alone: SensorRun,
+    touched: SensorRun,
+    starts: FloatArray,
+    sizes: FloatArray,
+    links: Sequence[str],
+) -> Case:
+    quiet, found = (
+        find_collisions(run, run.read_by(None, None).bare, ["watched"], ["free"], rate) for run in (alone, touched)
+    )
     hits = [
         [row for row in found.collisions if row.start_s < start + PUSH_S + 0.1 and row.end_s > start]
         for start in starts
@@ -159,10 +173,12 @@ def measured(task: tuple[int, str, str], alarms_per_hour: float) -> Case:
     def counted(marks: Sequence[bool]) -> tuple[int, ...]:
         return tuple(int(np.count_nonzero(np.array(marks) & (sizes == size))) for size in FORCES_N)
 
+    seed, family, limb = task
     return Case(
         seed=seed,
         family=family,
         limb=limb,
+        alarms_per_hour=rate,
         noticed=counted([bool(rows) for rows in hits]),
         named=counted(right),
         pushes=counted([True] * len(starts)),
@@ -208,14 +224,17 @@ def _rate(hits: int, total: int) -> str:
 def main() -> None:
     """Measure, print the table and write every case."""
     parser: argparse.ArgumentParser = case_arguments(__doc__ or "")
-    parser.add_argument("--alarms-per-hour", type=float, default=1.0)
+    parser.add_argument("--alarms-per-hour", type=float, nargs="+", default=[1.0])
     parser.add_argument("--json", type=Path, help="file for every case")
     options = parser.parse_args()
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     tasks = [(seed, family, limb) for seed in seeds for family in options.families for limb in options.limbs]
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
-        cases = list(pool.map(partial(measured, alarms_per_hour=options.alarms_per_hour), tasks))
-    print("\n".join(table(cases)))
+        found = pool.map(partial(measured, rates_per_hour=options.alarms_per_hour), tasks)
+        cases = [case for of_limb in found for case in of_limb]
+    for rate in options.alarms_per_hour:
+        print(f"set for {rate:g} false alarms an hour")
+        print("\n".join(table([case for case in cases if case.alarms_per_hour == rate])))
     write_cases(options.json, cases)
 
 

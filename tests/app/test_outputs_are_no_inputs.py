@@ -70,6 +70,7 @@ WORDS = {
     "fleet report": "fitted.json -c fitted.json",
     "bench gains": f"{PARQUET}",
     "init": f"{PARQUET}",
+    "inspect": f"{PARQUET}",
     "live": f"{PARQUET} --replay {PARQUET}",
     "robot joint-collisions": f"{PARQUET}",
     "robot motion": f"{PARQUET}",
@@ -102,6 +103,7 @@ ENDINGS = {
     "live": ".parquet",
     "report": ".html",
     "skin calibrate": ".json",
+    "skin wrench": ".csv",
     "calibrate": ".json",
 }
 """Of `--output`, where the command takes only that."""

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 
 from tests.app.outcome import Run
-from tests.scenes.experiments import TWO
+from tests.scenes.experiments import TWO, edit
 
 LIMITS = 'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[matrix]\ncondition = 1e9\n'
 
@@ -42,6 +43,19 @@ def test_an_unknown_sensor_is_refused(
     outcome = run(command[0], arm / TWO, *command[1:], "--sensor", "shin_ft")
     assert (outcome.code, outcome.out) == (2, "")
     assert "has no sensor 'shin_ft'" in outcome.err
+
+
+def test_a_refused_sensor_leaves_the_others(arm: Path, run: Run) -> None:
+    """Where one of two sensors has counts and no matrix, the other is examined all the same."""
+    words = ("robot", "collisions", arm / TWO, "--interval", "judge", "--format", "json")
+    both = run(*words)
+    edit(arm / TWO, 'prior = "matrix_SIM001.txt"\n', "")
+    one, none = run(*words), run(*words, "--sensor", "arm_ft")
+    seen = [[row["sensor"] for row in json.loads(outcome.out)["sensitivity"]] for outcome in (both, one)]
+    assert seen == [["arm_ft", "tool_ft"], ["tool_ft"]]
+    assert (both.code, one.code, none.code, none.out) == (0, 2, 2, "")
+    for outcome in (one, none):
+        assert outcome.err.count("error: ") == outcome.err.count("sensor 'arm_ft': raw counts become") == 1
 
 
 def test_a_log_has_no_sensors_to_name(run: Run, tmp_path: Path) -> None:

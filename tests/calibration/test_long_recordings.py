@@ -36,7 +36,10 @@ def _calibrated(runs: list[SensorRun]) -> SensorCalibrations:
 @pytest.mark.long
 def test_calibrations_of_segments_are_those_of_the_recordings(days: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Matrix, warnings, samples left out, and what the record names; also of a long and a short recording."""
-    for module in ("calibration.doubts", "inspection.findings"):  # steps and levels take longer segments
+    for module in (
+        "calibration.interval_and_mount_doubts",
+        "inspection.findings",
+    ):  # steps and levels take longer segments
         monkeypatch.setattr(f"forcetorque.{module}.inspect_experiment", lambda experiment, **_: ())
     whole = _calibrated(_runs(days, *CALIBRATION))
     with short_segments():

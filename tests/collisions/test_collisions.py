@@ -16,6 +16,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import cross
 from forcetorque.collisions.collisions import find_collisions
 from forcetorque.collisions.findings import with_collisions
+from forcetorque.collisions.residual import signals_of
 from forcetorque.collisions.result import Collisions
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -50,6 +51,21 @@ def _run(folder: Path) -> SensorRun:
 
 def _found(run: SensorRun, free: tuple[str, ...] = ()) -> Collisions:
     return find_collisions(run, run.read_by(None, None).bare, (), free, 1.0)
+
+
+def test_supports_share_terms_by_name(folder: Path) -> None:
+    """Where a robot stands on one link, then on another, terms of one name have one column."""
+    run = _run(folder)
+    interval = run.experiment.recording.intervals[0]
+    own = signals_of(run, run.read_by(None, None).bare, interval)
+    names = ("mass of another", *reversed(own.of_model))
+    shared = own.with_terms(names)
+    of_matrix = own.terms.shape[2] - len(own.of_model)
+    assert of_matrix == 36
+    assert len(own.of_model) > 3
+    np.testing.assert_array_equal(shared.terms[:, :, :of_matrix], own.terms[:, :, :of_matrix])
+    np.testing.assert_array_equal(shared.terms[:, :, of_matrix + 1 :], own.terms[:, :, : of_matrix - 1 : -1])
+    assert not shared.terms[:, :, of_matrix].any()
 
 
 def _relative_poses(run: SensorRun, link: str) -> tuple[FloatArray, FloatArray]:

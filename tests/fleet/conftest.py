@@ -12,6 +12,6 @@ import pytest
 def without_inspection() -> Iterator[None]:
     """Find nothing in recordings; pictures of commands and processes have what `inspect` finds."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("fleet.sensor_record", "calibration.doubts"):
+        for module in ("fleet.sensor_record", "calibration.interval_and_mount_doubts"):
             patch.setattr(f"forcetorque.{module}.inspect_experiment", lambda experiment, **_: ())
         yield

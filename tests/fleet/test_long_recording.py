@@ -232,7 +232,7 @@ def test_an_event_across_segments_is_one_warning(recorded: Path, monkeypatch: py
         seen.append((start, end))
         return (_finding(start + start_ns, end + start_ns, "no sample"),) if start < end else ()
 
-    for module in ("fleet.sensor_record", "calibration.doubts"):
+    for module in ("fleet.sensor_record", "calibration.interval_and_mount_doubts"):
         monkeypatch.setattr(f"forcetorque.{module}.inspect_experiment", inspected)
     monkeypatch.setattr("forcetorque.inspection.findings.inspect_experiment", inspected)
     whole, segmented = _records(file, monkeypatch)

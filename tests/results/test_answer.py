@@ -114,6 +114,7 @@ def test_intervals_have_one_form() -> None:
     assert plus_minus(1.23712, 0.0123, "kg") == "1.237 kg (95 %: ±0.012 kg)"
     assert plus_minus((0.13, -2.34), 0.21, "N") == "(0.13, -2.34) N (95 %: ±0.21 N)"
     assert plus_minus(0.5, None, "") == "0.500 (95 %: no bound)"
+    assert plus_minus((119.0581, -4.2), None, "N") == "(119, -4) N (95 %: no bound)"
 
 
 @pytest.mark.parametrize(

@@ -214,12 +214,13 @@ def test_a_prior_that_no_sensor_differs_by_is_refused_or_warned_of(factor: float
         assert f"SIM001: {warning}" in result.warnings
         return
     assert (result.calibrations, result.sensors[0].fitted) == ((), False)
-    messages = [message for message in result.warnings if "the prior's reading" in message]
+    wrong = "the force by the prior matrix is opposite" if factor < 0.0 else "the prior's reading"
+    messages = [message for message in result.warnings if wrong in message]
     assert messages == [f"SIM001: {result.sensors[0].reason}"]
     assert "[sensor]" in messages[0]
     assert "[robot]" not in messages[0] + result.sensors[0].reason
     assert not result.faults  # loads of rank 6 are held against each other without a prior
-    with pytest.raises(FitError, match="the prior's reading"):
+    with pytest.raises(FitError, match=wrong):
         run_workbench(path, full_matrix=True)
 
 

@@ -14,8 +14,8 @@ from forcetorque.results.terminal.options import DetailsOption, ForceOption, For
 from forcetorque.results.terminal.output import (
     Format,
     drawn_to,
+    end_with,
     refuse_standard_output,
-    report_error,
     show,
     start_logging,
 )
@@ -212,18 +212,6 @@ def _show(
             refusals.append(error)
     show(calibrations, output_format, details=details, experiments=experiments)
     return refusals
-
-
-def end_with(refusals: Sequence[ForceTorqueError]) -> None:
-    """Say what was refused, and leave with exit code 2 if anything was.
-
-    Raises:
-        typer.Exit: If there is one.
-    """
-    for refusal in refusals:
-        report_error(refusal)
-    if refusals:
-        raise typer.Exit(2)
 
 
 def _sensors(

@@ -87,6 +87,8 @@ def find_collisions(
         )
     learnt = _free(run, free)
     signals = {one.label: signals_of(run, correction, one) for one in (*watched, *learnt)}
+    names = tuple(dict.fromkeys(name for one in signals.values() for name in one.of_model))
+    signals = {label: one.with_terms(names) for label, one in signals.items()}
     model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
     looked = [
         _Looked(interval=one, signals=signals[one.label], detected=detect(signals[one.label], model, threshold.value))

@@ -14,6 +14,7 @@ expected wrench, times the tolerances of the robot model.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
@@ -58,6 +59,8 @@ class Signals:
     """Measured less expected wrench; shape (w, 6); N, N m."""
     terms: FloatArray
     """What errors of one standard deviation add to it, of the matrix and of the robot model; shape (w, 6, p)."""
+    of_model: tuple[str, ...]
+    """Names of the terms of the robot model, which are the last ones."""
     of_load: FloatArray
     """What the first 36 terms are per unit of every component of a load; shape (6, 6, 36)."""
     unmodelled: FloatArray
@@ -76,6 +79,21 @@ class Signals:
             The others left out.
         """
         return replace(self, time_s=self.time_s[marks], residual=self.residual[marks], terms=self.terms[marks])
+
+    def with_terms(self, names: Sequence[str]) -> Signals:
+        """Order the terms of the robot model, and add those that another support has: here they move nothing.
+
+        Args:
+            names: Names of all, these among them.
+
+        Returns:
+            The same windows with these terms.
+        """
+        of_matrix = self.terms.shape[2] - len(self.of_model)
+        terms = np.zeros((len(self), LOADS, of_matrix + len(names)))
+        terms[:, :, :of_matrix] = self.terms[:, :, :of_matrix]
+        terms[:, :, [of_matrix + names.index(name) for name in self.of_model]] = self.terms[:, :, of_matrix:]
+        return replace(self, terms=terms, of_model=tuple(names))
 
     @property
     def values(self) -> FloatArray:
@@ -122,6 +140,7 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
         time_s=time_s[known],
         residual=means[known, :LOADS],
         terms=np.concatenate([of_matrix, of_model], axis=2)[known],
+        of_model=tuple(term.name for term in terms),
         of_load=of_load,
         unmodelled=np.repeat([UNMODELLED * _large(load[:, part]) for part in FORCE_AND_MOMENT], 3),
     )

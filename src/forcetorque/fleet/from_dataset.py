@@ -13,13 +13,13 @@ from typing import Any, Final
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import declare_outputs
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
-from forcetorque.calibration.calibrate_command import calibration_files, end_with
+from forcetorque.calibration.calibrate_command import calibration_files
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.results.result import created_now
-from forcetorque.results.terminal.output import refuse_figure, refuse_standard_output, show, start_logging
+from forcetorque.results.terminal.output import end_with, refuse_figure, refuse_standard_output, show, start_logging
 from forcetorque.results.terminal.reading import read_calibrations
 
 _MOST_LOGS: Final = 3

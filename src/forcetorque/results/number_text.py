@@ -115,6 +115,8 @@ def within(value: float, half_width: float | None, unit: str) -> str:
 def plus_minus(values: float | Sequence[float], half_width: float | None, unit: str) -> str:
     """Write a number, or several, with the half-width of a 95 % interval, down to two digits of that.
 
+    Without a half-width the largest number has three digits that count.
+
     Args:
         values: The number, or several such as those of three axes.
         half_width: The half-width, of several the largest; None or infinite where it is not known.
@@ -124,11 +126,11 @@ def plus_minus(values: float | Sequence[float], half_width: float | None, unit: 
         Such as `1.237 kg (95 %: ±0.012 kg)` or `(0.1, -2.3, 4.0) N (95 %: ±0.2 N)`.
     """
     known = half_width is not None and math.isfinite(half_width)
-    digits = max(0, 1 - math.floor(math.log10(half_width))) if known and half_width else 3
-    digits = min(digits, _MOST_DIGITS)
-    several = isinstance(values, Sequence)
-    numbers = ", ".join(f"{value:.{digits}f}" for value in (values if isinstance(values, Sequence) else (values,)))
-    text = f"{f'({numbers})' if several else numbers} {unit}".rstrip()
+    several = values if isinstance(values, Sequence) else (values,)
+    last, count = (half_width, 2) if known and half_width else (max(map(abs, several)), 3)
+    digits = min(max(0, count - 1 - math.floor(math.log10(last))) if last else 3, _MOST_DIGITS)
+    numbers = ", ".join(f"{value:.{digits}f}" for value in several)
+    text = f"{f'({numbers})' if several is values else numbers} {unit}".rstrip()
     return f"{text} (95 %: {f'±{amount(half_width, unit)}' if known and half_width is not None else 'no bound'})"
 
 

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
 from functools import cache
 from importlib import import_module
+from io import StringIO
 from pathlib import Path
 from pkgutil import walk_packages
 from types import ModuleType
@@ -112,6 +114,18 @@ class Result(Row):
             if isinstance(value, tuple) and value and all(isinstance(entry, Row) for entry in value):
                 return [entry.flat() for entry in value]
         return []
+
+    def csv_text(self) -> str:
+        """Give the records as CSV.
+
+        Returns:
+            Text with a header.
+        """
+        text = StringIO()
+        writer = csv.DictWriter(text, fieldnames=self.columns(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(self.records())
+        return text.getvalue()
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.

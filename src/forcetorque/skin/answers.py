@@ -32,7 +32,7 @@ def skin_calibration_answer(result: SkinCalibration) -> Answer:
     kept = kept or next((row for row in result.candidates if row.curve == result.curve), None)
     better = result.least_inside not in (None, result.curve)
     serial = "" if result.serial is None else f" ({result.serial})"
-    written = (result.file, result.figure_file)
+    written = (result.file, result.table_file, result.figure_file)
     return Answer(
         subject=f"{result.patch}{serial}, curve {result.curve}",
         verdict=f"{result.valid_taxels} OF {len(result.taxels)} TAXELS HAVE A CURVE",
@@ -65,7 +65,7 @@ def skin_check_answer(result: SkinCheck) -> Answer:
         verdict=f"{len(findings)} FINDING{'S' * (len(findings) > 1)}" if findings else "NO FINDINGS",
         why=tuple(f"{row.defect}: {row.message}" for row in findings[:2]),
         step=findings[0].remedy if findings else "",
-        written=(result.figure_file,),
+        written=(result.repaired_file, result.figure_file),
         concern=Concern.BAD if findings else Concern.NONE,
     )
 
@@ -97,7 +97,7 @@ def skin_wrench_answer(result: SkinWrench) -> Answer:
             f"method {result.method}, heat: {result.temperature}",
         ),
         step="take what was left after a release as rest, by --re-tare" if offered else "",
-        written=(result.figure_file,),
+        written=(result.output_file, result.figure_file, result.film_file),
         concern=Concern.BAD
         if result.weight is not None and result.weight.agreement.startswith("too")
         else Concern.UNCERTAIN

@@ -116,6 +116,12 @@ def calibrate_skin(
 @command(
     "the field of pressure and of forces over time",
     Saved(
+        flags=("--output", "-o"),
+        help="File (CSV) of every contact of every frame.",
+        function="forcetorque.skin.wrench.wrench:save_contacts",
+        endings=(".csv",),
+    ),
+    Saved(
         flags=("--film",),
         help="GIF of the field of pressure over time.",
         function="forcetorque.skin.film:save_skin_film",

@@ -30,14 +30,6 @@ from tests.page_scripts import unmarked
 EXACT_M = 1e-9
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples"
-SOLE_TABLES = """
-[[sole]]
-frame = "l_sole"
-outline_m = [[-0.09, -0.045], [0.11, -0.045], [0.11, 0.045], [-0.09, 0.045]]
-
-[[sole]]
-frame = "r_sole"
-"""
 TILT_DEG = 8.0
 NOISE = np.repeat([1.0, 0.05], 3)
 """Deviation of a reading in tests of intervals; N, N m."""
@@ -261,9 +253,9 @@ def test_what_is_missing_is_named(standing: Standing, tilted: Standing) -> None:
 def test_the_script_of_the_page_runs(
     standing: Standing, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As it stands, on the recording of contact switching with soles stated in its file."""
+    """As it stands, on the recording of contact switching whose file states its soles."""
     source = standing.experiment.file
-    text = source.read_text(encoding="utf-8") + SOLE_TABLES
+    text = source.read_text(encoding="utf-8")
     source.with_name("standing.toml").write_text(text, encoding="utf-8")
     monkeypatch.chdir(source.parent)
     (code,) = unmarked((ROOT / "docs" / "locomotion" / "balance.md").read_text(encoding="utf-8"))

@@ -37,6 +37,17 @@ def calibrated(made: tuple[Path, list[ContactTruth]], monkeypatch: pytest.Monkey
     return truths
 
 
+def test_all_contacts_are_written(run: Run, truths: list[ContactTruth], tmp_path: Path) -> None:
+    """As CSV prints them; the file is named, and no other ending is taken."""
+    assert truths
+    file = tmp_path / "contacts.csv"
+    shown = run(*WRENCH, "-o", file)
+    assert shown.code == 0
+    assert f"written: {file}" in shown.out
+    assert file.read_text(encoding="utf-8") == run(*WRENCH, "--format", "csv").out
+    assert run(*WRENCH, "-o", tmp_path / "contacts.png").code == 2
+
+
 def test_objects_are_found_while_they_rest(run: Run, truths: list[ContactTruth]) -> None:
     """Their forces within a fifth, no contact between them, and the broken taxel named."""
     ended = run(*WRENCH, "--format", "json")

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, partial
 from inspect import Parameter, Signature, signature
 from pathlib import Path
 from types import GenericAlias
@@ -30,6 +30,7 @@ from forcetorque.results.terminal.options import (
 from forcetorque.results.terminal.output import (
     Format,
     drawn_to,
+    end_with,
     refuse_ending,
     refuse_figure,
     refuse_output_folder,
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from logging import Logger
 
     from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.experiment import Experiment
     from forcetorque.results.result import DrawnResult, Result
 
 _RUN, _RUNS, _EXPERIMENT = "SensorRun", "Runs", "Experiment"
@@ -141,11 +143,12 @@ class _Analysis:
             The result.
 
         Raises:
-            typer.Exit: With code 1 if the result is not as it should be.
+            typer.Exit: With code 1 if the result is not as it should be, with code 2 if it lacks a sensor.
         """
         log, figure = start_logging(), given.get("figure")
         self.refuse_outputs(given)
-        result = self.result(given, log)
+        refusals: list[ForceTorqueError] = []
+        result = self.result(given, log, refusals)
         for saved in self.offered.saved:
             if given[_name(saved)] is not None:
                 result = _written(result, saved, given[_name(saved)])
@@ -156,6 +159,7 @@ class _Analysis:
         else:
             files = given.get("experiments") or ([given["experiment"]] if self.reads_experiments else [])
             show(result, given["output_format"], details=given["details"], experiments=files)
+        end_with(refusals)
         if not result.passed:
             raise typer.Exit(1)
         return result
@@ -174,8 +178,8 @@ class _Analysis:
         refuse_figure(given.get("figure"), force=given.get("force"))
         declare_outputs(*(given[_name(saved)] for saved in self.offered.saved), force=given.get("force"))
 
-    def result(self, given: Mapping[str, Any], log: Logger) -> Result:
-        """Read what is named, and compute."""
+    def result(self, given: Mapping[str, Any], log: Logger, refusals: list[ForceTorqueError]) -> Result:
+        """Read what is named, and compute; sensors that are refused beside others are added to the refusals."""
         from forcetorque.experiment.input_files import stated_in
         from forcetorque.results.terminal.reading import read_experiment
 
@@ -185,7 +189,14 @@ class _Analysis:
             with stated_in(str(given["experiment"])):
                 return self.function(content, **options)
         if _RUN in self.named_by_kind or _RUNS in self.named_by_kind:
-            results = list(self.by_sensor(given, options, log))
+            results = []
+            for compute in self.by_sensor(given, options, log):
+                try:
+                    results.append(compute())
+                except ForceTorqueError as error:
+                    refusals.append(error)
+            if not results:
+                raise refusals[0]
             return type(results[0]).together(results)
         first = next(iter(self.parameters))
         file = options.get(first)
@@ -213,12 +224,12 @@ class _Analysis:
                 options[name] = value
         return files, options
 
-    def by_sensor(self, given: Mapping[str, Any], options: dict[str, Any], log: Logger) -> Iterator[Result]:
-        """Results of the sensors that are named, else of those of the calibrations, else of all."""
+    def by_sensor(
+        self, given: Mapping[str, Any], options: dict[str, Any], log: Logger
+    ) -> Iterator[Callable[[], Result]]:
+        """Computations of the sensors that are named, else of those of the calibrations, else of all."""
         from forcetorque.experiment.applicability import by_sensor, one_per_sensor
-        from forcetorque.experiment.input_files import stated_in
         from forcetorque.results.terminal.reading import (
-            campaign_of,
             read_calibrations,
             read_experiment,
             read_experiments,
@@ -231,7 +242,7 @@ class _Analysis:
             contents = read_experiments(given["experiments"], log)
         else:
             contents = {given["experiment"]: read_experiment(given["experiment"], log)}
-        file, content = next(iter(contents.items()))
+        content = next(iter(contents.values()))
         groups = by_sensor(content, calibrations)
         if _ONE_CALIBRATION in self.named_by_kind:
             one_per_sensor(content, calibrations)
@@ -242,15 +253,22 @@ class _Analysis:
         if _OTHERS not in self.named_by_kind:
             refuse_left_out(content, sensors, calibrations)
         for sensor in sensors:
-            where, subject = f"sensor {sensor.name!r}", campaign_of(contents, sensor.name)
-            options_of_sensor = options | self.calibrations(groups, sensor.name)
-            if _RUN in self.named_by_kind:
-                with stated_in(str(file)):
-                    yield self.function(*subject.runs, **options_of_sensor)
-                continue
-            log.info(where)
-            with _located(f"{file}: {where}" if len(contents) == 1 else where, options):
-                yield self.function(subject, **options_of_sensor)
+            yield partial(self.of_sensor, sensor.name, contents, options | self.calibrations(groups, sensor.name), log)
+
+    def of_sensor(
+        self, sensor: str, contents: Mapping[Path, Experiment], options: Mapping[str, Any], log: Logger
+    ) -> Result:
+        """Result of one sensor; errors name file and sensor."""
+        from forcetorque.experiment.input_files import stated_in
+        from forcetorque.results.terminal.reading import campaign_of
+
+        file, where, subject = next(iter(contents)), f"sensor {sensor!r}", campaign_of(contents, sensor)
+        if _RUN in self.named_by_kind:
+            with stated_in(str(file)):
+                return self.function(*subject.runs, **options)
+        log.info(where)
+        with _located(f"{file}: {where}" if len(contents) == 1 else where, options):
+            return self.function(subject, **options)
 
     def calibrations(self, groups: Mapping[str, Mapping[str, Calibration]], sensor: str) -> dict[str, Any]:
         """Parameters with the calibrations of a sensor, and with those of the others."""

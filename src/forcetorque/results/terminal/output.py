@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import codecs
-import csv
 import logging
 import os
 import shlex
@@ -17,6 +16,8 @@ from os.path import commonprefix
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Final, TextIO, TypeVar
+
+import typer
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs, refuse_existing
@@ -106,6 +107,18 @@ def report_error(error: Exception) -> None:
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
 
 
+def end_with(refusals: Sequence[ForceTorqueError]) -> None:
+    """Say what was refused, and leave with exit code 2 if anything was.
+
+    Raises:
+        typer.Exit: If there is one.
+    """
+    for refusal in refusals:
+        report_error(refusal)
+    if refusals:
+        raise typer.Exit(2)
+
+
 def show(result: Result, output_format: Format, *, details: bool = False, experiments: Sequence[Path] = ()) -> None:
     """Print a result in the form that was asked for, and its warnings, each once, to standard error.
 
@@ -122,10 +135,7 @@ def show(result: Result, output_format: Format, *, details: bool = False, experi
     if output_format is Format.JSON:
         sys.stdout.write(result.json_text() + "\n")
         return
-    columns = result.columns()
-    writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(result.records())
+    sys.stdout.write(result.csv_text())
 
 
 def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) -> None:

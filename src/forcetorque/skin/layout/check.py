@@ -94,6 +94,8 @@ class SkinCheck(DrawnResult):
     """What is wrong."""
     positions: Annotated[FloatArray, ArrayField((None, 3))] = Field(exclude=True)
     """Taxels; shape (n, 3); m. For the figure."""
+    repaired_file: str | None = Field(default=None, exclude=True, repr=False)
+    """File of the layout with rebuilt normals; None where none was written."""
     description: PatchDescription = Field(exclude=True, repr=False)
     """What the file says, for `--repaired`."""
     normals: dict[str, Annotated[FloatArray, ArrayField((None, 3))]] = Field(exclude=True)

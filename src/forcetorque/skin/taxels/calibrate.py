@@ -76,6 +76,8 @@ class SkinCalibration(DrawnResult):
     """Recordings, and how many taxels are valid in each."""
     warm_up: WarmUpRow | None = None
     """What was estimated of heat; None without a warm-up."""
+    table_file: str | None = Field(default=None, exclude=True, repr=False)
+    """File of the pressures by counts; None where none was written."""
     calibration: PatchCalibration = Field(exclude=True, repr=False)
     """The curves."""
     picture: TaxelPicture = Field(exclude=True, repr=False)

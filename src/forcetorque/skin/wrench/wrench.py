@@ -13,6 +13,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, SkinError
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.results.result import DrawnResult
@@ -146,6 +147,10 @@ class SkinWrench(DrawnResult):
     """Contacts that were let go, and what their taxels still read; none where heat was not followed."""
     weight: KnownWeight | None = None
     """A known weight against what the patch reads of it; null without one."""
+    output_file: str | None = Field(default=None, exclude=True, repr=False)
+    """File of the contacts; None where none was written."""
+    film_file: str | None = Field(default=None, exclude=True, repr=False)
+    """File of the film; None where none was written."""
     picture: SkinWrenchPicture = Field(exclude=True, repr=False)
     """Forces over time and a field of pressure, for figures."""
 
@@ -158,7 +163,7 @@ class SkinWrench(DrawnResult):
         if self.contacts:
             yield table_of(self.contacts[:_SHOWN], f"{self.patch}: contacts, force ± standard deviation")
         if len(self.contacts) > _SHOWN:
-            yield f"{len(self.contacts) - _SHOWN} more; --format csv or json has all, with wrenches and places"
+            yield f"{len(self.contacts) - _SHOWN} more; --output or --format json has all, with wrenches and places"
         if self.lives:
             yield table_of(self.lives[:_SHOWN], "from first to last")
         if len(self.lives) > _SHOWN:
@@ -182,6 +187,16 @@ class SkinWrench(DrawnResult):
             The keys of a contact, also where there is none.
         """
         return super().columns() or list(SkinContactRow.model_fields)
+
+
+def save_contacts(result: SkinWrench, path: Path) -> None:
+    """Write every contact of every frame as CSV.
+
+    Args:
+        result: The contacts.
+        path: File to write or to replace.
+    """
+    write_bytes_atomically(path, result.csv_text().encode())
 
 
 @with_recording_notes
