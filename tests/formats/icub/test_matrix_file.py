@@ -451,7 +451,7 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, mon
     file = read_bytes(text_of(lines_of(first="1234")))
 
     def refuse(temporary: Path, target: Path) -> None:
-        assert temporary.parent == target.parent == tmp_path
+        assert temporary.parent.parent == target.parent == tmp_path
         assert temporary.read_bytes().startswith(b"1234\r\n")
         raise OSError("the disk is full")
 
