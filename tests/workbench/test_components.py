@@ -219,7 +219,7 @@ def test_blank_rows_are_no_positions(tmp_path: Path) -> None:
     path = _single(tmp_path)
     with (tmp_path / "cell.csv").open("a", encoding="utf-8") as table:
         table.write(",\n,\n")
-    assert len(read_bench(path).loads) == 18
+    assert len(read_bench(path).loads) == 15  # three rows without load are biases
     result, _ = _fitted(path)
     assert result.sensors[0].without_load == ()
 
@@ -264,3 +264,46 @@ def test_measured_cells(data_dir: Path, tmp_path: Path, cell: int, error_N: floa
     plain = np.sqrt(((left @ np.linalg.inv(response).T) ** 2).mean(axis=0))
     np.testing.assert_allclose(held_out[:3], plain, rtol=1e-2)
     assert np.linalg.norm(held_out) < error_N
+    assert not any("series_from_zero" in warning for warning in result.warnings)
+    raw_columns = (tmp_path / "cell.toml").read_text(encoding="utf-8").replace("corrected_", "sensor_")
+    for key, largest_N, count in (("", 0.56, 1), ("series_from_zero = true", 1.2 * error_N, 0)):
+        (tmp_path / "cell.toml").write_text(raw_columns + key, encoding="utf-8")
+        result, _ = _fitted(tmp_path / "cell.toml")
+        assert result.sensors[0].held_out is not None
+        assert np.linalg.norm(result.sensors[0].held_out) < largest_N
+        assert sum("series_from_zero" in warning for warning in result.warnings) == count
+
+
+def _with_series_offsets(folder: Path) -> Path:
+    """Three series from zero, between which the offset of the cell changes by some 0.6 N."""
+    path = _single(folder)
+    table = np.loadtxt(folder / "cell.csv", delimiter=",", skiprows=1)
+    table[:, 0] += np.repeat([0.0, 3e4, -2e4], 6)
+    np.savetxt(folder / "cell.csv", table, delimiter=",", header="raw0,fz", comments="")
+    return path
+
+
+def test_every_series_has_its_own_offset_and_a_file_without_the_key_is_told_so(tmp_path: Path) -> None:
+    """With the key the error is that of two noisy rows; a cell of one offset, the negative control, has no warning."""
+    path = _with_series_offsets(tmp_path)
+    result, calibration = _fitted(path)
+    (row,) = result.sensors
+    assert row.held_out is not None
+    assert row.held_out[2] < 2.5 * _NOISE_COUNTS / 5e4
+    assert row.positions == 15
+    last_zero = np.loadtxt(tmp_path / "cell.csv", delimiter=",", skiprows=1)[12, 0]
+    assert calibration.matrix[2, 0] * last_zero + calibration.offset[2] == pytest.approx(0.0, abs=2e-3)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("series_from_zero = true\n", ""), encoding="utf-8")
+    assert any("series_from_zero = true" in warning for warning in _fitted(path)[0].warnings)
+    path.write_text(_single(tmp_path).read_text(encoding="utf-8").replace("series_from_zero = true\n", ""))
+    assert not any("series_from_zero" in warning for warning in _fitted(path)[0].warnings)
+
+
+def test_a_series_without_a_row_to_begin_with_is_refused(tmp_path: Path) -> None:
+    """Its offset is not known."""
+    path = _single(tmp_path)
+    lines = (tmp_path / "cell.csv").read_text(encoding="utf-8").splitlines()
+    (tmp_path / "cell.csv").write_text("\n".join([lines[0], *lines[2:]]), encoding="utf-8")
+    with pytest.raises(ExperimentError, match="expected the first row of cell.csv to be without load, got line 2"):
+        read_bench(path)

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
@@ -143,6 +142,8 @@ CHECK_PRIOR = "check prior of [sensor]"
 """Where to look if the loads contradict the prior matrix of a sensor with a file of its own."""
 _PERMUTED = 0.5
 """Ratio of errors, with forces and moments exchanged over as specified, below which they were exchanged."""
+_OFFSET_CHANCE, _OFFSET_TIMES = 1e-3, 2.0
+"""Chance, with one offset, of a warning that it changes, and the least ratio of residuals for one."""
 _SAMPLES = 10
 """Samples that a position counts for where neighbours are compared."""
 
@@ -204,7 +205,12 @@ def fit_sensor(
     try:
         doubts = _plausibility_doubts(bench, setup) if len(unmoved) < count else ()
         fitted, contradiction = _fitted(bench, doubts, check_prior)
-        warnings = (*(doubt.message for doubt in doubts), *contradiction, *_unknown_disturbances(bench))
+        warnings = (
+            *(doubt.message for doubt in doubts),
+            *contradiction,
+            *_unknown_disturbances(bench),
+            *_changing_offset(bench),
+        )
     except FitError as error:
         reason = str(error)
     held_out = None if fitted is None else one_by_one(fitted)
@@ -241,6 +247,35 @@ def _unknown_disturbances(bench: Bench) -> Iterator[str]:
     loaded = np.ptp(bench.loads.wrench, axis=0) > 0.0
     if (unknown := ~bench.measured & ~loaded).any():
         yield f"no position loads {component_names(unknown)}: what they add to a measurement is not known"
+
+
+def _changing_offset(bench: Bench) -> Iterator[str]:
+    """Rows without load that differ far more than a fit with an offset for each of their series leaves."""
+    is_zero = ~bench.loads.wrench.any(axis=1)
+    series = np.cumsum(is_zero)
+    if is_zero.sum() < 2 or not is_zero[0]:
+        return
+    own = (series[:, None] == np.unique(series)).astype(float)
+    left, freedom = [], []
+    for offsets in (np.ones((len(bench), 1)), own):
+        design = np.hstack([bench.loads.wrench, offsets])
+        coefficients, _, rank, _ = np.linalg.lstsq(design, bench.raw, rcond=None)
+        left.append(((bench.raw - design @ coefficients) ** 2).sum(axis=0))
+        freedom.append(len(bench) - int(rank))
+    if freedom[1] < 1 or freedom[0] == freedom[1]:
+        return
+    from scipy.special import fdtrc  # importing it takes longer than most commands
+
+    noise = left[1] / freedom[1] + np.finfo(float).tiny
+    ratio = (left[0] - left[1]) / (freedom[0] - freedom[1]) / noise
+    chance = float(fdtrc(freedom[0] - freedom[1], freedom[1], ratio.max())) * len(ratio)
+    times = float(np.sqrt(left[0] / freedom[0] / noise).max())
+    if chance < _OFFSET_CHANCE and times > _OFFSET_TIMES:
+        yield (
+            f"the {is_zero.sum()} rows without load do not have one offset: residuals are {times:.2g} times those of a "
+            "fit with an offset from each such row on; if the set-up changed there, write series_from_zero = true in "
+            "[measurements]"
+        )
 
 
 def _unused_positions(bench: Bench) -> Iterator[str]:
