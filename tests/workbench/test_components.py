@@ -295,7 +295,9 @@ def test_every_series_has_its_own_offset_and_a_file_without_the_key_is_told_so(t
     assert calibration.matrix[2, 0] * last_zero + calibration.offset[2] == pytest.approx(0.0, abs=2e-3)
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace("series_from_zero = true\n", ""), encoding="utf-8")
-    assert any("series_from_zero = true" in warning for warning in _fitted(path)[0].warnings)
+    result, _ = _fitted(path)
+    assert any("series_from_zero = true" in warning for warning in result.warnings)
+    assert [answer.verdict for answer in result.answers()] == ["FITTED, OFFSET CHANGES"]
     path.write_text(_single(tmp_path).read_text(encoding="utf-8").replace("series_from_zero = true\n", ""))
     assert not any("series_from_zero" in warning for warning in _fitted(path)[0].warnings)
 

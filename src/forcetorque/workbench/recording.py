@@ -120,13 +120,14 @@ def _table_of_means(
     states_components = _states_components(readings)
     wrench = _measured_loads(readings, measured, path) if states_components else stream.signal("wrench").values
     first = 1 if readings.columns is not None else 2
-    lines = np.array([str(first + k) for k in range(len(raw))])
+    lines = [str(first + k) for k in range(len(raw))]
     stated = wrench[:, measured] if states_components else wrench
     filled = np.isfinite(raw).any(axis=1) | np.isfinite(stated).any(axis=1)
-    raw, wrench, lines = raw[filled], wrench[filled], lines[filled]
+    raw, wrench, lines = raw[filled], wrench[filled], [lines[k] for k in np.flatnonzero(filled)]
     zero = np.flatnonzero(~wrench.any(axis=1))
     if not readings.series_from_zero:
-        return raw, BenchLoads(names=tuple(lines), wrench=wrench, series=("all",) * len(lines)), None
+        loads = BenchLoads(names=tuple(lines), wrench=wrench, series=("all",) * len(lines), named="line")
+        return raw, loads, None
     if not len(zero) or zero[0] > 0:
         raise ExperimentError(
             f"measurements.series_from_zero: expected the first row of {readings.file} to be without load, got line "
@@ -135,7 +136,10 @@ def _table_of_means(
     own = zero[np.searchsorted(zero, np.arange(len(raw)), side="right") - 1]  # the row without load before each
     used = np.setdiff1d(np.arange(len(raw)), zero)
     loads = BenchLoads(
-        names=tuple(lines[used]), wrench=wrench[used], series=tuple(f"from line {lines[k]}" for k in own[used])
+        names=tuple(lines[k] for k in used),
+        wrench=wrench[used],
+        series=tuple(f"from line {lines[k]}" for k in own[used]),
+        named="line",
     )
     return (raw - raw[own])[used], loads, raw[zero[-1]]
 

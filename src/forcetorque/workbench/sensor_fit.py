@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
@@ -202,6 +203,7 @@ def fit_sensor(
     count = int(bench.measured.sum())
     fitted, reason = None, ""
     warnings: tuple[str, ...] = ()
+    changes = _changing_offset(bench) if setup is None else ""
     try:
         doubts = _plausibility_doubts(bench, setup) if len(unmoved) < count else ()
         fitted, contradiction = _fitted(bench, doubts, check_prior)
@@ -209,7 +211,7 @@ def fit_sensor(
             *(doubt.message for doubt in doubts),
             *contradiction,
             *_unknown_disturbances(bench),
-            *_changing_offset(bench),
+            *([changes] if changes else []),
         )
     except FitError as error:
         reason = str(error)
@@ -234,6 +236,7 @@ def fit_sensor(
         folds_least=None if folds is None else folds.min(axis=0),
         folds_largest=None if folds is None else folds.max(axis=0),
         prior=None if bench.prior is None else rms(bench.wrenches(bench.prior) - bench.loads.wrench) * bench.measured,
+        offset_changes=changes,
         scatter="",
     )
     series: tuple[SeriesRow, ...] = ()
@@ -249,12 +252,12 @@ def _unknown_disturbances(bench: Bench) -> Iterator[str]:
         yield f"no position loads {component_names(unknown)}: what they add to a measurement is not known"
 
 
-def _changing_offset(bench: Bench) -> Iterator[str]:
+def _changing_offset(bench: Bench) -> str:
     """Rows without load that differ far more than a fit with an offset for each of their series leaves."""
     is_zero = ~bench.loads.wrench.any(axis=1)
     series = np.cumsum(is_zero)
     if is_zero.sum() < 2 or not is_zero[0]:
-        return
+        return ""
     own = (series[:, None] == np.unique(series)).astype(float)
     left, freedom = [], []
     for offsets in (np.ones((len(bench), 1)), own):
@@ -263,19 +266,20 @@ def _changing_offset(bench: Bench) -> Iterator[str]:
         left.append(((bench.raw - design @ coefficients) ** 2).sum(axis=0))
         freedom.append(len(bench) - int(rank))
     if freedom[1] < 1 or freedom[0] == freedom[1]:
-        return
+        return ""
     from scipy.special import fdtrc  # importing it takes longer than most commands
 
     noise = left[1] / freedom[1] + np.finfo(float).tiny
     ratio = (left[0] - left[1]) / (freedom[0] - freedom[1]) / noise
     chance = float(fdtrc(freedom[0] - freedom[1], freedom[1], ratio.max())) * len(ratio)
     times = float(np.sqrt(left[0] / freedom[0] / noise).max())
-    if chance < _OFFSET_CHANCE and times > _OFFSET_TIMES:
-        yield (
-            f"the {is_zero.sum()} rows without load do not have one offset: residuals are {times:.2g} times those of a "
-            "fit with an offset from each such row on; if the set-up changed there, write series_from_zero = true in "
-            "[measurements]"
-        )
+    if chance >= _OFFSET_CHANCE or times <= _OFFSET_TIMES:
+        return ""
+    return (
+        f"the {is_zero.sum()} rows without load do not have one offset: residuals are {times:.2g} times those of a fit "
+        "with an offset from each such row on; if the set-up changed there, write series_from_zero = true in "
+        "[measurements]"
+    )
 
 
 def _unused_positions(bench: Bench) -> Iterator[str]:
