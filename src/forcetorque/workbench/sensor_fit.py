@@ -203,7 +203,7 @@ def fit_sensor(
     count = int(bench.measured.sum())
     fitted, reason = None, ""
     warnings: tuple[str, ...] = ()
-    changes = _changing_offset(bench) if setup is None else ""
+    changes = changing_offset(bench) if setup is None else ""
     try:
         doubts = _plausibility_doubts(bench, setup) if len(unmoved) < count else ()
         fitted, contradiction = _fitted(bench, doubts, check_prior)
@@ -252,8 +252,15 @@ def _unknown_disturbances(bench: Bench) -> Iterator[str]:
         yield f"no position loads {component_names(unknown)}: what they add to a measurement is not known"
 
 
-def _changing_offset(bench: Bench) -> str:
-    """Rows without load that differ far more than a fit with an offset for each of their series leaves."""
+def changing_offset(bench: Bench) -> str:
+    """Find out whether rows without load differ far more than a fit with an offset for each of their series leaves.
+
+    Args:
+        bench: Measurements of the loads.
+
+    Returns:
+        That they do, in words; empty where they do not, or where it is not determined.
+    """
     is_zero = ~bench.loads.wrench.any(axis=1)
     series = np.cumsum(is_zero)
     if is_zero.sum() < 2 or not is_zero[0]:
