@@ -261,7 +261,7 @@ def changing_offset(bench: Bench) -> str:
     Returns:
         That they do, in words; empty where they do not, or where it is not determined.
     """
-    is_zero = ~bench.loads.wrench.any(axis=1)
+    is_zero = (bench.loads.wrench == 0.0).all(axis=1)
     series = np.cumsum(is_zero)
     if is_zero.sum() < 2 or not is_zero[0]:
         return ""
