@@ -13,9 +13,12 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, UnitError
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.calibrate import workbench
+from forcetorque.workbench.loads import BenchLoads
 from forcetorque.workbench.recording import read_bench
 from forcetorque.workbench.result import Workbench
+from forcetorque.workbench.sensor_fit import changing_offset
 from tests.app.outcome import Run
 
 CELL = """schema = "forcetorque/bench/1"
@@ -219,7 +222,7 @@ def test_blank_rows_are_no_positions(tmp_path: Path) -> None:
     path = _single(tmp_path)
     with (tmp_path / "cell.csv").open("a", encoding="utf-8") as table:
         table.write(",\n,\n")
-    assert len(read_bench(path).loads) == 18
+    assert len(read_bench(path).loads) == 15  # three rows without load are biases
     result, _ = _fitted(path)
     assert result.sensors[0].without_load == ()
 
@@ -264,3 +267,75 @@ def test_measured_cells(data_dir: Path, tmp_path: Path, cell: int, error_N: floa
     plain = np.sqrt(((left @ np.linalg.inv(response).T) ** 2).mean(axis=0))
     np.testing.assert_allclose(held_out[:3], plain, rtol=1e-2)
     assert np.linalg.norm(held_out) < error_N
+    assert not any("series_from_zero" in warning for warning in result.warnings)
+    raw_columns = (tmp_path / "cell.toml").read_text(encoding="utf-8").replace("corrected_", "sensor_")
+    for key, largest_N, count in (("", 0.56, 1), ("series_from_zero = true", 1.2 * error_N, 0)):
+        (tmp_path / "cell.toml").write_text(raw_columns + key, encoding="utf-8")
+        result, _ = _fitted(tmp_path / "cell.toml")
+        assert result.sensors[0].held_out is not None
+        assert np.linalg.norm(result.sensors[0].held_out) < largest_N
+        assert sum("series_from_zero" in warning for warning in result.warnings) == count
+
+
+def _with_series_offsets(folder: Path) -> Path:
+    """Three series from zero, between which the offset of the cell changes by some 0.6 N."""
+    path = _single(folder)
+    table = np.loadtxt(folder / "cell.csv", delimiter=",", skiprows=1)
+    table[:, 0] += np.repeat([0.0, 3e4, -2e4], 6)
+    np.savetxt(folder / "cell.csv", table, delimiter=",", header="raw0,fz", comments="")
+    return path
+
+
+def test_every_series_has_its_own_offset_and_a_file_without_the_key_is_told_so(tmp_path: Path) -> None:
+    """With the key the error is that of two noisy rows; a cell of one offset, the negative control, has no warning."""
+    path = _with_series_offsets(tmp_path)
+    result, calibration = _fitted(path)
+    (row,) = result.sensors
+    assert row.held_out is not None
+    assert row.held_out[2] < 2.5 * _NOISE_COUNTS / 5e4
+    assert row.positions == 15
+    last_zero = np.loadtxt(tmp_path / "cell.csv", delimiter=",", skiprows=1)[12, 0]
+    assert calibration.matrix[2, 0] * last_zero + calibration.offset[2] == pytest.approx(0.0, abs=2e-3)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("series_from_zero = true\n", ""), encoding="utf-8")
+    result, _ = _fitted(path)
+    assert any("series_from_zero = true" in warning for warning in result.warnings)
+    assert [answer.verdict for answer in result.answers()] == ["FITTED, OFFSET CHANGES"]
+    path.write_text(_single(tmp_path).read_text(encoding="utf-8").replace("series_from_zero = true\n", ""))
+    assert not any("series_from_zero" in warning for warning in _fitted(path)[0].warnings)
+
+
+def test_a_series_without_a_row_to_begin_with_is_refused(tmp_path: Path) -> None:
+    """Its offset is not known."""
+    path = _single(tmp_path)
+    lines = (tmp_path / "cell.csv").read_text(encoding="utf-8").splitlines()
+    (tmp_path / "cell.csv").write_text("\n".join([lines[0], *lines[2:]]), encoding="utf-8")
+    with pytest.raises(ExperimentError, match="expected the first row of cell.csv to be without load, got line 2"):
+        read_bench(path)
+
+
+@pytest.mark.long
+def test_how_often_an_offset_is_said_to_change() -> None:
+    """At most 0.3 % of cells with one offset; 95 % of those whose series differ by 6 standard deviations of noise."""
+    wrench = np.zeros((15, 6))
+    for k in range(3):
+        wrench[5 * k + 1 : 5 * k + 5, k] = [2.0, 4.0, 6.0, 8.0]
+    loads = BenchLoads(names=tuple(map(str, range(15))), wrench=wrench, series=("all",) * 15)
+    found = np.zeros(2, dtype=int)
+    for seed in range(50_000, 54_000):
+        rng = np.random.default_rng(seed)
+        one = 10.0 * wrench[:, :3] @ rng.normal(size=(3, 3)) + rng.normal(size=(15, 3))
+        several = one + np.repeat(6.0 * rng.normal(size=(3, 3)), 5, axis=0)
+        for k, raw in enumerate((one, several)):
+            bench = Bench(
+                sensor="cell",
+                serial="C1",
+                loads=loads,
+                raw=raw,
+                full_scale=np.full(3, 1e3),
+                measured=np.arange(6) < 3,
+                load_full_scale=np.full(6, 10.0),
+            )
+            found[k] += bool(changing_offset(bench))
+    assert found[0] <= 12
+    assert found[1] >= 3800

@@ -76,7 +76,7 @@ def test_rows_of_the_plate_are_predicted_and_series_are_not(plate: Callable[...,
     """One row at a time, a fifth with its range over partitions, and no whole series."""
     result = run_workbench(plate(""))
     (row,) = result.sensors
-    assert (row.positions, row.rank, row.without_load) == (60, 6, ())
+    assert (row.positions, row.rank, row.without_load) == (54, 6, ())
     assert row.held_out is not None
     assert row.folds_mean is not None
     assert row.folds_largest is not None
@@ -128,7 +128,7 @@ def test_five_directions_of_the_plate_are_named(plate: Callable[..., Path]) -> N
     bare = run_workbench(plate("_2", ('prior = "identity"\n', "")))
     assert (bare.sensors[0].fitted, bare.calibrations) == (False, ())
     assert "not fz" in bare.sensors[0].reason
-    with pytest.raises(FitError, match="expected a matrix to write"):
+    with pytest.raises(FitError, match=r"plate_2.toml: expected a matrix to write .* not used: 52, 53"):
         bare.save(path.with_suffix(".json"))
 
 

@@ -118,6 +118,8 @@ def _verdict(workbench: "Workbench", row: "BenchSensorRow") -> tuple[str, Concer
         return f"{faults} FAULT{'S' * (faults > 1)} OF THE BENCH", Concern.BAD
     if any(not criterion.passed for criterion in workbench.criteria if criterion.serial == row.serial):
         return "REJECTED", Concern.BAD
+    if row.offset_changes:
+        return "FITTED, OFFSET CHANGES", Concern.UNCERTAIN
     if row.unmoved:
         return "FITTED, LOADS NOT EXCITED", Concern.UNCERTAIN
     if len(row.components) < len(WRENCH_COMPONENTS):
@@ -134,6 +136,8 @@ def _reasons(workbench: "Workbench", row: "BenchSensorRow") -> Iterator[str]:
         )
     if row.reason:
         yield row.reason
+    if row.offset_changes and row.fitted:
+        yield row.offset_changes
     faults = [fault.message for fault in workbench.faults if fault.serial == row.serial]
     failed = [one for one in workbench.criteria if one.serial == row.serial and not one.passed]
     if faults:

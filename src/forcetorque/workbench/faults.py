@@ -457,7 +457,7 @@ def _fault_row(fault: DetectedFault, loads: BenchLoads, serial: str) -> FaultRow
         standard_error=error,
         unit=unit,
         probability=max(math.exp(max(fault.log_probability, -690.0)), _LEAST_PROBABILITY),
-        message=f"{serial}: {_message(fault, names, component, amount, unit)}",
+        message=f"{serial}: {_message(fault, names, component, amount, unit, loads.named)}",
     )
 
 
@@ -478,13 +478,15 @@ def _amount(fault: DetectedFault) -> tuple[float, float, str]:
     return force, float(np.linalg.norm(fault.standard_error[:3])), "N"
 
 
-def _message(fault: DetectedFault, names: Sequence[str], component: str | None, amount: float, unit: str) -> str:
+def _message(
+    fault: DetectedFault, names: Sequence[str], component: str | None, amount: float, unit: str, named: str
+) -> str:
     where = f" in {component}" if component else ""
     if fault.fault is Fault.SWAPPED:
-        return f"positions {names[0]} and {names[1]} are swapped{where}"
+        return f"{named}s {names[0]} and {names[1]} are swapped{where}"
     if fault.fault is Fault.PLATE_TILTED:
         return f"the plate is tilted by {amount:.2g} deg at all positions"
-    position = f"position {names[0]}"
+    position = f"{named} {names[0]}"
     if fault.structure_forgotten:
         return f"{position}: the mounting structure was not there ({amount:+.2g} %)"
     if fault.fault is Fault.WEIGHT:

@@ -99,6 +99,8 @@ class BenchLoads(ArrayRecord):
     """Series of every position: positions of one series are set up together."""
     weights: Weights | None = None
     """Geometry that the wrenches come from; None where wrenches were specified."""
+    named: str = "position"
+    """What a name denotes: `position`, or `line` of a table."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -163,6 +165,7 @@ class BenchLoads(ArrayRecord):
             wrench=self.wrench[indices],
             series=tuple(self.series[k] for k in indices),
             weights=weights,
+            named=self.named,
         )
 
 

@@ -108,27 +108,40 @@ def _blocks_of_log(
             yield block
 
 
-def _table_of_means(readings: RowReadings, measured: BoolArray, inputs: Inputs) -> tuple[FloatArray, BenchLoads | None]:
-    """Mean raw samples, shape (n, c), counts, NaN where missing; and loads by line, where the table has them."""
+def _table_of_means(
+    readings: RowReadings, measured: BoolArray, inputs: Inputs
+) -> tuple[FloatArray, BenchLoads | None, FloatArray | None]:
+    """Mean raw samples, shape (n, c), counts, NaN where missing; loads by line, where the table has them; last bias."""
     path = inputs.file(readings.file)
     (stream,) = read_table(path, _row_layout(readings), stream=readings.file.name, clock="rows").streams
     raw = _raw(stream)
     if readings.known is None:
-        return raw, None
+        return raw, None, None
     states_components = _states_components(readings)
     wrench = _measured_loads(readings, measured, path) if states_components else stream.signal("wrench").values
     first = 1 if readings.columns is not None else 2
     lines = [str(first + k) for k in range(len(raw))]
     stated = wrench[:, measured] if states_components else wrench
-    filled = np.flatnonzero(np.isfinite(raw).any(axis=1) | np.isfinite(stated).any(axis=1))
-    series = np.cumsum(~wrench[filled].any(axis=1)) if readings.series_from_zero else np.zeros(len(filled), dtype=int)
-    first_lines = {number: lines[filled[np.flatnonzero(series == number)[0]]] for number in np.unique(series)}
+    filled = np.isfinite(raw).any(axis=1) | np.isfinite(stated).any(axis=1)
+    raw, wrench, lines = raw[filled], wrench[filled], [lines[k] for k in np.flatnonzero(filled)]
+    zero = np.flatnonzero(~wrench.any(axis=1))
+    if not readings.series_from_zero:
+        loads = BenchLoads(names=tuple(lines), wrench=wrench, series=("all",) * len(lines), named="line")
+        return raw, loads, None
+    if not len(zero) or zero[0] > 0:
+        raise ExperimentError(
+            f"measurements.series_from_zero: expected the first row of {readings.file} to be without load, got line "
+            f"{lines[0] if len(lines) else first} with one; begin the table with such a row, or delete the key"
+        )
+    own = zero[np.searchsorted(zero, np.arange(len(raw)), side="right") - 1]  # the row without load before each
+    used = np.setdiff1d(np.arange(len(raw)), zero)
     loads = BenchLoads(
-        names=tuple(lines[k] for k in filled),
-        wrench=wrench[filled],
-        series=tuple(f"from line {first_lines[number]}" for number in series),
+        names=tuple(lines[k] for k in used),
+        wrench=wrench[used],
+        series=tuple(f"from line {lines[k]}" for k in own[used]),
+        named="line",
     )
-    return raw[filled], loads
+    return (raw - raw[own])[used], loads, raw[zero[-1]]
 
 
 def _states_components(readings: RowReadings) -> bool:
@@ -267,13 +280,13 @@ def _recording(file: str, content: BenchFile, inputs: Inputs) -> BenchRecording:
     full_scale = _full_scale(sensor, len(readings.channels))
     blocks: list[Block] = []
     if isinstance(readings, RowReadings):
-        raw, known = _table_of_means(readings, sensor.measured, inputs)
+        raw, known, bias = _table_of_means(readings, sensor.measured, inputs)
         loads = known or _loads(content, inputs)
         if len(raw) > len(loads):
             raise ExperimentError(
                 f"measurements.file: expected a row for each of {len(loads)} positions, got {len(raw)}"
             )
-        names, error, bias, time = loads.names[: len(raw)], None, None, None
+        names, error, time = loads.names[: len(raw)], None, None
     else:
         loads = _loads(content, inputs)
         if isinstance(readings, LogReadings):

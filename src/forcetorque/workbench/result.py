@@ -62,6 +62,8 @@ class BenchSensorRow(Row):
     """Largest of the partitions."""
     prior: WrenchValues | None
     """Root mean square error with the prior matrix; None without one."""
+    offset_changes: str = ""
+    """That rows without load do not have one offset, in words; empty where they do."""
     scatter: str
     """Source of the scatter that positions are compared with."""
 
@@ -379,8 +381,11 @@ class Workbench(DrawnResult):
         if len(self.sensors) > 1:
             raise ExperimentError(f"{path}: expected one sensor, got {len(self.sensors)}: a file holds one calibration")
         if not self.calibrations:
-            reason = self.sensors[0].reason if self.sensors else "nothing was measured yet"
-            raise FitError(f"{path}: expected a matrix to write, there is none: {reason}")
+            if not self.sensors:
+                raise FitError(f"{path}: expected a matrix to write, nothing was measured yet")
+            (row,) = self.sensors
+            unused = f"; not fully known, and not used: {', '.join(row.without_load)}" if row.without_load else ""
+            raise FitError(f"{row.file}: expected a matrix to write to {path}, there is none: {row.reason}{unused}")
         self.calibrations[0].save(path, force=force)
 
 

@@ -143,6 +143,8 @@ CHECK_PRIOR = "check prior of [sensor]"
 """Where to look if the loads contradict the prior matrix of a sensor with a file of its own."""
 _PERMUTED = 0.5
 """Ratio of errors, with forces and moments exchanged over as specified, below which they were exchanged."""
+_OFFSET_CHANCE, _OFFSET_TIMES = 1e-3, 2.0
+"""Chance, with one offset, of a warning that it changes, and the least ratio of residuals for one."""
 _SAMPLES = 10
 """Samples that a position counts for where neighbours are compared."""
 
@@ -201,10 +203,16 @@ def fit_sensor(
     count = int(bench.measured.sum())
     fitted, reason = None, ""
     warnings: tuple[str, ...] = ()
+    changes = changing_offset(bench) if setup is None else ""
     try:
         doubts = _plausibility_doubts(bench, setup) if len(unmoved) < count else ()
         fitted, contradiction = _fitted(bench, doubts, check_prior)
-        warnings = (*(doubt.message for doubt in doubts), *contradiction, *_unknown_disturbances(bench))
+        warnings = (
+            *(doubt.message for doubt in doubts),
+            *contradiction,
+            *_unknown_disturbances(bench),
+            *([changes] if changes else []),
+        )
     except FitError as error:
         reason = str(error)
     held_out = None if fitted is None else one_by_one(fitted)
@@ -228,6 +236,7 @@ def fit_sensor(
         folds_least=None if folds is None else folds.min(axis=0),
         folds_largest=None if folds is None else folds.max(axis=0),
         prior=None if bench.prior is None else rms(bench.wrenches(bench.prior) - bench.loads.wrench) * bench.measured,
+        offset_changes=changes,
         scatter="",
     )
     series: tuple[SeriesRow, ...] = ()
@@ -241,6 +250,43 @@ def _unknown_disturbances(bench: Bench) -> Iterator[str]:
     loaded = np.ptp(bench.loads.wrench, axis=0) > 0.0
     if (unknown := ~bench.measured & ~loaded).any():
         yield f"no position loads {component_names(unknown)}: what they add to a measurement is not known"
+
+
+def changing_offset(bench: Bench) -> str:
+    """Find out whether rows without load differ far more than a fit with an offset for each of their series leaves.
+
+    Args:
+        bench: Measurements of the loads.
+
+    Returns:
+        That they do, in words; empty where they do not, or where it is not determined.
+    """
+    is_zero = (bench.loads.wrench == 0.0).all(axis=1)
+    series = np.cumsum(is_zero)
+    if is_zero.sum() < 2 or not is_zero[0]:
+        return ""
+    own = (series[:, None] == np.unique(series)).astype(float)
+    left, freedom = [], []
+    for offsets in (np.ones((len(bench), 1)), own):
+        design = np.hstack([bench.loads.wrench, offsets])
+        coefficients, _, rank, _ = np.linalg.lstsq(design, bench.raw, rcond=None)
+        left.append(((bench.raw - design @ coefficients) ** 2).sum(axis=0))
+        freedom.append(len(bench) - int(rank))
+    if freedom[1] < 1 or freedom[0] == freedom[1]:
+        return ""
+    from scipy.special import fdtrc  # importing it takes longer than most commands
+
+    noise = left[1] / freedom[1] + np.finfo(float).tiny
+    ratio = (left[0] - left[1]) / (freedom[0] - freedom[1]) / noise
+    chance = float(fdtrc(freedom[0] - freedom[1], freedom[1], ratio.max())) * len(ratio)
+    times = float(np.sqrt(left[0] / freedom[0] / noise).max())
+    if chance >= _OFFSET_CHANCE or times <= _OFFSET_TIMES:
+        return ""
+    return (
+        f"the {is_zero.sum()} rows without load do not have one offset: residuals are {times:.2g} times those of a fit "
+        "with an offset from each such row on; if the set-up changed there, write series_from_zero = true in "
+        "[measurements]"
+    )
 
 
 def _unused_positions(bench: Bench) -> Iterator[str]:

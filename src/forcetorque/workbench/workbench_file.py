@@ -150,7 +150,8 @@ class RowReadings(_Readings):
     known_units: _Known | None = None
     """Unit of each."""
     series_from_zero: bool = False
-    """Whether every row without load begins a series of its own."""
+    """Whether every row without load begins a series of its own; its reading is subtracted from those that follow, and
+    it is no position."""
 
     @model_validator(mode="after")
     def _require_units(self) -> RowReadings:

@@ -187,16 +187,19 @@ def _by_known_loads(way: _Way) -> None:
     """Calibrate by the known loads of a workbench."""
     way.begin("workbench")
     try:
-        result = workbench(
-            [read_bench(path) for path in way.files], code_version=version("forcetorque"), created=created_now()
-        )
+        recordings = [read_bench(path) for path in way.files]
+        result = workbench(recordings, code_version=version("forcetorque"), created=created_now())
     except FitError as error:
         way.stop("workbench", [str(error)], "correct the loads or readings", for_good=True)
         return
     way.results.append(result)
     way.answers = tuple(result.answers())
     if result.faults:
-        remedy = "record these positions again, or name them in leave_out of [loads]"
+        remedy = "record again what they name"
+        positions = [name for fault in result.faults for name in fault.positions]
+        if len(recordings) == 1 and positions:
+            names = ", ".join(f'"{name}"' for name in dict.fromkeys([*recordings[0].left_out, *positions]))
+            remedy += f", or leave it out: leave_out = [{names}] in [loads], after which faults are searched anew"
         way.stop("workbench", [fault.message for fault in result.faults], remedy)
     if len(result.sensors) == 1:
         doubted = tuple(_doubted(one, way.doubts) for one in result.calibrations)

@@ -151,7 +151,7 @@ def _columns_lines(
         yield question("channels", f"columns of the sensor, among {listed(rest)}")
     if not in_table:
         return
-    yield remark("series_from_zero = true: where every row without load begins a series with an offset of its own")
+    yield remark("series_from_zero = true: where every row without load begins a series, and is its bias")
     if not known:
         yield question("known", f"columns of the load fx fy fz tx ty tz, or of those measured, among {listed(rest)}")
         yield question("known_units", 'unit of each, as ["N", "N", "N", "N m", "N m", "N m"]')
