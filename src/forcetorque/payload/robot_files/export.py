@@ -17,7 +17,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.logged_wrist import FLANGE
 from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.identify import weigh_load, weighing_sensor
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
 from forcetorque.payload.loads_on_robot_links import link_loads
@@ -154,9 +154,12 @@ def robot_load(
         The load, to write it for a robot (`export_load`).
 
     Raises:
-        ExperimentError: As of `held_load`, or if the data leave the bias open, or the readings contradict the frames,
-            senses and units by which the load was weighed, or, without a reason, if the load is doubtful.
+        ExperimentError: As of `held_load`, or if another sensor weighed the load, or the data leave the bias open, or
+            the readings contradict the frames, senses and units by which the load was weighed, or, without a reason, if
+            the load is doubtful.
     """
+    if weighed is not None and weighed.sensor != run.sensor.name:
+        raise ExperimentError(f"expected the sensor {weighed.sensor!r}, which weighed, got {run.sensor.name!r}")
     known = np.array(bias, dtype=np.float64)
     if not np.isfinite(known).all():
         names = ", ".join(np.array(WRENCH_COMPONENTS)[~np.isfinite(known)])
@@ -196,7 +199,9 @@ def robot_load(
 def _is_estimated(run: SensorRun) -> bool:
     """Whether a load is estimated by the recording of the run itself."""
     loads = wrist_loads(run.experiment) or link_loads(run.experiment)
-    return loads is not None and not loads.are_stated and run.has(Use.CALIBRATION)
+    if loads is None or weighing_sensor(run.experiment).name != run.sensor.name:
+        return False
+    return not loads.are_stated and run.has(Use.CALIBRATION)
 
 
 def require_agreeing_logs(weighed: WeighedLoad) -> None:
