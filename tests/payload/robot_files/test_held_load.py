@@ -220,6 +220,36 @@ def test_of_two_sensors_the_one_that_weighs_has_the_file(arm: Path, run: Run, fi
     assert not (tmp_path / "load.yaml").exists()
 
 
+def test_a_point_mass_leaves_the_inertia_of_the_links(arm: Path, tmp_path: Path) -> None:
+    """The inertia is that of the links and of the point; what is missing, and both masses, are said."""
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    stated = '\n[[load]]\nname = "camera"\nlink = "tool"\nmass_kg = 0.25\ncentre_of_mass_m = [0.0, 0.0, 0.05]\n'
+    told = {}
+    for inertia in ("", "inertia_kgm2 = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\n"):
+        (arm / "camera.toml").write_text(text + stated + inertia, encoding="utf-8")
+        experiment = load_experiment(arm / "camera.toml")
+        told[inertia] = robot_load(_rigid(SensorRun(experiment, "arm_ft")), np.zeros(6))
+    point, whole = told.values()
+    assert (point.lacks_inertia, whole.lacks_inertia) == (True, False)
+    assert point.inertia is not None
+    assert whole.inertia is not None
+    np.testing.assert_allclose(point.inertia, whole.inertia, rtol=0, atol=ROUNDING)
+    assert np.linalg.eigvalsh(point.inertia)[0] > 1e-4
+    links = point.mass - 0.25
+    words = export_load(point, tmp_path / "load", LoadFormat.UR, body_H_sensor=np.eye(4))
+    assert f"it holds {point.mass:.4g} kg: the load 'camera' and {links:.4g} kg of links of the URDF" in words
+    assert "the inertia of the load 'camera' is not known and left out" in words
+    words = export_load(whole, tmp_path / "load", LoadFormat.UR, body_H_sensor=np.eye(4))
+    assert "not known" not in words
+
+
+def test_a_sensor_beyond_the_sensor_is_named(arm: Path) -> None:
+    """With the way out: the experiment file without it."""
+    experiment = load_experiment(arm / TWO)
+    with pytest.raises(ExperimentError, match="got another sensor beyond it, 'tool_ft'; leave that one out of the exp"):
+        robot_load(_rigid(SensorRun(experiment, "arm_ft")), np.zeros(6))
+
+
 @pytest.mark.long
 def test_a_tool_that_an_arm_weighed_is_told_with_the_links_it_hangs_on(tmp_path: Path) -> None:
     """What the recording says of the load, moved into the frame of the sensor, and the same load where it is stated."""

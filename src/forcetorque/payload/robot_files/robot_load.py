@@ -33,6 +33,12 @@ class RobotLoad:
     """Position c in the sensor's frame; shape (3,); m."""
     inertia: FloatArray | None = field(default=None, metadata=array(3, 3))
     """About the centre of mass along the sensor's axes; shape (3, 3); kg m2; None where it is unknown."""
+    load: str = ""
+    """Name of the load on links of the URDF that are part of this one; empty for none."""
+    links_mass: float = 0.0
+    """Mass of these links; kg."""
+    lacks_inertia: bool = False
+    """Whether `load` is a point mass in the inertia, of which its moments are not known."""
     bias: FloatArray = field(metadata=array(6))
     """Reading without load; shape (6,); N, N m."""
     matrix: FloatArray = field(default_factory=lambda: np.eye(6), metadata=array(6, None))
