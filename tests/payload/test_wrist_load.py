@@ -629,6 +629,11 @@ def test_a_new_session_takes_the_load_from_the_result_of_an_earlier_one(tmp_path
         ('"mass_half_width_95_kg":0', '"mass_half_width_95_kg":null,"x":0', "the load 'load' was left open there"),
         ('"mass_half_width_95_kg":0', '"mass_half_width_95_kg":0.2,"x":0', "that is known to 5 % (95 %), for it is"),
         ('"mass_kg":', '"mass_kg":-', "expected a mass of 0 kg or more, got -1.1"),
+        (
+            '"inertia_kgm2":null',
+            '"inertia_kgm2":[[-0.5,0,0],[0,0.1,0],[0,0,0.1]]',
+            "payload.json: load 'load': expected an inertia of a rigid body, whose principal moments",
+        ),
     ],
 )
 def test_a_load_of_another_frame_or_one_left_open_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
@@ -638,7 +643,7 @@ def test_a_load_of_another_frame_or_one_left_open_is_refused(tmp_path: Path, old
     assert old in text
     (tmp_path / "payload.json").write_text(text.replace(old, new, 1))
     named = _write(tmp_path, text=TEXT.replace('motion = ["poses"]', 'motion = ["poses"]\nfrom = "payload.json"'))
-    with pytest.raises(ExperimentError, match=re.escape(message)):
+    with pytest.raises(ForceTorqueError, match=re.escape(message)):
         load_experiment(named)
 
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import logging
 
     from forcetorque.experiment.calibration.artefact import Calibration
-    from forcetorque.experiment.experiment import Experiment
+    from forcetorque.experiment.experiment import Experiment, ExperimentSensor
     from forcetorque.payload.robot_files.robot_load import RobotLoad
 
 
@@ -158,7 +158,7 @@ def payload(
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.formats.kept_parts import parts_kept
     from forcetorque.formats.specified_keys import specified_keys
-    from forcetorque.payload.identify import weigh_load
+    from forcetorque.payload.identify import weigh_load, weighing_sensor
     from forcetorque.payload.load_of_log import (
         described_log,
         experiment_of_description,
@@ -193,7 +193,7 @@ def payload(
                 write_bytes_atomically(save_experiment, alone.content.encode())
         else:
             content = load_experiment(path)
-        runs.append(SensorRun(content, content.sensors[0]))
+        runs.append(SensorRun(content, weighing_sensor(content)))
     if torques:
         _refuse_beside_torques(experiments, torques, save_experiment, to)
         _refuse_places(next(iter(torques)), world_frame, sensor_pose)
@@ -317,6 +317,8 @@ def tare(
     calibrations = read_calibrations(calibration, sensor)
     content = read_experiment(experiment, log)
     chosen = sensors_named(content, sensor)
+    if to is not None:
+        _require_one_sensor(experiment, chosen)
     refuse_left_out(content, chosen, calibrations)
     by_sensor = _one_for_each(content, calibrations)
     runs = [SensorRun(content, one) for one in chosen]
@@ -334,6 +336,13 @@ def tare(
         show_warnings(result)
     else:
         show(result, output_format, details=details, experiments=[experiment])
+
+
+def _require_one_sensor(experiment: Path, chosen: Sequence[ExperimentSensor]) -> None:
+    """Refuse several sensors, of which one would be written."""
+    if len(chosen) != 1:
+        names = ", ".join(repr(one.name) for one in chosen)
+        raise ForceTorqueError(f"{experiment}: expected one sensor with --to, got {names}; name it by --sensor")
 
 
 def _one_for_each(content: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, str]:

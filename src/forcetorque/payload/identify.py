@@ -13,7 +13,7 @@ from forcetorque.base.noise.means import means_over
 from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution, three
@@ -52,6 +52,19 @@ def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:
             "`forcetorque tare --to` writes a file for a robot"
         )
     return hanging
+
+
+def weighing_sensor(experiment: Experiment) -> ExperimentSensor:
+    """Give the sensor that weighs the loads.
+
+    Args:
+        experiment: Experiment with its loads.
+
+    Returns:
+        The nearest sensor inboard of the loads on a robot; else the first.
+    """
+    loads = link_loads(experiment)
+    return experiment.sensors[0] if loads is None or loads.sensor is None else loads.sensor
 
 
 def links_of(campaign: Campaign) -> dict[str, str]:
@@ -151,9 +164,16 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         Loads, biases, their 95 % intervals, what stays open, and what makes it doubtful.
 
     Raises:
+        ExperimentError: If another sensor weighs the loads.
         FitError: If a load has a mass below zero.
     """
     campaign = Campaign.of(runs)
+    for run in campaign.runs:
+        if (weigher := weighing_sensor(run.experiment).name) != run.sensor.name:
+            raise ExperimentError(
+                f"expected the sensor {weigher!r}, the nearest one inboard of the loads, which weighs them, got "
+                f"{run.sensor.name!r}"
+            )
     solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
     table = None if (wrist := wrist_loads(first.experiment)) is None else wrist.table
     with_mount = first.sensor.mount_is_unknown or (table is not None and table.mount is not None)

@@ -24,6 +24,7 @@ from forcetorque.payload.identification.loads_with_intervals import load_estimat
 from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, settled
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.identification.robust_fit import fit
+from forcetorque.payload.robot_files.robot_load import require_rigid
 
 SCHEMA = "forcetorque/payload/3"
 """Form of the results that are read."""
@@ -120,7 +121,7 @@ def read_wrist_load_from_file(file: Path, name: str, frame: str) -> LoadFromFile
         The load under this name, with its sensor.
 
     Raises:
-        FormatError: If it is no such result.
+        FormatError: If it is no such result, or no rigid body has the inertia.
         ExperimentError: If it has no such load, or the load is undetermined, of negative mass or one that is known to
             less than `MOST_UNCERTAIN`, or in another frame.
     """
@@ -147,6 +148,8 @@ def read_wrist_load_from_file(file: Path, name: str, frame: str) -> LoadFromFile
             f"taken as exact, got {row.mass_kg:.4g} kg +- {row.mass_half_width_95_kg:.2g} kg; weigh it again, in more "
             "poses and for longer, or state mass_kg and centre_of_mass_m"
         )
+    if row.inertia_kgm2 is not None:
+        require_rigid(row.inertia_kgm2, f"{file}: load {row.load!r}")
     load = Load(
         name=name,
         mass=row.mass_kg,

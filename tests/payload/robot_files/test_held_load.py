@@ -28,7 +28,8 @@ from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
-from tests.scenes.experiments import PARQUET
+from tests.app.outcome import Run
+from tests.scenes.experiments import PARQUET, SECOND_SENSOR, TWO
 from tests.scenes.robots import example_robot
 
 ROUNDING = 1e-9
@@ -191,6 +192,62 @@ def test_what_no_file_holds_is_not_proposed(arm: Path) -> None:
         (answer,) = payload_answers(weighed)
         assert (answer.command != "") is proposed
         assert ("got 'elbow', 'wrist' beyond it, which move or are not logged" in answer.step) is not proposed
+
+
+@pytest.mark.parametrize("first", ["arm_ft", "tool_ft"])
+def test_of_two_sensors_the_one_that_weighs_has_the_file(arm: Path, run: Run, first: str, tmp_path: Path) -> None:
+    """The nearest one inboard of the load, in either order of the experiment file; the other one is refused."""
+    text = (arm / TWO).read_text(encoding="utf-8")
+    if first == "tool_ft":
+        head, rest = text.replace(SECOND_SENSOR, "").split("\n[[sensor]]", 1)
+        text = f"{head}{SECOND_SENSOR}\n[[sensor]]{rest}"
+    load = '\n[[load]]\nlink = "tool"\nmass_kg = 0.5\ncentre_of_mass_m = [0.0, 0.0, 0.05]\n'
+    file = arm / f"first_{first}.toml"
+    file.write_text(text + load, encoding="utf-8")
+    assert load_experiment(file).sensors[0].name == first
+    content = load_experiment(file)
+    result = run("payload", file, "--format", "json").result()
+    assert (result["sensor"], result["serial"]) == ("tool_ft", "SIM/002")
+    other, own = (SensorRun(content, name) for name in ("arm_ft", "tool_ft"))
+    with pytest.raises(ExperimentError, match="expected the sensor 'tool_ft', .* which weighs them, got 'arm_ft'"):
+        weigh_load(other)
+    weighed = weigh_load(own).model_copy(update={"hypotheses": (), "disagreeing": ()})
+    assert robot_load(own, np.zeros(6), weighed=weighed, override="a test").sensor == "tool_ft"
+    with pytest.raises(ExperimentError, match="expected the sensor 'tool_ft', which weighed, got 'arm_ft'"):
+        robot_load(other, np.zeros(6), weighed=weighed, override="a test")
+    outcome = run("tare", file, "--interval", "judge", "--to", "ft-tools", "-o", tmp_path / "load.yaml")
+    assert "expected one sensor with --to, got" in outcome.error()
+    assert not (tmp_path / "load.yaml").exists()
+
+
+def test_a_point_mass_leaves_the_inertia_of_the_links(arm: Path, tmp_path: Path) -> None:
+    """The inertia is that of the links and of the point; what is missing, and both masses, are said."""
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    stated = '\n[[load]]\nname = "camera"\nlink = "tool"\nmass_kg = 0.25\ncentre_of_mass_m = [0.0, 0.0, 0.05]\n'
+    told = {}
+    for inertia in ("", "inertia_kgm2 = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\n"):
+        (arm / "camera.toml").write_text(text + stated + inertia, encoding="utf-8")
+        experiment = load_experiment(arm / "camera.toml")
+        told[inertia] = robot_load(_rigid(SensorRun(experiment, "arm_ft")), np.zeros(6))
+    point, whole = told.values()
+    assert (point.lacks_inertia, whole.lacks_inertia) == (True, False)
+    assert point.inertia is not None
+    assert whole.inertia is not None
+    np.testing.assert_allclose(point.inertia, whole.inertia, rtol=0, atol=ROUNDING)
+    assert np.linalg.eigvalsh(point.inertia)[0] > 1e-4
+    links = point.mass - 0.25
+    words = export_load(point, tmp_path / "load", LoadFormat.UR, body_H_sensor=np.eye(4))
+    assert f"it holds {point.mass:.4g} kg: the load 'camera' and {links:.4g} kg of links of the URDF" in words
+    assert "the inertia of the load 'camera' is not known and left out" in words
+    words = export_load(whole, tmp_path / "load", LoadFormat.UR, body_H_sensor=np.eye(4))
+    assert "not known" not in words
+
+
+def test_a_sensor_beyond_the_sensor_is_named(arm: Path) -> None:
+    """With the way out: the experiment file without it."""
+    experiment = load_experiment(arm / TWO)
+    with pytest.raises(ExperimentError, match="got another sensor beyond it, 'tool_ft'; leave that one out of the exp"):
+        robot_load(_rigid(SensorRun(experiment, "arm_ft")), np.zeros(6))
 
 
 @pytest.mark.long

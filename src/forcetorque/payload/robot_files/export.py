@@ -11,13 +11,14 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.inertia import Inertia
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.logged_wrist import FLANGE
 from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identify import weigh_load
+from forcetorque.payload.identify import weigh_load, weighing_sensor
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
 from forcetorque.payload.loads_on_robot_links import link_loads
@@ -154,9 +155,12 @@ def robot_load(
         The load, to write it for a robot (`export_load`).
 
     Raises:
-        ExperimentError: As of `held_load`, or if the data leave the bias open, or the readings contradict the frames,
-            senses and units by which the load was weighed, or, without a reason, if the load is doubtful.
+        ExperimentError: As of `held_load`, or if another sensor weighed the load, or the data leave the bias open, or
+            the readings contradict the frames, senses and units by which the load was weighed, or, without a reason, if
+            the load is doubtful.
     """
+    if weighed is not None and weighed.sensor != run.sensor.name:
+        raise ExperimentError(f"expected the sensor {weighed.sensor!r}, which weighed, got {run.sensor.name!r}")
     known = np.array(bias, dtype=np.float64)
     if not np.isfinite(known).all():
         names = ", ".join(np.array(WRENCH_COMPONENTS)[~np.isfinite(known)])
@@ -175,9 +179,10 @@ def robot_load(
         doubt = doubt or reason_to_withhold(weighed)
     note = overruled(doubt, override, where=f"load of {run.sensor.name!r}")
     held = held_load(run, weighed)
-    mass, first = held.inertia.mass, held.inertia.first_moment
-    centre = first / mass if mass else np.zeros(3)
-    about_centre = held.inertia.second_moment + mass * skew(centre) @ skew(centre)
+    mass = held.inertia.mass
+    centre, about_centre = _about_centre(held.inertia)
+    # zero, or what rounding leaves of it, is no inertia that a simulator takes
+    of_links = not held.has_inertia and bool(np.linalg.eigvalsh(_about_centre(held.links)[1])[0] > _POINT_KGM2)
     matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
     return RobotLoad(
         sensor=run.sensor.name,
@@ -185,7 +190,10 @@ def robot_load(
         direction=held.direction,
         mass=mass,
         centre_of_mass=centre,
-        inertia=about_centre if held.has_inertia else None,
+        inertia=about_centre if held.has_inertia or of_links else None,
+        load=held.load,
+        links_mass=held.links.mass,
+        lacks_inertia=of_links,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
         posture=", ".join(f"{row.joint} at {amount(row.position or 0.0, row.unit)}" for row in held.posture),
@@ -193,10 +201,22 @@ def robot_load(
     )
 
 
+_POINT_KGM2 = 1e-9
+"""Principal moment of links below which they are points."""
+
+
+def _about_centre(inertia: Inertia) -> tuple[FloatArray, FloatArray]:
+    """Centre of mass, shape (3,), m, and inertia about it, shape (3, 3), kg m2."""
+    centre = inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+    return centre, inertia.second_moment + inertia.mass * skew(centre) @ skew(centre)
+
+
 def _is_estimated(run: SensorRun) -> bool:
     """Whether a load is estimated by the recording of the run itself."""
     loads = wrist_loads(run.experiment) or link_loads(run.experiment)
-    return loads is not None and not loads.are_stated and run.has(Use.CALIBRATION)
+    if loads is None or weighing_sensor(run.experiment).name != run.sensor.name:
+        return False
+    return not loads.are_stated and run.has(Use.CALIBRATION)
 
 
 def require_agreeing_logs(weighed: WeighedLoad) -> None:
@@ -250,10 +270,18 @@ def export_load(
     if load.override is not None and (beside := override_file(output, form)) is not None:
         refuse_output(beside, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
-    posture = [f"it holds with {load.posture} alone"] if load.posture else []
+    parts = [f"it holds with {load.posture} alone"] if load.posture else []
+    if load.load and load.links_mass and form is not LoadFormat.ROS2_BROADCASTER:
+        links = f"{load.links_mass:.4g} kg of links of the URDF beyond the sensor"
+        parts.insert(0, f"it holds {load.mass:.4g} kg: the load {load.load!r} and {links}")
     if form not in ARMS:
-        return "; ".join([form.convention, *posture])
-    lacks = posture + list(not_held(flange_load(load, form, body_H_sensor), form, load.bias))
+        return "; ".join([form.convention, *parts])
+    lacks = parts + list(not_held(flange_load(load, form, body_H_sensor), form, load.bias))
+    if load.lacks_inertia:
+        lacks.append(
+            f"the inertia of the load {load.load!r} is not known and left out: each 0.001 kg m2 of it makes 0.001 N m "
+            "for each rad/s2"
+        )
     if load.frame != FLANGE:
         lacks.append(
             "it holds what is beyond the sensor: each 0.1 kg of a sensor that is mounted on the flange makes 0.98 N"

@@ -32,7 +32,11 @@ class HeldLoad:
     inertia: Inertia
     """In and about the frame of the measurement."""
     has_inertia: bool
-    """Whether its moments of inertia are known."""
+    """Whether the moments of inertia of the `[[load]]` are known."""
+    links: Inertia
+    """What of it are links of the URDF, in and about the same frame."""
+    load: str = ""
+    """Name of the `[[load]]` on these links; empty for none."""
     frame: str
     """Name of that frame."""
     direction: MeasureDirection
@@ -69,7 +73,9 @@ def _wrist_load(experiment: Experiment, wrist: WristLoads, weighed: WeighedLoad 
     else:
         inertia, has_inertia = _of_weighed(weighed)
     frame = next(iter(experiment.model.links))
-    return HeldLoad(inertia=inertia, has_inertia=has_inertia, frame=frame, direction=wrist.direction)
+    return HeldLoad(
+        inertia=inertia, has_inertia=has_inertia, links=Inertia.zero(), frame=frame, direction=wrist.direction
+    )
 
 
 def _distal_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
@@ -80,7 +86,8 @@ def _distal_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
             f'sensor {name!r}: expected a mount that is stated, of which a robot is told, got mount = "unknown"; state '
             "what `forcetorque payload` estimates"
         )
-    model, has_inertia = _loaded_model(experiment, link_loads(experiment), weighed)
+    on_links = link_loads(experiment)
+    model, has_inertia = _loaded_model(experiment, on_links, weighed)
     sensor = model.sensors[name]
     tree = build_tree(model, model.joints[sensor.joint].parent)
     distal = _distal_bodies(tree, experiment, name)
@@ -88,10 +95,18 @@ def _distal_load(run: SensorRun, weighed: WeighedLoad | None) -> HeldLoad:
     joints = JointMotion.at_rest([row.joint for row in posture], [[row.position for row in posture]])
     poses, cut = body_poses(tree, joints, distal), tree.cuts[name]
     sensor_H_root = invert_pose(poses[cut.body][0] @ cut.body_H_sensor)
-    parts = (tree.bodies[k].inertia.expressed_in(sensor_H_root @ poses[k][0]) for k in distal)
+    bare = build_tree(experiment.model, tree.root_link)
+    inertia, links = (
+        sum((one.bodies[k].inertia.expressed_in(sensor_H_root @ poses[k][0]) for k in distal), Inertia.zero())
+        for one in (tree, bare)
+    )
+    beyond = {link for k in distal for link in tree.bodies[k].links}
+    loads = [] if on_links is None else [load.name for load in on_links.loads if on_links.links[0] in beyond]
     return HeldLoad(
-        inertia=sum(parts, Inertia.zero()),
-        has_inertia=has_inertia,
+        inertia=inertia,
+        has_inertia=has_inertia or not loads,
+        links=links,
+        load="".join(loads),
         frame=_frame(model, sensor),
         direction=sensor.direction,
         posture=posture,
@@ -125,8 +140,12 @@ def _distal_bodies(tree: BodyTree, experiment: Experiment, sensor: str) -> list[
                 f"interval {interval.label!r}: expected a support inboard of {sensor!r}, of whose load a robot is "
                 f"told, got {interval.support.frame!r}, which is beyond it"
             )
-    if any(tree.bodies[k].coordinate is None for k in beyond[1:]):
-        raise ExperimentError(f"sensor {sensor!r}: expected a rigid load, of which a robot is told, got another sensor")
+    others = [name for name, cut in tree.cuts.items() if cut.body in beyond[1:]]
+    if others:
+        raise ExperimentError(
+            f"sensor {sensor!r}: expected a rigid load, of which a robot is told, got another sensor beyond it, "
+            f"{', '.join(map(repr, others))}; leave that one out of the experiment file"
+        )
     return beyond
 
 

@@ -33,6 +33,12 @@ class RobotLoad:
     """Position c in the sensor's frame; shape (3,); m."""
     inertia: FloatArray | None = field(default=None, metadata=array(3, 3))
     """About the centre of mass along the sensor's axes; shape (3, 3); kg m2; None where it is unknown."""
+    load: str = ""
+    """Name of the load on links of the URDF that are part of this one; empty for none."""
+    links_mass: float = 0.0
+    """Mass of these links; kg."""
+    lacks_inertia: bool = False
+    """Whether `load` is a point mass in the inertia, of which its moments are not known."""
     bias: FloatArray = field(metadata=array(6))
     """Reading without load; shape (6,); N, N m."""
     matrix: FloatArray = field(default_factory=lambda: np.eye(6), metadata=array(6, None))
@@ -144,7 +150,7 @@ def flange_load(load: RobotLoad, where: str, flange_H_sensor: FloatArray | None)
     inertia = np.zeros((3, 3))
     if load.inertia is not None:
         inertia = pose[:3, :3] @ load.inertia @ pose[:3, :3].T
-        _require_rigid(inertia, where)
+        require_rigid(inertia, where)
     return FlangeLoad(
         mass=load.mass,
         centre_of_mass=pose[:3, :3] @ load.centre_of_mass + pose[:3, 3],
@@ -153,7 +159,16 @@ def flange_load(load: RobotLoad, where: str, flange_H_sensor: FloatArray | None)
     )
 
 
-def _require_rigid(inertia: FloatArray, where: str) -> None:
+def require_rigid(inertia: FloatArray, where: str) -> None:
+    """Refuse an inertia that no rigid body has.
+
+    Args:
+        inertia: About the centre of mass; shape (3, 3); kg m2.
+        where: What has it, for the message.
+
+    Raises:
+        FormatError: If a principal moment is below 0 or above the sum of the others.
+    """
     moments = np.linalg.eigvalsh(0.5 * (inertia + inertia.T))
     if moments[0] < 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - _ROUNDING):
         numbers = ", ".join(f"{moment:.3g}" for moment in moments)
