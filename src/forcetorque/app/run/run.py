@@ -195,17 +195,23 @@ def _by_known_loads(way: _Way) -> None:
         return
     way.results.append(result)
     way.answers = tuple(result.answers())
-    if result.faults:
+    faults = [fault.message for fault in result.faults]
+    unfitted = [f"{row.file}: {row.reason}" for row in result.sensors if not row.fitted]
+    if not result.calibrations:
+        reasons = [*faults, *unfitted] or ["no position has valid blocks, so that nothing is fitted"]
+        way.stop("workbench", reasons, "correct the loads or readings, or record other loads", for_good=True)
+    elif faults or unfitted:
         remedy = "record these positions again, or name them in leave_out of [loads]"
-        way.stop("workbench", [fault.message for fault in result.faults], remedy)
-    if len(result.sensors) == 1:
-        doubted = tuple(_doubted(one, way.doubts) for one in result.calibrations)
-        result = result.model_copy(update={"calibrations": doubted})
-        way.output.mkdir(parents=True, exist_ok=True)
-        file = way.output / f"{way.files[0].stem}.json"
-        result.save(file, force=way.force)
+        way.stop("workbench", [*faults, *unfitted], remedy)
+    way.output.mkdir(parents=True, exist_ok=True)
+    stem = way.files[0].stem
+    for one in (_doubted(one, way.doubts) for one in result.calibrations):
+        alone = len(way.files) == 1
+        file = way.output / (f"{stem}.json" if alone else calibration_file(one.sensor.name, one.sensor.serial))
+        one.save(file, force=way.force)
         way.written.append(str(file))
-        way.answers = tuple(result.model_copy(update={"file": str(file)}).answers())
+    if len(way.written) == 1:
+        way.answers = tuple(result.model_copy(update={"file": way.written[0]}).answers())
     way.end("workbench", f"{len(result.sensors)} sensor(s)")
 
 
