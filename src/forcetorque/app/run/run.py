@@ -296,7 +296,7 @@ def _inspect(
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
         rows = faults(inspection.findings)
         wrong += [f"{path}: {row.stream}: {row.message}" for row in rows]
-        proposed = path if proposed is None and has_proposal(rows) else proposed
+        proposed = path if proposed is None and has_proposal(inspection) else proposed
         touched += [(path, f"{path}: {words}") for words in _contacts(experiment, inspection, sensors)]
     if touched:
         remedy = "leave the contact out of the [[interval]], state it as [[contact]]"
@@ -343,10 +343,12 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
             except ForceTorqueError as error:
                 unchecked.append(f"{name}: {error}")
     if contradicted or wrong:
-        # a fault of which a change is proposed comes first, a refusal that explains nothing last
-        reasons = list(dict.fromkeys([*wrong, *contradicted] if proposed else [*contradicted, *wrong]))
+        # a fault that explains the measurements comes first, a refusal that explains nothing last
+        inspections = [one for one in way.results if isinstance(one, Inspection)]
+        explained = any(row.kind != "implausible" for one in inspections for row in faults(one.findings))
+        reasons = list(dict.fromkeys([*wrong, *contradicted] if explained else [*contradicted, *wrong]))
         if proposed is None:
-            way.stop("check", reasons, "correct what the file states", "inspect", str(way.files[0]))
+            way.stop("check", reasons, "correct what the file or the URDF states", "inspect", str(way.files[0]))
         else:
             remedy = "accept the change of the line, which is tried first"
             way.stop("check", reasons, remedy, "init", "--resume", str(proposed))
