@@ -149,6 +149,8 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     assert "was begun of another log than other.csv" in run("run", "other.csv", "-o", "results", "--no-input").error()
     assert "got both" in run("run", "log.csv", file, "-o", "results", "--no-input").error()
     assert "got --column-names" in run("run", file, "--column-names", "t,fx,fy,fz,tx,ty,tz", "--no-input").error()
+    later = run("run", "log.csv", "-o", "results", "--no-input", "--loads", "thesis-6.1")
+    assert "--loads would change nothing" in later.error()
     assert snapshot(tmp_path) == before
     assert run("run", "log.csv", "-o", "results", "--no-input").code == 4
     assert answer_questions(file, lambda _: "[1, 2]")
