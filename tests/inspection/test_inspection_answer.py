@@ -156,6 +156,8 @@ def test_without_a_sensor_nothing_is_to_be_calibrated() -> None:
     inspection = _inspection()
     alone = inspection_answer(inspection.model_copy(update={"to_calibrate": None}))
     assert (alone.step.split(",")[0], alone.command) == ("state a [[sensor]] to calibrate", "")
+    beside = inspection_answer(inspection.model_copy(update={"to_calibrate": "no_interval"}))
+    assert (beside.step.split(",")[0], beside.command) == ('state an [[interval]] with use = "calibration"', "")
     standing = inspection_answer(inspection.model_copy(update={"to_calibrate": "standing"}))
     assert standing.command == "robot balance walk.toml"
     skin = inspection_answer(inspection.model_copy(update={"to_calibrate": "skin"}))

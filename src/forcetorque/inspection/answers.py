@@ -279,6 +279,8 @@ def inspection_answer(inspection: Inspection) -> Answer:
     step = _NEXT[is_experiment]
     if inspection.to_calibrate is None:
         step, go_on = "state a [[sensor]] to calibrate, or an [[interval]] for the calibration of skin", ""
+    elif inspection.to_calibrate == "no_interval":
+        step, go_on = 'state an [[interval]] with use = "calibration", in which nothing unknown touches the limb', ""
     elif inspection.to_calibrate == "standing":
         step, go_on = "find which feet bear the robot", typed("robot", "balance", source)
     elif inspection.to_calibrate == "skin":

@@ -117,8 +117,9 @@ class FindingRow(Row):
         return self.stream, self.kind, self.channel or ""
 
 
-ToCalibrate = Literal["sensor", "skin", "standing"] | None
-"""What an experiment file states to be calibrated, or `standing` for vertical forces of soles alone."""
+ToCalibrate = Literal["sensor", "no_interval", "skin", "standing"] | None
+"""What an experiment file states to be calibrated: `no_interval` for sensors without an interval for it, `standing` for
+vertical forces of soles alone."""
 
 
 class Inspection(DrawnResult):
@@ -294,13 +295,18 @@ def _inspection(
     experiment: Experiment | None = None,
 ) -> Inspection:
     start, end = recording.span_ns
+    lacks_interval = (
+        experiment is not None
+        and bool(experiment.sensors)
+        and all(one.use is not Use.CALIBRATION for one in recording.intervals)
+    )
     return Inspection(
         source=source,
         streams=stream_rows(recording.streams),
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
         clocks=clock_rows(recording.clocks),
-        to_calibrate=to_calibrate,
+        to_calibrate="no_interval" if lacks_interval else to_calibrate,
         states_sense=experiment is not None and _states_sense(experiment.file),
         postures=() if experiment is None else tuple(unexplained_postures(experiment, findings)),
         in_use_s=tuple(

@@ -226,7 +226,7 @@ def _of_experiments(
         inspects = typed("inspect", str(way.files[0]))
         raise ExperimentError(
             f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
-            f"not state touches the limb; got none; forcetorque {inspects} shows when something touches it"
+            f"not state touches the limb; got none: state one; forcetorque {inspects} shows when something touches it"
         )
     _refuse_outputs(way, experiments, names)
     wrong, proposed = _inspect(way, experiments, names)
