@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.base.errors import ExperimentError
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.fingerprint import window_hashes
-from tests.scenes.campaigns import by_day, two_days
+from tests.scenes.campaigns import FITTED, by_day, run_of, two_days
 from tests.scenes.segments import SEGMENT_S, short_segments
 
 _ROUNDING = 1e-9
@@ -97,3 +98,9 @@ def test_hashes_of_blocks_are_those_of_all_samples(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr("forcetorque.recording.fingerprint.BLOCK_ROWS", 37)
     np.testing.assert_array_equal(window_hashes(values), expected)
     assert len(expected) > 400
+
+
+def test_a_long_recording_without_validation_interval_is_refused_in_words(recorded: Path) -> None:
+    """As a short one is."""
+    with short_segments(), pytest.raises(ExperimentError, match='expected an interval with use = "validation"'):
+        evaluate(run_of(recorded, FITTED))

@@ -58,6 +58,22 @@ def test_every_file_has_its_intervals(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
+def test_files_of_a_log_that_is_continued_have_theirs_too(tmp_path: Path) -> None:
+    """Of every folder, in the order of time."""
+    for number, folder in enumerate(("morning", "evening")):
+        (tmp_path / folder / "raw").mkdir(parents=True)
+        rows = [f"{10 * number + k},{k},1,2,3,4,5,0,0,-1" for k in range(4)]
+        (tmp_path / folder / "raw" / f"{folder}.csv").write_text("\n".join(["t,a,b,c,d,e,f,x,y,z", *rows, ""]))
+    text = TEXT.replace('"poses.csv"', '"raw/*.csv"').replace('"row"', '{ column = "t", unit = "s" }')
+    text = text.replace('path = "."', 'path = "morning"\ncontinued_in = ["evening"]')
+    file = tmp_path / "wrist.toml"
+    file.write_text(f"{text[: text.index('[[interval]]')]}{INTERVALS}".replace("end_s = 3", "end_s = 2.5"))
+    recording = load_experiment(file).recording
+    stamps = recording.stream("poses").stamp_ns
+    held = {one.label: np.flatnonzero(one.holds(stamps)).tolist() for one in recording.intervals}
+    assert held == {"morning fit": [0, 1, 2], "evening fit": [4, 5, 6], "morning judge": [3], "evening judge": [7]}
+
+
 ALONE = """\
 schema = "forcetorque/experiment/1"
 name = "without a force-torque sensor"

@@ -79,7 +79,16 @@ def test_a_fault_comes_first(kind: str) -> None:
     answer = inspection_answer(_inspection(_row("contact", 1.0, 2.0), _row(kind), source="my walk.toml"))
     assert (answer.verdict, answer.concern) == ("1 FAULT", Concern.BAD)
     assert answer.why == (f"leg: this is {kind}",)
-    assert answer.command == f"{'inspect' if kind == 'implausible' else 'init --resume'} 'my walk.toml'"
+    in_file = kind in ("gravity", "delay", "mount")
+    assert answer.command == f"{'init --resume' if in_file else 'inspect'} 'my walk.toml'"
+    assert answer.step == ("accept the change that corrects it" if in_file else "correct it, and inspect again")
+
+
+@pytest.mark.parametrize("stated", [True, False])
+def test_a_sense_is_changed_where_it_is_stated(stated: bool) -> None:
+    """Of a sensor with a tag it is in the URDF, which no command changes."""
+    inspection = _inspection(_row("reversed")).model_copy(update={"states_sense": stated})
+    assert inspection_answer(inspection).command == f"{'init --resume' if stated else 'inspect'} walk.toml"
 
 
 @pytest.mark.parametrize(
@@ -147,6 +156,8 @@ def test_without_a_sensor_nothing_is_to_be_calibrated() -> None:
     inspection = _inspection()
     alone = inspection_answer(inspection.model_copy(update={"to_calibrate": None}))
     assert (alone.step.split(",")[0], alone.command) == ("state a [[sensor]] to calibrate", "")
+    beside = inspection_answer(inspection.model_copy(update={"to_calibrate": "no_interval"}))
+    assert (beside.step.split(",")[0], beside.command) == ('state an [[interval]] with use = "calibration"', "")
     standing = inspection_answer(inspection.model_copy(update={"to_calibrate": "standing"}))
     assert standing.command == "robot balance walk.toml"
     skin = inspection_answer(inspection.model_copy(update={"to_calibrate": "skin"}))

@@ -40,9 +40,13 @@ def samples_of_use(run: SensorRun, use: Use, variables: Collection[str] = ()) ->
 
     Returns:
         Samples per interval, in the order of time; those of a long recording are mapped from temporary files.
+
+    Raises:
+        ExperimentError: If there is no interval of the use.
     """
+    intervals = run.intervals(use)
     if not is_long(run):
-        return [run.interval_samples(interval, variables=variables) for interval in run.intervals(use)]
+        return [run.interval_samples(interval, variables=variables) for interval in intervals]
 
     def of_segments() -> list[IntervalSamples]:
         samples = SegmentedSamples(run, use, variables)

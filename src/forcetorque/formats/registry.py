@@ -189,6 +189,7 @@ def _joined(readings: Sequence[LogReading], paths: Sequence[str]) -> LogReading:
         ),
         findings=tuple(finding for reading in readings for finding in reading.findings),
         origin=first.origin,
+        files={name: tuple(file for one in readings for file in one.files.get(name, ())) for name in first.files},
     )
 
 

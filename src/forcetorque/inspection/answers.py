@@ -22,6 +22,8 @@ _LEADING: Final = ("contact", "light_contact")
 """Kinds that make an event by themselves; what else is found meanwhile belongs to it."""
 _FAULTS: Final = frozenset((*get_args(FaultKind), "implausible"))
 """Kinds that are about the file, the URDF or the log as a whole, and by more than a doubt."""
+_CORRECTED: Final = frozenset({"gravity", "delay", "mount"})
+"""Faults that a key of the experiment file corrects, whether or not it is there; a sense where the file states it."""
 _APART_S: Final = 1.0
 """Time between findings of two events."""
 _WHOLE: Final = 0.95
@@ -152,16 +154,17 @@ def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
     return tuple(row for row in findings if row.kind in _FAULTS)
 
 
-def has_proposal(wrong: Iterable[FindingRow]) -> bool:
-    """Find out whether `init --resume` names a change of the experiment file.
+def has_proposal(inspection: Inspection) -> bool:
+    """Find out whether `init --resume` tries a change of the experiment file.
 
     Args:
-        wrong: Faults, as `faults` selects them.
+        inspection: What was found by the file.
 
     Returns:
-        Whether one of them explains the measurements, so that its correction is tried.
+        Whether a key of the file corrects one of the faults, as none corrects a mass of the URDF.
     """
-    return any(row.kind in get_args(FaultKind) for row in wrong)
+    kinds = {row.kind for row in inspection.findings}
+    return bool(kinds & _CORRECTED) or (inspection.states_sense and "reversed" in kinds)
 
 
 def events(findings: Iterable[FindingRow], duration_s: float) -> tuple[Event, ...]:
@@ -278,6 +281,8 @@ def inspection_answer(inspection: Inspection) -> Answer:
     step = _NEXT[is_experiment]
     if inspection.to_calibrate is None:
         step, go_on = "state a [[sensor]] to calibrate, or an [[interval]] for the calibration of skin", ""
+    elif inspection.to_calibrate == "no_interval":
+        step, go_on = 'state an [[interval]] with use = "calibration", in which nothing unknown touches the limb', ""
     elif inspection.to_calibrate == "standing":
         step, go_on = "find which feet bear the robot", typed("robot", "balance", source)
     elif inspection.to_calibrate == "skin":
@@ -287,7 +292,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
     spoiling = [event for event in grouped if event.spoils(in_use)]
     if wrong := faults(inspection.findings):
         touched = [event for event in spoiling if event.explains(wrong, in_use)] if is_experiment else []
-        resumes = bool(touched) or (is_experiment and has_proposal(wrong))
+        resumes = bool(touched) or (is_experiment and has_proposal(inspection))
         correct = "accept the change that corrects it" if resumes else "correct it, and inspect again"
         return Answer(
             subject=subject,

@@ -117,8 +117,9 @@ class FindingRow(Row):
         return self.stream, self.kind, self.channel or ""
 
 
-ToCalibrate = Literal["sensor", "skin", "standing"] | None
-"""What an experiment file states to be calibrated, or `standing` for vertical forces of soles alone."""
+ToCalibrate = Literal["sensor", "no_interval", "skin", "standing"] | None
+"""What an experiment file states to be calibrated: `no_interval` for sensors without an interval for it, `standing` for
+vertical forces of soles alone."""
 
 
 class Inspection(DrawnResult):
@@ -159,6 +160,8 @@ class Inspection(DrawnResult):
     """Postures in which a sensor begins to disagree with the robot model; none without joints."""
     to_calibrate: ToCalibrate = Field(default="sensor", exclude=True, repr=False)
     """What the experiment file is for; a sensor of a log; None where it states nothing to calibrate."""
+    states_sense: bool = Field(default=False, exclude=True, repr=False)
+    """Whether the file states the sense of a sensor or load; else it is in the URDF."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
@@ -292,13 +295,19 @@ def _inspection(
     experiment: Experiment | None = None,
 ) -> Inspection:
     start, end = recording.span_ns
+    lacks_interval = (
+        experiment is not None
+        and bool(experiment.sensors)
+        and all(one.use is not Use.CALIBRATION for one in recording.intervals)
+    )
     return Inspection(
         source=source,
         streams=stream_rows(recording.streams),
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
         clocks=clock_rows(recording.clocks),
-        to_calibrate=to_calibrate,
+        to_calibrate="no_interval" if lacks_interval else to_calibrate,
+        states_sense=experiment is not None and _states_sense(experiment.file),
         postures=() if experiment is None else tuple(unexplained_postures(experiment, findings)),
         in_use_s=tuple(
             ((one.start_ns - start) * 1e-9, (min(one.end_ns, end) - start) * 1e-9)
@@ -306,6 +315,14 @@ def _inspection(
             if one.use is not Use.IGNORE
         ),
     )
+
+
+def _states_sense(file: Path) -> bool:
+    """Whether a sensor or the load of an experiment file has the key; none of an experiment made from arrays has."""
+    if not file.is_file():
+        return False
+    content = parsed_toml(file, what="an experiment file")[1]
+    return any("measure_direction" in table for table in (content.get("load", {}), *content.get("sensor", ())))
 
 
 def _without_experiment(source: Path, name: str | None) -> Inspection | None:

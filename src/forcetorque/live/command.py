@@ -80,8 +80,8 @@ def live(
         list[str] | None,
         typer.Option(
             "--frame",
-            help="[SENSOR=]FRAME: frame_id of messages of ROS 2; of wrenches of csv child, parent or sensor, as the "
-            "calibration has it.",
+            help="Frame, [SENSOR=]FRAME: frame_id of messages of ROS 2; of wrenches of csv child, parent or sensor, as "
+            "the calibration has it.",
         ),
     ] = None,
     rate: Annotated[

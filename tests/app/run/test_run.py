@@ -8,6 +8,7 @@ import shlex
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import forcetorque
@@ -148,6 +149,8 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     assert "was begun of another log than other.csv" in run("run", "other.csv", "-o", "results", "--no-input").error()
     assert "got both" in run("run", "log.csv", file, "-o", "results", "--no-input").error()
     assert "got --column-names" in run("run", file, "--column-names", "t,fx,fy,fz,tx,ty,tz", "--no-input").error()
+    later = run("run", "log.csv", "-o", "results", "--no-input", "--loads", "thesis-6.1")
+    assert "--loads would change nothing" in later.error()
     assert snapshot(tmp_path) == before
     assert run("run", "log.csv", "-o", "results", "--no-input").code == 4
     assert answer_questions(file, lambda _: "[1, 2]")
@@ -239,6 +242,43 @@ def test_known_loads_of_a_workbench(tmp_path: Path, run: Run, monkeypatch: pytes
     assert not any(
         "override" in warning for warning in read_calibration(Path(json.loads(good.out)["files"][0])).warnings
     )
+    again, _ = write_bench(tmp_path, serial="SIM002")
+    both = run("run", swapped, again, "-o", "two", "--override", "the swap is known", "--format", "json")
+    files = [Path(one) for one in json.loads(both.out)["files"]]
+    assert files == [Path("two/l_leg_ft_SIM001.json"), Path("two/l_leg_ft_SIM002.json")]
+    assert all(any("the swap is known" in words for words in read_calibration(one).warnings) for one in files)
+
+
+def test_a_bench_without_a_matrix_is_stopped_for_good(
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No reason to go on makes a matrix."""
+    monkeypatch.chdir(tmp_path)
+    names = [f"{kind}{axis}" for kind in ("f", "t", "known_f", "known_t") for axis in "xyz"]
+    loads = np.eye(6)[:3]
+    rows = np.hstack([1e3 * loads, loads])
+    np.savetxt("three.csv", rows, delimiter=",", header=",".join(names), comments="")
+    Path("three.toml").write_text(
+        f"""schema = "forcetorque/bench/1"
+[sensor]
+name = "plate"
+serial = "P1"
+measure_direction = "child_to_parent"
+full_scale = 1e6
+[measurements]
+format = "rows"
+file = "three.csv"
+channels = {names[:6]}
+known = {names[6:]}
+known_units = ["N", "N", "N", "N m", "N m", "N m"]
+""",
+        encoding="utf-8",
+    )
+    stopped = run("run", "three.toml", "-o", "none", "--override", "x")
+    assert stopped.code == 3
+    assert "give prior" in stopped.out
+    assert "--override" not in stopped.out
+    assert not Path("none").exists()
 
 
 @pytest.mark.long

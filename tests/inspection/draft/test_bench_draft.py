@@ -114,6 +114,43 @@ def test_loads_of_units_that_are_not_known_are_asked(tmp_path: Path) -> None:
     assert "# named like a load, and not taken: applied_fx, applied_fy, applied_fz" in content
 
 
+def test_loads_whose_heading_is_not_read_are_asked(tmp_path: Path) -> None:
+    """A sensor of six components is not drafted as one of three; a unit behind the name is no other name."""
+    channels = [f"ch{k}" for k in range(1, 7)]
+    rows = np.hstack([_readings(), thesis_loads().wrench])
+    loads = [*(f"load_F{axis}_kN" for axis in "xyz"), *(f"load_M{axis}_Ncm" for axis in "xyz")]
+    draft = draft_experiment([_write(tmp_path / "units.csv", [*channels, *loads], rows)])
+    content = tomllib.loads(draft.content)
+    assert content["measurements"]["known"] == loads
+    assert "components" not in content["sensor"]
+    assert [one.question for one in draft.questions if one.key == "known_units"][0].endswith("load_My_Ncm, load_Mz_Ncm")
+    loads[3:] = [f"load_about_{axis}" for axis in "xyz"]
+    draft = draft_experiment([_write(tmp_path / "about.csv", [*channels, *loads], rows)])
+    assert tomllib.loads(draft.content)["measurements"]["known"] == "?"
+    assert "components" not in tomllib.loads(draft.content)["sensor"]
+
+
+def test_lines_that_may_be_taken_up_are_toml(tmp_path: Path) -> None:
+    """Once the first mark is taken away."""
+    table = _write(tmp_path / "bench.csv", list("abcdefgh"), np.hstack([_readings(), _readings()[:, :2]]))
+    lines = draft_experiment([table], loads=table).content.splitlines()
+    optional = [line.removeprefix("# ") for line in lines if line.startswith("# ") and " = " in line]
+    keys = [next(iter(tomllib.loads(line))) for line in optional]
+    assert keys == ["components", "load_full_scale", "prior", "series_from_zero"]
+
+
+@pytest.mark.parametrize(("name", "first"), [("position", 1), ("", 1), ("weight", 0), ("No.", 5)])
+def test_numbers_of_rows_are_no_times(tmp_path: Path, beside_loads: Path, name: str, first: int) -> None:
+    """By their name, or by their values."""
+    table = np.hstack([_readings(), thesis_loads().wrench])
+    headings = beside_loads.read_text(encoding="utf-8").splitlines()[0].split(",")
+    numbers = np.arange(first, first + len(table))
+    log = _write(tmp_path / "log.csv", [name, *headings], np.column_stack([numbers, table]))
+    content = tomllib.loads(draft_experiment([log]).content)
+    assert content["schema"] == "forcetorque/bench/1"
+    assert content["measurements"]["channels"] == headings[:6]
+
+
 def test_a_log_with_times_is_no_bench(tmp_path: Path, beside_loads: Path) -> None:
     """Negative control: a robot logs commanded forces beside measured ones."""
     table = np.hstack([_readings(), thesis_loads().wrench])

@@ -116,8 +116,12 @@ def _state_experiments(files: list[Path]) -> bool:
 
 
 def _refuse_beside(file: Path, options: Mapping[str, object]) -> None:
-    if given := [name for name, value in options.items() if value is not None]:
+    if given := _given(options):
         raise ExperimentError(f"{file}: expected no option of a log beside an experiment file, got {', '.join(given)}")
+
+
+def _given(options: Mapping[str, object]) -> list[str]:
+    return [name for name, value in options.items() if value is not None]
 
 
 def _begun(
@@ -136,10 +140,16 @@ def _begun(
     from forcetorque.inspection.draft.questions import logs_of
 
     file = output / "experiment.toml"
+    options = {"--urdf": urdf, "--matrices": matrices, "--column-names": column_names or None, "--loads": loads}
     if file.exists():
         if not {log.resolve() for log in logs} <= logs_of(file):
             raise ExperimentError(
                 f"{file}: was begun of another log than {', '.join(map(str, logs))}; name another folder by --output"
+            )
+        if given := _given(options):
+            raise ExperimentError(
+                f"{file}: was begun already, so that {', '.join(given)} would change nothing; leave it out to go on "
+                "with the file, or name another folder by --output"
             )
         start_logging().info("going on with %s", file)
         return file

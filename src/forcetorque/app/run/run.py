@@ -194,21 +194,27 @@ def _by_known_loads(way: _Way) -> None:
         return
     way.results.append(result)
     way.answers = tuple(result.answers())
-    if result.faults:
+    faults = [fault.message for fault in result.faults]
+    unfitted = [f"{row.file}: {row.reason}" for row in result.sensors if not row.fitted]
+    if not result.calibrations:
+        reasons = [*faults, *unfitted] or ["no position has valid blocks, so that nothing is fitted"]
+        way.stop("workbench", reasons, "correct the loads or readings, or record other loads", for_good=True)
+    elif faults or unfitted:
         remedy = "record again what they name"
         positions = [name for fault in result.faults for name in fault.positions]
         if len(recordings) == 1 and positions:
             names = ", ".join(f'"{name}"' for name in dict.fromkeys([*recordings[0].left_out, *positions]))
             remedy += f", or leave it out: leave_out = [{names}] in [loads], after which faults are searched anew"
-        way.stop("workbench", [fault.message for fault in result.faults], remedy)
-    if len(result.sensors) == 1:
-        doubted = tuple(_doubted(one, way.doubts) for one in result.calibrations)
-        result = result.model_copy(update={"calibrations": doubted})
-        way.output.mkdir(parents=True, exist_ok=True)
-        file = way.output / f"{way.files[0].stem}.json"
-        result.save(file, force=way.force)
+        way.stop("workbench", [*faults, *unfitted], remedy)
+    way.output.mkdir(parents=True, exist_ok=True)
+    stem = way.files[0].stem
+    for one in (_doubted(one, way.doubts) for one in result.calibrations):
+        alone = len(way.files) == 1
+        file = way.output / (f"{stem}.json" if alone else calibration_file(one.sensor.name, one.sensor.serial))
+        one.save(file, force=way.force)
         way.written.append(str(file))
-        way.answers = tuple(result.model_copy(update={"file": str(file)}).answers())
+    if len(way.written) == 1:
+        way.answers = tuple(result.model_copy(update={"file": way.written[0]}).answers())
     way.end("workbench", f"{len(result.sensors)} sensor(s)")
 
 
@@ -223,7 +229,7 @@ def _of_experiments(
         inspects = typed("inspect", str(way.files[0]))
         raise ExperimentError(
             f'{way.files[0]}: expected an [[interval]] with use = "calibration", in which nothing that the file does '
-            f"not state touches the limb; got none; forcetorque {inspects} shows when something touches it"
+            f"not state touches the limb; got none: state one; forcetorque {inspects} shows when something touches it"
         )
     _refuse_outputs(way, experiments, names)
     wrong, proposed = _inspect(way, experiments, names)
@@ -293,7 +299,7 @@ def _inspect(
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
         rows = faults(inspection.findings)
         wrong += [f"{path}: {row.stream}: {row.message}" for row in rows]
-        proposed = path if proposed is None and has_proposal(rows) else proposed
+        proposed = path if proposed is None and has_proposal(inspection) else proposed
         touched += [(path, f"{path}: {words}") for words in _contacts(experiment, inspection, sensors)]
     if touched:
         remedy = "leave the contact out of the [[interval]], state it as [[contact]]"
@@ -340,10 +346,12 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
             except ForceTorqueError as error:
                 unchecked.append(f"{name}: {error}")
     if contradicted or wrong:
-        # a fault of which a change is proposed comes first, a refusal that explains nothing last
-        reasons = list(dict.fromkeys([*wrong, *contradicted] if proposed else [*contradicted, *wrong]))
+        # a fault that explains the measurements comes first, a refusal that explains nothing last
+        inspections = [one for one in way.results if isinstance(one, Inspection)]
+        explained = any(row.kind != "implausible" for one in inspections for row in faults(one.findings))
+        reasons = list(dict.fromkeys([*wrong, *contradicted] if explained else [*contradicted, *wrong]))
         if proposed is None:
-            way.stop("check", reasons, "correct what the file states", "inspect", str(way.files[0]))
+            way.stop("check", reasons, "correct what the file or the URDF states", "inspect", str(way.files[0]))
         else:
             remedy = "accept the change of the line, which is tried first"
             way.stop("check", reasons, remedy, "init", "--resume", str(proposed))

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.formats.headings import read_heading, without_bracket
+from forcetorque.formats.headings import Heading, is_time_name, read_heading, without_bracket
 from forcetorque.formats.log_format import LogSketch
 from forcetorque.inspection.draft.streams import DraftedLog, column_matches, relative, time_column
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
@@ -20,8 +20,13 @@ BENCH_SCHEMA: Final = "forcetorque/bench/1"
 THESIS_LOADS: Final = "thesis-6.1"
 """Name of the bundled table of weights."""
 _KNOWN = re.compile(r"^(?:known|applied|load|loads|reference|ref|true)[ _./-]+(?P<rest>.+)$", re.IGNORECASE)
-_COMPONENT = re.compile(r"^(?P<kind>force|f|torque|moment|tau|t|m)[ _./-]*(?P<axis>[xyz])$", re.IGNORECASE)
+_COMPONENT = re.compile(
+    r"^(?P<kind>force|f|torque|moment|tau|t|m)[ _./-]*(?P<axis>[xyz])(?:[ _./-]+(?P<unit>\S+))?$", re.IGNORECASE
+)
+"""Component of a load, and behind it what may be a unit that is not known."""
 _FORCES = ("force", "f")
+_NUMBERS = re.compile(r"^(?:position|pos|row|no|nr|number|index|#)\.?$", re.IGNORECASE)
+"""Names of columns that number the rows."""
 
 
 def is_bench(content: Mapping[str, Any]) -> bool:
@@ -57,8 +62,7 @@ def bench_table(log: DraftedLog, loads: str | None) -> LogSketch | None:
         if loads is not None:
             raise ExperimentError(f"--loads {loads}: expected one table of readings (CSV, TSV), got another log")
         return None
-    has_time = time_column(_headings(table), [column.step for column in table.columns]) is not None
-    if loads is None and (has_time or not _known_columns(table)):
+    if loads is None and (_has_time(table) or not _known_columns(table)):
         return None
     if table.skipped or table.names_apart or table.decimal != "." or table.delimiter is None:
         raise FormatError(
@@ -85,8 +89,11 @@ def bench_lines(table: LogSketch, loads: str | None, folder: Path) -> list[str]:
     """
     in_table = loads is None or (loads != THESIS_LOADS and Path(loads).resolve() == table.path.resolve())
     known = _known_columns(table) if in_table else {}
-    components = [name for name in WRENCH_COMPONENTS if name in known]
     channels = _channels(table, set(known.values()))
+    others = [heading for k, heading in enumerate(_headings(table)) if k not in channels]
+    if len(known) < len(WRENCH_COMPONENTS) and any(map(_is_unread_load, others)):
+        known = {}  # else the sensor would be one of fewer components
+    components = [name for name in WRENCH_COMPONENTS if name in known]
     lines = ['# What is "?" is a question: put the answer there. `forcetorque init --resume` asks one by one.']
     lines += [line("schema", BENCH_SCHEMA), "", "[sensor]", line("name", table.path.stem)]
     lines += [
@@ -103,11 +110,11 @@ def bench_lines(table: LogSketch, loads: str | None, folder: Path) -> list[str]:
         lines.append(question("load_full_scale", words))
     if in_table and not known:
         lines += [
-            remark('components = ["fx", "fy", "fz"]: of a sensor that measures fewer than six, with the line below'),
-            remark("load_full_scale = [100, 100, 200, 10, 10, 10]: largest fx, fy, fz, tx, ty, tz to come; N, N m"),
+            '# components = ["fx", "fy", "fz"]  # of a sensor that measures fewer than six, with the line below',
+            "# load_full_scale = [100, 100, 200, 10, 10, 10]  # largest fx, fy, fz, tx, ty, tz to come; N, N m",
         ]
     lines.append(
-        remark('prior = "matrix.txt": matrix that the sensor came with; "identity" where the readings are wrenches')
+        '# prior = "matrix.txt"  # matrix that the sensor came with; "identity" where the readings are wrenches'
     )
     if not in_table and loads is not None:
         if loads != THESIS_LOADS and not Path(loads).is_file():
@@ -151,7 +158,7 @@ def _columns_lines(
         yield question("channels", f"columns of the sensor, among {listed(rest)}")
     if not in_table:
         return
-    yield remark("series_from_zero = true: where every row without load begins a series, and is its bias")
+    yield "# series_from_zero = true  # where every row without load begins a series, and is its bias"
     if not known:
         yield question("known", f"columns of the load fx fy fz tx ty tz, or of those measured, among {listed(rest)}")
         yield question("known_units", 'unit of each, as ["N", "N", "N", "N m", "N m", "N m"]')
@@ -165,7 +172,7 @@ def _columns_lines(
         yield line("known_units", units)
         return
     usual = [unit for name, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True) if name in known]
-    strange = [name for name in known.values() if read_heading(name).unit is None and without_bracket(name)[1]]
+    strange = [name for name in known.values() if read_heading(name).unit is None and _has_strange_unit(name)]
     likely = [
         unit or ("?" if name in strange else other)
         for name, unit, other in zip(known.values(), units, usual, strict=True)
@@ -174,19 +181,43 @@ def _columns_lines(
     yield question("known_units", f"unit of each, as {toml_value(likely)}{of}", None if strange else likely)
 
 
-def _headings(table: LogSketch) -> list[Any]:
+def _headings(table: LogSketch) -> list[Heading]:
     return [read_heading(column.name) for column in table.columns]
+
+
+def _has_time(table: LogSketch) -> bool:
+    """Whether a column is like a time, and is none of the numbers of rows."""
+    headings = _headings(table)
+    k = time_column(headings, [column.step for column in table.columns])
+    if k is None or is_time_name(headings[k].name):
+        return k is not None
+    column = table.columns[k]
+    counts = column.step == 1.0 and column.smallest in (0.0, 1.0) and column.largest is not None
+    numbered = counts and column.largest == column.smallest + column.rows - 1
+    return not (numbered or _NUMBERS.match(headings[k].name))
+
+
+def _load_component(heading: Heading) -> re.Match[str] | None:
+    named = _KNOWN.match(without_bracket(heading.name)[0])  # also of a unit that is not known: it is asked
+    return None if named is None else _COMPONENT.match(named["rest"])
+
+
+def _is_unread_load(heading: Heading) -> bool:
+    return _KNOWN.match(heading.name) is not None and _load_component(heading) is None
+
+
+def _has_strange_unit(name: str) -> bool:
+    parts = _load_component(read_heading(name))
+    return without_bracket(name)[1] is not None or (parts is not None and parts["unit"] is not None)
 
 
 def _known_columns(table: LogSketch) -> dict[str, str]:
     """Columns of the load by component, in the order of a wrench; none without a force."""
     found: dict[str, str] = {}
-    for heading in _headings(table):
-        named = _KNOWN.match(without_bracket(heading.name)[0])  # also of a unit that is not known: it is asked
-        parts = None if named is None else _COMPONENT.match(named["rest"])
-        if parts is not None:
-            kind = "f" if parts["kind"].lower() in _FORCES else "t"
-            found.setdefault(f"{kind}{parts['axis'].lower()}", heading.text)
+    named = [(parts, one.text) for one in _headings(table) if (parts := _load_component(one)) is not None]
+    for parts, text in sorted(named, key=lambda one: one[0]["unit"] is not None):
+        kind = "f" if parts["kind"].lower() in _FORCES else "t"
+        found.setdefault(f"{kind}{parts['axis'].lower()}", text)
     return {name: found[name] for name in WRENCH_COMPONENTS if name in found}
 
 
