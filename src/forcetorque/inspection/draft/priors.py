@@ -114,6 +114,11 @@ def prior_lines(
         names = listed([file.path.name for file in files], _MOST_FILES)
         place = relative(files[0].path.parent, folder)
         return [question("prior", f'file of its own matrix, "{place}/" and the name: {names}'), serial]
+    if sensor.components:
+        words = "where the columns are newtons already; else the matrix file, whose other rows are zeros"
+        scales = "largest fx, fy, fz, tx, ty, tz to come, as [500, 500, 1000, 20, 20, 10]: loads that are not measured "
+        scales += "disturb it too; N, N m"
+        return [serial, line("prior", "identity", words), question("full_scale", scales)]
     if sensor.is_raw:
         words = "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table"
         return [serial, question("prior", words)]
