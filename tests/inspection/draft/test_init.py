@@ -85,7 +85,7 @@ def test_a_table_of_a_sensor_alone_asks_for_the_sensor_alone(tmp_path: Path, mak
     text = "\n".join([f"{SENSORS_OWN[maker]},temperature [degC]", *(",".join(map(str, row)) for row in rows)])
     (tmp_path / "log.csv").write_text(f"{text}\n")
     draft = draft_experiment(tmp_path / "log.csv", tmp_path / "x.toml")
-    assert [question.key for question in draft.questions] == ["serial", "full_scale"]
+    assert [question.key for question in draft.questions] == ["serial"]
     content = tomllib.loads(draft.content)
     assert content["load"] == {"frame": "ft_sensor", "motion": "none"}
     assert content["sensor"][0]["variable"] == [{"name": "temperature"}]
@@ -428,7 +428,7 @@ def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
     content = tomllib.loads((tmp_path / "x.toml").read_text(encoding="utf-8"))
     assert content["load"]["motion"] == ["pose"]
     assert content["recording"]["stream"][1]["signal"][0]["orientation"] == {"form": "quat_xyzw", "sense": "?"}
-    assert _keys(draft.content) == ["frame", "sense", "serial", "full_scale", "measure_direction"]
+    assert _keys(draft.content) == ["frame", "sense", "serial", "measure_direction"]
     with pytest.raises(OutputError, match="x.toml: expected a new file"):
         draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
 
@@ -442,8 +442,9 @@ def test_logged_gravity_stands_beside_an_orientation(tmp_path: Path) -> None:
         draft = draft_experiment([tmp_path / "log.csv"])
         assert ('# quantity = "gravity"\n# columns = ["gx", "gy", "gz"]' in draft.content) is is_gravity
         assert ("# not read: gx, gy, gz" in draft.content) is not is_gravity
-    (scale,) = (one.question for one in draft.questions if one.key == "full_scale")
-    assert scale.endswith("`payload` needs none: delete the line if you do not calibrate")
+    (scale,) = (line for line in draft.content.splitlines() if "full_scale" in line)
+    assert scale.startswith("# full_scale = [300, 300, ")
+    assert scale.endswith("`payload` needs none, `calibrate` does")
 
 
 @pytest.mark.parametrize("kept", ["orientation", "proper_acceleration"])

@@ -124,13 +124,10 @@ def prior_lines(
         return [serial, question("prior", words)]
     words = "the reading itself takes the place of counts; the file of the matrix that made it is better"
     lines = [serial, line("prior", "identity", words)]
-    if len(sensors) == 1:
-        without = "" if on_robot else "; `payload` needs none: delete the line if you do not calibrate"
-        return [*lines, question("full_scale", f"{_SCALES}{without}")]
-    return [
-        *lines,
-        f"# full_scale = [300, 300, 300, 30, 30, 30]  {remark(f'{_SCALES}; left out: no load is too large')}",
-    ]
+    if len(sensors) == 1 and on_robot:
+        return [*lines, question("full_scale", _SCALES)]
+    without = "left out: no load is too large" if on_robot else "`payload` needs none, `calibrate` does"
+    return [*lines, f"# full_scale = [300, 300, 300, 30, 30, 30]  {remark(f'{_SCALES}; {without}')}"]
 
 
 def accuracy_lines(sensors: Sequence[DraftedSensor], files: Sequence[MatrixFile]) -> list[str]:
