@@ -30,7 +30,7 @@ def test_three_clocks_of_a_kuka(data_dir: Path) -> None:
     rates = [q.question.split(";")[0] for q in draft.questions if q.key == "unit"]
     assert [float(words.split("makes ")[1].split(" Hz")[0]) for words in rates] == [697.8, 254.2, 99.15]
     assert 'motion = ["1-baseline_orientations"]' in draft.content
-    assert [q.key for q in draft.questions][-3:] == ["serial", "full_scale", "measure_direction"]
+    assert [q.key for q in draft.questions][-3:] == ["sense", "serial", "measure_direction"]
 
 
 def test_still_poses_of_a_kuka_calibrate_as_drafted(data_dir: Path, tmp_path: Path) -> None:
@@ -47,8 +47,8 @@ def test_still_poses_of_a_kuka_calibrate_as_drafted(data_dir: Path, tmp_path: Pa
         "measure_direction": '"child_to_parent"',
     }
     lines = [
-        f"{key} = {answers[key]}" if key in answers and ("?" in line or key == "path") else line
-        for line in draft.splitlines()
+        f"{key} = {answers[key]}" if key in answers and ("?" in line or key in ("path", "full_scale")) else line
+        for line in draft.replace("# full_scale", "full_scale").splitlines()
         for key in [line.split(" = ")[0]]
     ]
     file = tmp_path / "poses.toml"

@@ -46,6 +46,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.contests.entries import ContestFile
     from forcetorque.device.device_file import DeviceFile
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
+    from forcetorque.experiment.bench_file import BenchFile
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.calibration.joint_posterior import JointPosterior
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
@@ -58,7 +59,6 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.simulation.scenario.file import ScenarioFile
     from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
     from forcetorque.skin.taxels.patch_calibration import PatchCalibration
-    from forcetorque.workbench.workbench_file import BenchFile
 
     return {
         "experiment": experiment_file().model_json_schema,

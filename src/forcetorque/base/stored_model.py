@@ -86,7 +86,8 @@ def read_json(file: Path, *, expected: str) -> Any:
     try:
         return json.loads(file.read_text(encoding="utf-8"))
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise FormatError(f"{file}: expected JSON, got {error}") from error
+        got = "TOML, as of an experiment file" if file.suffix.lower() == ".toml" else error
+        raise FormatError(f"{file}: expected JSON, got {got}") from error
 
 
 def validated_table(file: Path, kind: type[_Kind], content: Any) -> _Kind:

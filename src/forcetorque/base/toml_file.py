@@ -39,6 +39,8 @@ def expected_text(entry: ErrorDetails) -> str:
         return f"expected one of {entry['ctx']['expected_tags']}"
     if entry["type"] in _TABLES:
         return "expected a table"
+    if entry["type"] == "tuple_type":
+        return "expected a list"
     if entry["type"] == "union_tag_not_found":
         return "expected this key, there is none"
     if entry["type"] == "too_short" and "ctx" in entry:
@@ -176,6 +178,42 @@ def with_answer(text: str, key: UnansweredKey, answer: str) -> str:
     return "".join(lines)
 
 
+def answer_error(content: dict[str, Any], answered: dict[str, Any], form: type[BaseModel]) -> str | None:
+    """Say what the form of a file has against an answer.
+
+    Args:
+        content: The tables before it.
+        answered: The tables with it.
+        form: Form of the file.
+
+    Returns:
+        What was expected; None where the form takes it, or a wrong key elsewhere keeps it from being checked.
+    """
+    place = _changed_place(content, answered)
+    try:
+        form.model_validate(answered)
+    except ValidationError as error:
+        wrong = [
+            entry
+            for entry in _short_lists_once(error.errors())
+            if re.match(rf"{re.escape(place)}(?![\w-])", _key_path(answered, entry["loc"], missing=False))
+        ]
+        expected = dict.fromkeys(expected_text(entry) for entry in wrong)
+        return " or ".join(expected).replace(" or expected ", " or ") or None
+    return None
+
+
+def _changed_place(before: Any, after: Any, place: str = "") -> str:
+    """Name the key whose value differs, as `_key_path` does."""
+    if isinstance(before, dict) and isinstance(after, dict):
+        key = next(key for key, value in after.items() if before.get(key) != value)
+        return _changed_place(before.get(key), after[key], f"{place}.{key}")
+    if isinstance(before, list) and isinstance(after, list) and len(before) == len(after):
+        k = next(k for k, value in enumerate(after) if before[k] != value)
+        return _changed_place(before[k], after[k], f"{place}[{k}]")
+    return place.removeprefix(".")
+
+
 def toml_content(file: Path) -> tuple[str, dict[str, Any]]:
     """Parse a TOML file, with or without the byte-order mark that some editors put in front.
 
@@ -292,8 +330,8 @@ def _validation_message(file: Path, content: dict[str, Any], form: type[BaseMode
     message, got = expected_text(first), first["input"]
     if first["type"] in ("union_tag_invalid", "union_tag_not_found"):
         where, got = f"{where}.{first['ctx']['discriminator'].strip(chr(39))}", first["ctx"].get("tag")
-    if first["type"] == "tuple_type":
-        message = f"expected a list{f', written [[{where}]]' if isinstance(got, dict) else ''}"
+    if first["type"] == "tuple_type" and isinstance(got, dict):
+        message += f", written [[{where}]]"
     if len(first["loc"]) == 1 and first["type"] != "union_tag_not_found":
         message = re.sub(r"this key|a table$|at least 1 value$", _written(form, str(first["loc"][0])), message)
     shown = first["type"] in ("missing", "unknown_key", "union_tag_not_found") or isinstance(got, dict)

@@ -255,7 +255,8 @@ class InformationGain(Row):
     force_error_before_N: Annotated[float, Shown("force before", "N/unit", digits=4)]
     """Predicted standard deviation of the force error that one newton, or newton metre, makes with the prior."""
     force_error_after_N: Annotated[float, Shown("after", "N/unit", digits=4)]
-    """The same with the calibration."""
+    """The same with the calibration, of its matrix alone: without what the sensor does not repeat, and without the
+    cross-talk of loads that it does not measure, which no recording makes narrower."""
     moment_error_before_Nm: Annotated[float, Shown("moment before", "N m/unit", digits=5)]
     """Predicted standard deviation of the moment error that one newton, or newton metre, makes with the prior."""
     moment_error_after_Nm: Annotated[float, Shown("after", "N m/unit", digits=5)]
@@ -277,7 +278,7 @@ def information_gains(calibration: Calibration) -> tuple[InformationGain, ...] |
     before = None if posterior is None else posterior.prior_error_covariance(np.eye(6))
     if posterior is None or shares is None or before is None:
         return None
-    after, measured = posterior.error_covariance(np.eye(6)), measured_components(calibration.matrix)
+    after, measured = posterior.learnt_error_covariance(np.eye(6)), measured_components(calibration.matrix)
     sizes = [
         [np.sqrt(np.trace(covariance[k][part, part])) for part in FORCE_AND_MOMENT]
         for covariance in (before, after)

@@ -263,7 +263,9 @@ def _tables(file: Path) -> set[str] | None:
 
 
 def _lacks_sensors(parsed: ExperimentFile, file: Path) -> str:
-    nothing = "none", "`forcetorque inspect`, `view` and `report` read one of a skinManager's contacts alone"
+    nothing = "none", "a load cell or a sensor of three axes is one too, with components"
+    if parsed.recording.format == "yarp":
+        nothing = "none", "`forcetorque inspect`, `view` and `report` read one of a skinManager's contacts alone"
     makes_sense = (one.without_sensors for one in sections() if one.without_sensors and parsed.table(one))
     known, readers = next(makes_sense, nothing)
     return (

@@ -57,7 +57,7 @@ class CorrectorOptions:
         if self.limit_counts is not None and not self.limit_counts > 0.0:
             raise RecordingError(f"limit_counts: expected more than 0, got {self.limit_counts}")
         if self.take_tool_off and self.tool is None:
-            raise RecordingError("take_tool_off: expected a tool, got none")
+            raise RecordingError("take_tool_off: expected a tool, by --tool-mass and --tool-centre, got none")
 
 
 @dataclass(slots=True, kw_only=True, eq=False)

@@ -74,7 +74,8 @@ def sort_sources(paths: Sequence[Path]) -> ReportSources:
             case _:
                 raise FormatError(f"{path}: expected {_KINDS}, got the schema {content.get('schema')!r}")
     if not experiments:
-        raise FormatError("report: expected an experiment file among the files, its samples are drawn; got none")
+        got = ", a folder gives its calibrations alone" if any(path.is_dir() for path in paths) else ""
+        raise FormatError(f"report: expected an experiment file among the files, its samples are drawn; got none{got}")
     if len(acceptance) > 1:
         raise FormatError(f"report: expected one acceptance file, got {len(acceptance)}")
     return ReportSources(

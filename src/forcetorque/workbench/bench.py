@@ -131,9 +131,6 @@ class Bench(ArrayRecord):
         return self.raw @ matrix.T
 
 
-BIAS = "bias"
-"""Name of a block without load, in place of the name of a position."""
-
 _SEGMENTS = 10
 """Segments of a block whose means show whether the load moved."""
 _MOVED = 6.0

@@ -17,6 +17,7 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, c
 from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, known_names
 from forcetorque.base.input_file import read_text
 from forcetorque.base.wrench import MeasureDirection, reading_sign
+from forcetorque.experiment.bench_file import THESIS_TABLE
 
 LONGEST_LEVER_M = 10.0
 """No weight of a bench is farther from the sensor: its position was typed in another unit."""
@@ -168,9 +169,6 @@ class BenchLoads(ArrayRecord):
             named=self.named,
         )
 
-
-THESIS_TABLE: Final = "thesis-6.1"
-"""Name of the bundled table: direction and position of the 24 loads, not the printed labels, which follow no rule."""
 
 _MASS_UNITS: Final = {"kg": 1.0, "g": 1e-3}
 _LENGTH_UNITS: Final = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}

@@ -15,6 +15,16 @@ from forcetorque.base.errors import ExperimentError, FormatError, UnitError, kno
 from forcetorque.base.toml_file import one_for_each, read_toml
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
+from forcetorque.experiment.bench_file import (
+    BIAS,
+    THESIS_TABLE,
+    BenchFile,
+    BenchSensorTable,
+    BlockReadings,
+    LogReadings,
+    PlacementTable,
+    RowReadings,
+)
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.input_files import Inputs, stated_in
@@ -23,16 +33,8 @@ from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 from forcetorque.recording.stream import Stream
-from forcetorque.workbench.bench import BIAS, Bench, Block, Placement
-from forcetorque.workbench.loads import THESIS_TABLE, BenchLoads, read_loads
-from forcetorque.workbench.workbench_file import (
-    BenchFile,
-    BenchSensorTable,
-    BlockReadings,
-    LogReadings,
-    PlacementTable,
-    RowReadings,
-)
+from forcetorque.workbench.bench import Bench, Block, Placement
+from forcetorque.workbench.loads import BenchLoads, read_loads
 
 
 def _blocks_of_files(

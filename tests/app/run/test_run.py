@@ -136,10 +136,18 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     file = Path("results/experiment.toml")
     assert len(questions) == len(open_questions(file)) > 1
     asked: list[str] = []
+    answers = {
+        "units": "N, N, N, N m, N m, N m",
+        "axes": "ft_sensor",
+        "serial": "SN1",
+        "full_scale": "300, 300, 300, 30, 30, 30",
+        "motion": "none",
+        "measure_direction": "child_to_parent",
+    }
 
     def answer(question: str) -> str:
         asked.append(question)
-        return "" if len(asked) == 1 else "SN1"
+        return "" if len(asked) == 1 else answers[question.splitlines()[-1].partition(", ")[2].partition(":")[0]]
 
     assert not answer_questions(file, answer)
     assert len(asked) == len(questions)
@@ -153,9 +161,9 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
     assert "--loads would change nothing" in later.error()
     assert snapshot(tmp_path) == before
     assert run("run", "log.csv", "-o", "results", "--no-input").code == 4
-    assert answer_questions(file, lambda _: "[1, 2]")
+    assert answer_questions(file, lambda _: "s")
     assert open_questions(file) == ()
-    assert "[1, 2]" in file.read_text(encoding="utf-8")
+    assert 'unit = "s"' in file.read_text(encoding="utf-8")
 
 
 def test_a_log_without_headings_is_read_by_the_names_of_its_columns(

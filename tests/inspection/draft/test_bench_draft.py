@@ -65,6 +65,33 @@ def test_columns_of_loads_make_a_workbench_file(beside_loads: Path, run: Run, mo
     assert resume_experiment(file).proposals == ()
 
 
+def test_an_answer_that_the_key_does_not_take_is_asked_again(tmp_path: Path) -> None:
+    """With what it takes; a list needs no brackets, and a number may be a serial number."""
+    rows = np.hstack([_readings(), thesis_loads().wrench])
+    names = [*(f"ch{k}" for k in range(6)), *(f"known_{name}" for name in WRENCH_COMPONENTS)]
+    file = tmp_path / "bench.toml"
+    draft_experiment([_write(tmp_path / "bench.csv", names, rows)], file)
+    replies = iter(["170", "down", "child_to_parent", "up", "25", "25", "N, N, N, N m, N m, N m"])
+    asked: list[str] = []
+
+    def ask(question: str) -> str:
+        asked.append(question)
+        return next(replies)
+
+    assert answer_questions(file, ask)
+    content = tomllib.loads(file.read_text(encoding="utf-8"))
+    assert (content["sensor"]["serial"], content["sensor"]["full_scale"]) == ("170", 25)
+    assert content["measurements"]["known_units"] == ["N", "N", "N", "N m", "N m", "N m"]
+    refused = [question.splitlines()[0] for question in asked if "\n" in question]
+    assert "measure_direction: expected 'child_to_parent' or 'parent_to_child', got down" in refused[0]
+    assert "full_scale: expected a list or a valid number, got up" in refused[1]
+    assert "known_units: expected a list, got 25" in refused[2]
+    assert next(iter(resume_experiment(file).answers())).verdict == "COMPLETE"
+    file.write_text(file.read_text(encoding="utf-8").replace('["N", "N", ', '["N", '), encoding="utf-8")
+    with pytest.raises(FormatError, match="known_units: expected one for each column of known"):
+        resume_experiment(file)
+
+
 def test_a_table_of_weights_is_named(tmp_path: Path) -> None:
     """Rows of readings are those of the table of weights, which is read as any other."""
     table = _write(tmp_path / "bench.csv", [f"ch{k}" for k in range(6)], _readings())

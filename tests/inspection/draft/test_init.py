@@ -85,7 +85,7 @@ def test_a_table_of_a_sensor_alone_asks_for_the_sensor_alone(tmp_path: Path, mak
     text = "\n".join([f"{SENSORS_OWN[maker]},temperature [degC]", *(",".join(map(str, row)) for row in rows)])
     (tmp_path / "log.csv").write_text(f"{text}\n")
     draft = draft_experiment(tmp_path / "log.csv", tmp_path / "x.toml")
-    assert [question.key for question in draft.questions] == ["serial", "full_scale"]
+    assert [question.key for question in draft.questions] == ["serial"]
     content = tomllib.loads(draft.content)
     assert content["load"] == {"frame": "ft_sensor", "motion": "none"}
     assert content["sensor"][0]["variable"] == [{"name": "temperature"}]
@@ -95,26 +95,26 @@ def test_a_table_of_a_sensor_alone_asks_for_the_sensor_alone(tmp_path: Path, mak
     assert [row.kind for row in inspect_log(tmp_path / "x.toml").findings] == []
 
 
-@pytest.mark.parametrize(("components", "offered"), [(("fz",), True), (("fx", "fy", "fz"), True), ((), False)])
-def test_a_sensor_of_fewer_components_is_offered(tmp_path: Path, components: tuple[str, ...], offered: bool) -> None:
-    """Its columns are not taken for a sensor, and the answer and the file say so; the offered lines are read."""
+@pytest.mark.parametrize("components", [("fz",), ("fx", "fy", "fz"), ()])
+def test_a_sensor_of_fewer_components_is_drafted(tmp_path: Path, components: tuple[str, ...]) -> None:
+    """As a sensor of these components, and what no log has is asked; without such columns there is no sensor."""
     names = ("time", *components, "shoulder", "elbow")
     rows = np.column_stack([0.01 * np.arange(300), np.random.default_rng(5).normal(size=(300, len(names) - 1))])
     log = _written(tmp_path, "\n".join([",".join(names), *(",".join(map(str, row)) for row in rows)]))
     draft = draft_experiment(log, tmp_path / "x.toml", urdf=tmp_path / "robot.urdf")
-    (answer,) = draft.answers()
-    assert any("not read: of a load cell or a sensor of three axes" in why for why in answer.why) is offered
-    assert ('# quantity = "raw"' in draft.content) is offered
-    if offered:
-        lines = draft.content.replace("# [[recording", "[[recording")
-        for key in ("quantity", "columns", "units"):
-            lines = re.sub(rf"^# {key} = ", f"{key} = ", lines, flags=re.MULTILINE)
-        signal = tomllib.loads(lines)["recording"]["stream"][0]["signal"][-1]
+    content = tomllib.loads(draft.content)
+    assert ("sensor" in content) is bool(components)
+    if components:
+        signal = content["recording"]["stream"][0]["signal"][-1]
         assert signal == {"quantity": "raw", "columns": list(components), "units": ["counts"] * len(components)}
+        (sensor,) = content["sensor"]
+        assert sensor["components"] == list(components)
+        assert [key for key, value in sensor.items() if value == "?"][:2] == ["serial", "full_scale"]
+        assert "support" in content
 
 
-def test_a_load_cell_in_a_file_of_its_own_is_offered(tmp_path: Path) -> None:
-    """Beside a table of joints; the answer names lines that the file has."""
+def test_a_load_cell_in_a_file_of_its_own_is_drafted(tmp_path: Path) -> None:
+    """Beside a table of joints; without a robot the file has its lines as comments, and the answer names them."""
     rows = np.random.default_rng(5).normal(size=(300, 3))
     for name, heading, first in (("cell", "time,fz", 0), ("log", "time,shoulder,elbow", 1)):
         lines = [
@@ -124,8 +124,12 @@ def test_a_load_cell_in_a_file_of_its_own_is_offered(tmp_path: Path) -> None:
         log = _written(tmp_path, "\n".join([heading, *lines]) + "\n")
         log.rename(tmp_path / f"{name}.csv")
     draft = draft_experiment([tmp_path / "cell.csv", log], tmp_path / "x.toml", urdf=tmp_path / "robot.urdf")
-    assert draft.few_components == ("fz",)
-    assert '# columns = ["fz"]' in draft.content
+    (sensor,) = tomllib.loads(draft.content)["sensor"]
+    assert (sensor["stream"], sensor["components"]) == ("cell", ["fz"])
+    bare = draft_experiment([tmp_path / "cell.csv", log], tmp_path / "y.toml")
+    assert bare.few_components == ("fz",)
+    assert '# columns = ["fz"]' in bare.content
+    assert "not read: of a load cell or a sensor of three axes" in next(iter(bare.answers())).why[-1]
 
 
 NAMES = ("t", "fx", "fy", "fz", "tx", "ty", "tz")
@@ -424,7 +428,7 @@ def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
     content = tomllib.loads((tmp_path / "x.toml").read_text(encoding="utf-8"))
     assert content["load"]["motion"] == ["pose"]
     assert content["recording"]["stream"][1]["signal"][0]["orientation"] == {"form": "quat_xyzw", "sense": "?"}
-    assert _keys(draft.content) == ["frame", "sense", "serial", "full_scale", "measure_direction"]
+    assert _keys(draft.content) == ["frame", "sense", "serial", "measure_direction"]
     with pytest.raises(OutputError, match="x.toml: expected a new file"):
         draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
 
@@ -438,8 +442,9 @@ def test_logged_gravity_stands_beside_an_orientation(tmp_path: Path) -> None:
         draft = draft_experiment([tmp_path / "log.csv"])
         assert ('# quantity = "gravity"\n# columns = ["gx", "gy", "gz"]' in draft.content) is is_gravity
         assert ("# not read: gx, gy, gz" in draft.content) is not is_gravity
-    (scale,) = (one.question for one in draft.questions if one.key == "full_scale")
-    assert scale.endswith("`payload` needs none: delete the line if you do not calibrate")
+    (scale,) = (line for line in draft.content.splitlines() if "full_scale" in line)
+    assert scale.startswith("# full_scale = [300, 300, ")
+    assert scale.endswith("`payload` needs none, `calibrate` does")
 
 
 @pytest.mark.parametrize("kept", ["orientation", "proper_acceleration"])

@@ -37,7 +37,8 @@ def test_an_answer_that_leaves_no_toml_is_asked_again(file: Path) -> None:
     assert answer_questions(file, ask)
     assert asked[0] == "line 1, unit: of the column"
     refusal, question = asked[1].splitlines()
-    assert f'{file}:1: unit: expected a value without a comment, got "s" # seconds' in refusal
+    assert f"{file}:1: unit: expected a value without a comment" in refusal
+    assert 'got "s" # seconds' in refusal
     assert question == asked[0]
     assert file.read_text(encoding="utf-8") == 'stamp = { unit = "s" }  # of the column\n'
 

@@ -10,6 +10,7 @@ from typing import Any, Final
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.experiment.bench_file import THESIS_TABLE
 from forcetorque.formats.headings import Heading, is_time_name, read_heading, without_bracket
 from forcetorque.formats.log_format import LogSketch
 from forcetorque.inspection.draft.streams import DraftedLog, column_matches, relative, time_column
@@ -17,8 +18,6 @@ from forcetorque.inspection.draft.toml_lines import line, listed, question, rema
 
 BENCH_SCHEMA: Final = "forcetorque/bench/1"
 """Form of a workbench file."""
-THESIS_LOADS: Final = "thesis-6.1"
-"""Name of the bundled table of weights."""
 _KNOWN = re.compile(r"^(?:known|applied|load|loads|reference|ref|true)[ _./-]+(?P<rest>.+)$", re.IGNORECASE)
 _COMPONENT = re.compile(
     r"^(?P<kind>force|f|torque|moment|tau|t|m)[ _./-]*(?P<axis>[xyz])(?:[ _./-]+(?P<unit>\S+))?$", re.IGNORECASE
@@ -87,7 +86,7 @@ def bench_lines(table: LogSketch, loads: str | None, folder: Path) -> list[str]:
     Raises:
         MissingFileError: If there is no such table of weights.
     """
-    in_table = loads is None or (loads != THESIS_LOADS and Path(loads).resolve() == table.path.resolve())
+    in_table = loads is None or (loads != THESIS_TABLE and Path(loads).resolve() == table.path.resolve())
     known = _known_columns(table) if in_table else {}
     channels = _channels(table, set(known.values()))
     others = [heading for k, heading in enumerate(_headings(table)) if k not in channels]
@@ -117,9 +116,9 @@ def bench_lines(table: LogSketch, loads: str | None, folder: Path) -> list[str]:
         '# prior = "matrix.txt"  # matrix that the sensor came with; "identity" where the readings are wrenches'
     )
     if not in_table and loads is not None:
-        if loads != THESIS_LOADS and not Path(loads).is_file():
-            raise MissingFileError(f"--loads {loads}: expected a table of weights (CSV) or {THESIS_LOADS}, got no file")
-        shown = loads if loads == THESIS_LOADS else relative(Path(loads), folder)
+        if loads != THESIS_TABLE and not Path(loads).is_file():
+            raise MissingFileError(f"--loads {loads}: expected a table of weights (CSV) or {THESIS_TABLE}, got no file")
+        shown = loads if loads == THESIS_TABLE else relative(Path(loads), folder)
         words = "a row per row of the readings, in the same order"
         lines += ["", "[loads]", line("table", shown, words)]
     lines += ["", "[measurements]", line("format", "rows"), line("file", relative(table.path, folder))]

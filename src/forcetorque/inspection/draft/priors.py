@@ -114,18 +114,20 @@ def prior_lines(
         names = listed([file.path.name for file in files], _MOST_FILES)
         place = relative(files[0].path.parent, folder)
         return [question("prior", f'file of its own matrix, "{place}/" and the name: {names}'), serial]
+    if sensor.components:
+        words = "where the columns are newtons already; else the matrix file, whose other rows are zeros"
+        scales = "largest fx, fy, fz, tx, ty, tz to come, as [500, 500, 1000, 20, 20, 10]: loads that are not measured "
+        scales += "disturb it too; N, N m"
+        return [serial, line("prior", "identity", words), question("full_scale", scales)]
     if sensor.is_raw:
         words = "file of the maker's calibration: a matrix file of iCub, .dat, .cal, or a table"
         return [serial, question("prior", words)]
     words = "the reading itself takes the place of counts; the file of the matrix that made it is better"
     lines = [serial, line("prior", "identity", words)]
-    if len(sensors) == 1:
-        without = "" if on_robot else "; `payload` needs none: delete the line if you do not calibrate"
-        return [*lines, question("full_scale", f"{_SCALES}{without}")]
-    return [
-        *lines,
-        f"# full_scale = [300, 300, 300, 30, 30, 30]  {remark(f'{_SCALES}; left out: no load is too large')}",
-    ]
+    if len(sensors) == 1 and on_robot:
+        return [*lines, question("full_scale", _SCALES)]
+    without = "left out: no load is too large" if on_robot else "`payload` needs none, `calibrate` does"
+    return [*lines, f"# full_scale = [300, 300, 300, 30, 30, 30]  {remark(f'{_SCALES}; {without}')}"]
 
 
 def accuracy_lines(sensors: Sequence[DraftedSensor], files: Sequence[MatrixFile]) -> list[str]:

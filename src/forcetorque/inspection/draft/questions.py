@@ -11,10 +11,14 @@ from forcetorque.base.run_files import files_of_one_run
 from forcetorque.base.toml_file import (
     OPEN,
     UnansweredKey,
+    answer_error,
+    read_toml,
     toml_content,
     unanswered_keys,
     with_answer,
 )
+from forcetorque.experiment.bench_file import BenchFile
+from forcetorque.experiment.file import experiment_file
 from forcetorque.inspection.draft.bench import is_bench, logs_of_bench
 from forcetorque.inspection.draft.draft import Draft, ProposalRow, QuestionRow
 from forcetorque.inspection.draft.priors import serial_of
@@ -66,8 +70,9 @@ def logs_of(file: Path) -> set[Path]:
 def answer_questions(file: Path, ask: Callable[[str], str]) -> bool:
     """Ask for every key that is still to be filled in, and write each answer to the file at once.
 
-    An answer that leaves no TOML, or that comes after another program changed the file, is not written; the question is
-    asked again with the reason in front, three times at most.
+    An answer that leaves no TOML, that the form of the file does not take at its key, or that comes after another
+    program changed the file, is not written; the question is asked again with the reason in front, three times at most.
+    A list needs no brackets.
 
     Args:
         file: Experiment file.
@@ -94,23 +99,36 @@ def answer_questions(file: Path, ask: Callable[[str], str]) -> bool:
             refusals = []
         elif text_of(file) != text:
             refusals.append(f"{file}: was changed meanwhile; the answer was not written")
-        elif (error := _error_of(answered := with_answer(text, key, answer))) is not None:
-            refusals.append(
-                f"{file}:{key.line}: {key.key}: expected a value without a comment, got {answer}, which leaves no "
-                f"TOML ({error}); give the value alone"
-            )
         else:
-            write_text_of(file, with_serials(answered, file.parent))
-            refusals = []
+            # as it is; a list without brackets; a number that is a name
+            others = [_as_list(answer)] if "," in answer else [toml_value(answer)] if answer.isalnum() else []
+            forms = (answer, *others)
+            tried = [(with_answer(text, key, form), _error_of(text, with_answer(text, key, form))) for form in forms]
+            taken = next((answered for answered, error in tried if error is None), None)
+            if taken is None:
+                refusals.append(f"{file}:{key.line}: {key.key}: {tried[0][1]}, got {answer}")
+            else:
+                write_text_of(file, with_serials(taken, file.parent))
+                refusals = []
     return False
 
 
-def _error_of(text: str) -> str | None:
+def _as_list(answer: str) -> str:
+    """A list of an answer without its brackets: of numbers, or of words."""
     try:
-        tomllib.loads(text)
+        tomllib.loads(f"answer = [{answer}]")
+    except tomllib.TOMLDecodeError:
+        return toml_value([one.strip().strip("\"'") for one in answer.split(",")])
+    return f"[{answer}]"
+
+
+def _error_of(text: str, answered: str) -> str | None:
+    """What was expected in place of an answer; None where the form of the file takes it."""
+    try:
+        content = tomllib.loads(answered)
     except tomllib.TOMLDecodeError as error:
-        return str(error)
-    return None
+        return f"expected a value without a comment, which leaves TOML ({error})"
+    return answer_error(tomllib.loads(text), content, BenchFile if is_bench(content) else experiment_file())
 
 
 def with_serials(text: str, folder: Path) -> str:
@@ -148,14 +166,19 @@ def resume_experiment(
 
     Returns:
         The file with the questions that are open; with those that are answered, the proposals that are left.
+
+    Raises:
+        FormatError: If the file is not TOML, or is a workbench file without questions that does not have its form.
     """
     path = Path(file)
     open_questions(path)  # what is no TOML file is refused before anything is asked
     if ask is not None:
         answer_questions(path, ask)
     questions = open_questions(path)
-    is_whole = bool(questions) or is_bench(tomllib.loads(text_of(path)))  # nothing is proposed of a bench
-    left = () if is_whole else proposals(path) if accepts is None else settle(path, accepts)
+    of_bench = is_bench(tomllib.loads(text_of(path)))
+    if of_bench and not questions:
+        read_toml(path, BenchFile, what="a workbench file")
+    left = () if questions or of_bench else proposals(path) if accepts is None else settle(path, accepts)
     return Draft(
         file=str(path),
         format="toml",

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -83,6 +83,8 @@ class DraftedSensor:
     """The joint, where a name tells it."""
     mount: DraftedMount | None = None
     """Its pose in the child link of that joint, where the log has it."""
+    components: tuple[str, ...] = ()
+    """What it measures, where that is fewer than six components."""
     evidence: Mapping[str, GravityFit] = field(default_factory=dict)
     """What the reading says of each joint."""
 
@@ -103,7 +105,7 @@ def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) ->
             DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=_is_raw(stream))
             for stream in reading
         )
-    return tuple(_matched(stream, reading, model) for stream in reading)
+    return tuple(replace(_matched(stream, reading, model), components=stream.components) for stream in reading)
 
 
 def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> tuple[DraftedSensor, ...]:
@@ -155,6 +157,8 @@ def sensor_lines(sensor: DraftedSensor, priors: Sequence[str], *, on_robot: bool
         lines.append(line("name", sensor.name))
     lines.append(line("stream", sensor.stream))
     lines += priors
+    if sensor.components:
+        lines.append(line("components", sensor.components))
     if on_robot and not sensor.tags and (sensor.joint or sensor.joints):
         lines += _place_lines(sensor)
     return lines

@@ -327,6 +327,8 @@ class DraftedStream:
     """Columns of the table by quantity."""
     alternatives: tuple[ColumnMatch, ...] = ()
     """Columns that determine the motion a second time, beside those of `groups`; a file may have one of both."""
+    components: tuple[str, ...] = ()
+    """Components of its only reading of a load, where they are fewer than six."""
 
     @property
     def is_sensor_alone(self) -> bool:

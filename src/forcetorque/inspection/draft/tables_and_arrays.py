@@ -93,7 +93,23 @@ def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple
                 alternatives=alternatives,
             )
         )
+    if joints and not any(stream.reads_load for stream in streams):
+        streams = [_with_few_components(stream) for stream in streams]
     return tuple(streams)
+
+
+def _with_few_components(stream: DraftedStream) -> DraftedStream:
+    """The stream with its columns of fewer than six components, which are then the only reading of a load."""
+    if stream.table is None or not (few := few_components(stream.table)):
+        return stream
+    names = [column.name for column in stream.table.columns]
+    group = ColumnMatch(quantity="raw", columns=tuple(map(names.index, few.values())))
+    return replace(
+        stream,
+        quantities=(*stream.quantities, group.quantity),
+        groups=(*stream.groups, group),
+        components=tuple(few),
+    )
 
 
 def _one_motion(
@@ -288,7 +304,11 @@ def _signal_lines(
             *_few_component_lines(sketch),
         ]
     elif rest:
-        lines += ["", remark(f"not read: {listed(rest)}"), *_few_component_lines(sketch)]
+        lines += [
+            "",
+            remark(f"not read: {listed(rest)}"),
+            *_few_component_lines(sketch, is_read=bool(stream.components)),
+        ]
     return lines
 
 
@@ -306,9 +326,9 @@ def few_components(sketch: LogSketch) -> dict[str, str]:
     return columns if len(columns) < len(WRENCH_COMPONENTS) else {}
 
 
-def _few_component_lines(sketch: LogSketch) -> list[str]:
+def _few_component_lines(sketch: LogSketch, *, is_read: bool = False) -> list[str]:
     columns = few_components(sketch)
-    if not columns:
+    if not columns or is_read:
         return []
     components = toml_value(list(columns))
     signal = ("quantity", "raw"), ("columns", list(columns.values())), ("units", ["counts"] * len(columns))
@@ -331,6 +351,8 @@ def _group_lines(
     ]
     if group.form not in (None, OrientationForm.EULER):
         units = ["1"] * len(names)
+    if group.quantity == "raw" and names == list(few_components(sketch).values()):
+        units = ["counts"] * len(names)  # of newtons too
     if all(units):
         lines.append(line("units", units))
     else:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -15,8 +15,11 @@ from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Tex
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection
 from forcetorque.experiment.core_tables import Component, FullScale, require_component_order
 from forcetorque.formats.tabular.table_layout import StampUnit
-from forcetorque.workbench.bench import BIAS
-from forcetorque.workbench.loads import THESIS_TABLE
+
+BIAS: Final = "bias"
+"""Name of a block without load, in place of the name of a position."""
+THESIS_TABLE: Final = "thesis-6.1"
+"""Name of the bundled table: direction and position of the 24 loads, not the printed labels, which follow no rule."""
 
 _Known = Annotated[tuple[Text, ...], Field(min_length=1, max_length=6)]
 
