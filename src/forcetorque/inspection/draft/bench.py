@@ -191,8 +191,8 @@ def _has_time(table: LogSketch) -> bool:
     if k is None or is_time_name(headings[k].name):
         return k is not None
     column = table.columns[k]
-    counts = column.step == 1.0 and column.smallest in (0.0, 1.0) and column.largest is not None
-    numbered = counts and column.largest == column.smallest + column.rows - 1
+    first, last = column.smallest, column.largest
+    numbered = column.step == 1.0 and first is not None and first in (0.0, 1.0) and last == first + column.rows - 1
     return not (numbered or _NUMBERS.match(headings[k].name))
 
 
