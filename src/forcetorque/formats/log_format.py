@@ -344,7 +344,7 @@ class LogSketch:
     quaternion: tuple[int, ...] = ()
     """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)
-    """Of a file of arrays what no experiment file can specify, such as `1 x 3 struct array`, by its name."""
+    """Arrays, and columns of lists, that no experiment file can specify, such as `1 x 3 struct array`, by its name."""
     ranged_rows: int | None = None
     """How many rows, from the first, the smallest, largest and mean numbers are of; None for all."""
     stopped: str | None = None
@@ -415,7 +415,7 @@ def skipped_text(skipped: Mapping[str, str]) -> str:
 
 
 def not_read_message(skipped: Mapping[str, str]) -> str:
-    """Report what of a file of arrays is not read.
+    """Report what of a file of arrays, or of lists in a table, is not read.
 
     Args:
         skipped: As of a sketch; at least one.

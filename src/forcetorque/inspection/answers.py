@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, get_args
 
+from forcetorque.formats.log_format import not_read_message
 from forcetorque.inspection.file_contents import NO_NUMBERS, sketch_text
 from forcetorque.inspection.plausibility.hypotheses import FaultKind
 from forcetorque.inspection.sensor_alone import sensor_answer
@@ -248,6 +249,7 @@ def _columns_answer(inspection: Inspection) -> Answer:
         why=(
             f"by their names, {alike}" if alike else "no name is that of a known quantity",
             sketch_text(inspection.unread),
+            *((not_read_message(inspection.skipped_arrays),) if inspection.skipped_arrays else ()),
         ),
         step="begin an experiment file, which asks what the log does not state; of a robot add --urdf FILE",
         command=typed("init", inspection.source, "-o", "experiment.toml"),

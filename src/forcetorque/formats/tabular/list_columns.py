@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -76,27 +76,31 @@ class FlatColumns:
         """
         return list(dict.fromkeys(self.elements[name][0] if name in self.elements else name for name in columns))
 
-    def uneven(self, batch: Any) -> frozenset[str]:
+    def uneven(self, batch: Any, place: Callable[[int], str]) -> dict[str, str]:
         """Find columns of lists that are of several lengths.
 
         Args:
             batch: Rows of all columns.
+            place: Gives the location of a row of the batch, for messages, by its number from 0.
 
         Returns:
-            Their names in the file.
+            What is wrong with each, by its name in the file.
         """
-        return frozenset(name for name in self.lengths if self._row_of_other_length(_column(batch, name), name) >= 0)
+        rows = {name: self._row_of_other_length(_column(batch, name), name) for name in self.lengths}
+        return {
+            name: f"lists of several lengths: {place(row)} has {len(_column(batch, name)[row])} numbers, the first "
+            f"rows {self.lengths[name]}"
+            for name, row in rows.items()
+            if row >= 0
+        }
 
-    def flattened(
-        self, batch: Any, columns: Sequence[str], place: Callable[[int], str], *, without: Collection[str] = ()
-    ) -> Any:
+    def flattened(self, batch: Any, columns: Sequence[str], place: Callable[[int], str]) -> Any:
         """Take the elements of lists apart.
 
         Args:
             batch: Rows of the columns that `sources` names.
             columns: Names from `names`.
             place: Gives the location of a row of the batch, for messages, by its number from 0.
-            without: Columns of lists whose elements are null, whatever they hold.
 
         Returns:
             The same rows, with a column of numbers for each name.
@@ -106,16 +110,15 @@ class FlatColumns:
         """
         wanted = set(columns)
         for name in self.sources([element for element in self.elements if element in wanted]):
-            if name not in without:
-                self._require_length(_column(batch, name), name, place)
-        arrays = [self._flat_column(batch, name, without) for name in columns]
+            self._require_length(_column(batch, name), name, place)
+        arrays = [self._flat_column(batch, name) for name in columns]
         return pa.RecordBatch.from_arrays(arrays, names=list(columns))
 
-    def _flat_column(self, batch: Any, name: str, without: Collection[str]) -> Any:
+    def _flat_column(self, batch: Any, name: str) -> Any:
         if name not in self.elements:
             return _column(batch, name)
         source, element = self.elements[name]
-        return pa.nulls(len(batch)) if source in without else pc.list_element(_column(batch, source), element)
+        return pc.list_element(_column(batch, source), element)
 
     def _row_of_other_length(self, column: Any, name: str) -> int:
         """First row whose list has another length; -1 for none."""

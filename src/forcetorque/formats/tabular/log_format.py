@@ -139,13 +139,14 @@ def sketch_table(path: Path, names: Sequence[str] = ()) -> LogSketch:
 
 def _sketch_columnar(path: Path) -> LogSketch:
     names, rows = columnar_size(path)
-    batch = first_batch(path)
+    batch, uneven = first_batch(path)
+    names = names if batch is None else list(batch.schema.names)
     columns = tuple(
         _sketched(name, rows, None if batch is None else batch.column(k)) for k, name in enumerate(names[:MOST_COLUMNS])
     )
     # two columns may have one name
     numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
-    sketch = LogSketch(path=path, columns=columns)
+    sketch = LogSketch(path=path, columns=columns, skipped_arrays=uneven)
     return _with_extents(sketch, columnar_batches(path, numeric), numeric, 0 if batch is None else len(batch))
 
 

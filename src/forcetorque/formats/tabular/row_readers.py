@@ -369,15 +369,15 @@ def columnar_size(file: Path) -> tuple[list[str], int]:
     return list(flat.names), int(table.metadata.num_rows)
 
 
-def first_batch(file: Path) -> Any:
+def first_batch(file: Path) -> tuple[Any, dict[str, str]]:
     """Read the first rows of a file of Parquet or Arrow.
 
     Args:
         file: The file.
 
     Returns:
-        A few rows with all columns, the fewer the more columns there are, null where lists have several lengths; None
-        where it has none.
+        A few rows with the columns but those of lists of several lengths, the fewer the more columns there are, None
+        where it has none; and what is wrong with those, by name.
 
     Raises:
         FormatError: If it is damaged.
@@ -387,8 +387,10 @@ def first_batch(file: Path) -> Any:
     try:
         batch = next(table.iter_batches(batch_size=rows), None)
         if batch is None:
-            return None
-        return flat.flattened(batch, flat.names, lambda row: _row(file, row), without=flat.uneven(batch))
+            return None, {}
+        uneven = flat.uneven(batch, lambda row: f"row {row + 1}")
+        even = [name for name in flat.names if name not in flat.elements or flat.elements[name][0] not in uneven]
+        return flat.flattened(batch, even, lambda row: _row(file, row)), uneven
     except FormatError:
         raise
     except _READ_ERRORS as error:

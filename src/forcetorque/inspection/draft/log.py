@@ -89,7 +89,12 @@ def draft_log(
             return DraftedLog(paths=tuple(paths), format=_TABLES, streams=table_streams(tables, joints))
         sketches = [known.sketch(path) for path in paths]
         if sketches[0].is_table:
-            return DraftedLog(paths=tuple(paths), format=format_name(known), streams=table_streams(sketches, joints))
+            return DraftedLog(
+                paths=tuple(paths),
+                format=format_name(known),
+                streams=table_streams(sketches, joints),
+                skipped_arrays={name: text for sketch in sketches for name, text in sketch.skipped_arrays.items()},
+            )
         return DraftedLog(
             paths=tuple(paths),
             format=format_name(known),
