@@ -140,7 +140,7 @@ def sketch_table(path: Path, names: Sequence[str] = ()) -> LogSketch:
 def _sketch_columnar(path: Path) -> LogSketch:
     names, rows = columnar_size(path)
     batch, uneven = first_batch(path)
-    names = names if batch is None else tuple(batch.schema.names)
+    names = names if batch is None else list(batch.schema.names)
     columns = tuple(
         _sketched(name, rows, None if batch is None else batch.column(k)) for k, name in enumerate(names[:MOST_COLUMNS])
     )
