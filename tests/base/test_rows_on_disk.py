@@ -42,7 +42,7 @@ def test_rows_are_computed_and_chosen_block_by_block(monkeypatch: pytest.MonkeyP
     """As all at once, in memory and in files; blocks with an overlap have every pair of neighbours once."""
     numbers = np.random.default_rng(count).normal(size=(count, 3))
     stamps, kept = np.arange(count), numbers[:, 0] > 0.0
-    monkeypatch.setattr(rows_on_disk, "_BLOCK_ROWS", 7)
+    monkeypatch.setattr(rows_on_disk, "_FEW_ROWS", 7)
     for limit in (1 << 24, 1):
         monkeypatch.setattr(rows_on_disk, "IN_MEMORY", limit)
         double, sums = computed_rows(lambda rows, k: (2.0 * rows, rows.sum(axis=1) + k), numbers, stamps)

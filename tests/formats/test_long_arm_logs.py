@@ -46,7 +46,7 @@ _LOGS: dict[str, Callable[[Path], LogDescription]] = {
 
 
 def _in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rows_on_disk, "_BLOCK_ROWS", 47)
+    monkeypatch.setattr(rows_on_disk, "_FEW_ROWS", 47)
     monkeypatch.setattr(recorded_fields, "_BLOCK_ROWS", 31)
     for module in (rows_on_disk, recorded_fields, table):
         monkeypatch.setattr(module, "IN_MEMORY", 1)

@@ -153,20 +153,21 @@ def written(
 
 
 def row_blocks(
-    *arrays: npt.NDArray[Any], rows: int = _FEW_ROWS, overlap: int = 0
+    *arrays: npt.NDArray[Any], rows: int | None = None, overlap: int = 0
 ) -> Iterator[tuple[npt.NDArray[Any], ...]]:
     """Give arrays some rows at a time, and let go of the memory that mapped ones take.
 
     Args:
         arrays: At least one; all of n rows.
-        rows: Rows of a block.
+        rows: Rows of a block; few if None.
         overlap: Rows that each block has in common with the next.
 
     Yields:
         The same rows of each array; of at most `overlap` rows nothing.
     """
-    for start in range(0, len(arrays[0]) - overlap, rows):
-        yield tuple(array[start : start + rows + overlap] for array in arrays)
+    step = _FEW_ROWS if rows is None else rows
+    for start in range(0, len(arrays[0]) - overlap, step):
+        yield tuple(array[start : start + step + overlap] for array in arrays)
         forget_pages(arrays)
 
 
