@@ -139,6 +139,18 @@ def test_a_second_interval_tells_that_the_first_was_touched() -> None:
     assert span.label == "swing"
 
 
+@pytest.mark.parametrize(("moving", "times"), [((20.0, 28.0), -1.0), ((40.0, 60.0), 4.0)])
+def test_a_motion_that_the_prior_does_not_read_is_no_contact(moving: tuple[float, float], times: float) -> None:
+    """Where sense or masses are wrong the fit is refused; without the only motion there would be one."""
+    loads = _limb(moving=moving)
+    wrong = replace(_data(loads), reference=times * loads)
+    with pytest.raises(FitError, match="of what its prior says"):
+        fit_generative([WindowMeans.of(wrong)], PRIOR, assumptions(accuracy=None))
+    (agree,), spans = agreeing_samples([wrong], PRIOR, assumptions(accuracy=None))
+    assert agree.all()
+    assert not spans
+
+
 def test_poses_and_short_logs_are_left_as_they_are() -> None:
     """A table has one sample a second, whose neighbours are other poses; of 19 seconds nobody can tell."""
     data = _data(_limb(), contact=CONTACT)

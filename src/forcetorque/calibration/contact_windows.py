@@ -87,6 +87,10 @@ _TURNED: Final = float(np.radians(0.25))
 """By how much the load may be turned otherwise than modelled, as by the zero of a joint; rad."""
 _SHIFTED_M: Final = 0.001
 """By how much a centre of mass may be elsewhere; m."""
+_MOVED: Final = 0.3
+"""Share of the spread of all loads, in each of their directions, that the rest has where the fit of all was refused."""
+_DIRECTION: Final = 0.1
+"""Share of the largest spread from which a direction counts."""
 _NOISE: Final = SlowNoise(time_constant_s=15.0, ratio=1.0)
 """Noise of the fits that only tell which windows disagree: slow enough that drift is no gain."""
 
@@ -126,7 +130,8 @@ def agreeing_samples(
 
     Returns:
         Which samples of every data set agree, shape (n,) each, and the spans of those that do not. All agree in fewer
-        than `FEWEST` seconds, in a table of single samples, and where the rest does not determine a fit.
+        than `FEWEST` seconds, in a table of single samples, where the rest does not determine a fit, and where the fit
+        of all is refused and all motion in some direction would leave: then the prior matrix or the reference is wrong.
     """
     means = [WindowMeans.of(data) for data in data_sets]
     every = [np.ones(len(data.raw), dtype=bool) for data in data_sets]
@@ -134,7 +139,7 @@ def agreeing_samples(
     if not len(ends) or ends[-1] < FEWEST or np.median(np.concatenate([one.count for one in means])) < _PARTS:
         return every, ()
     exact = replace(assumptions, accuracy=np.zeros(6))
-    marks, left = np.zeros(ends[-1], dtype=bool), np.zeros((ends[-1], 6))
+    marks, left, by_prior = np.zeros(ends[-1], dtype=bool), np.zeros((ends[-1], 6)), False
     for far in (_SUSPECT, *(FAR,) * (_ROUNDS - 1)):
         kept = [one.kept(~own) for one, own in zip(means, np.split(marks, ends[:-1]), strict=True) if not own.all()]
         fit = None
@@ -144,6 +149,7 @@ def agreeing_samples(
             if prior is None or marks.any():  # the fit of all says why, if it fails too
                 return every, ()
             # a contact may turn the matrix so far that the fit is refused: the prior matrix tells what to suspect
+            by_prior = True
         residuals = [_residual(data, one, fit, prior) for data, one in zip(data_sets, means, strict=True)]
         left = np.concatenate([one[0] for one in residuals])
         alone = disagreeing(left, np.concatenate([one[1] for one in residuals]), far=far)
@@ -151,6 +157,8 @@ def agreeing_samples(
         if np.array_equal(found, marks):
             break
         marks = found
+    if by_prior and _loses_direction(np.concatenate([one.reference for one in means]), marks):
+        return every, ()
     spans: list[Disagreeing] = []
     agree = []
     for data, own, rest in zip(data_sets, np.split(marks, ends[:-1]), np.split(left, ends[:-1]), strict=True):
@@ -158,6 +166,14 @@ def agreeing_samples(
         spans += _spans(data, window, own, rest)
         agree.append(~own[window])
     return agree, tuple(spans)
+
+
+def _loses_direction(loads: FloatArray, marks: BoolArray) -> bool:
+    """Whether what is not marked hardly moves in a direction in which the whole does; loads of shape (n, 6)."""
+    size = np.maximum(loads.std(axis=0), np.finfo(float).tiny)
+    _, spread, directions = np.linalg.svd((loads - loads.mean(axis=0)) / size, full_matrices=False)
+    along = (loads / size) @ directions[spread > _DIRECTION * spread[0]].T
+    return bool((along[~marks].std(axis=0) < _MOVED * along.std(axis=0)).any())
 
 
 def _residual(
