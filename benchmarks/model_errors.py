@@ -34,6 +34,7 @@ from benchmarks.harness import write_cases
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along
+from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts, fit_doubts
 from forcetorque.experiment.calibration import assumptions
@@ -55,12 +56,15 @@ from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")
-UNCERTAIN, EXACT, INFORMED = "tolerance = {}\n", 'tolerance = "exact"\n', "informed"
-"""Lines of the experiment file that state the default tolerances of the robot model, and none; and a word for those of
-a fit that knows which errors the family has, and their sizes."""
+UNCERTAIN, EXACT, INFORMED, STATED = "tolerance = {}\n", 'tolerance = "exact"\n', "informed", "stated"
+"""Lines of the experiment file that state the default tolerances of the robot model, and none; a word for those of a
+fit that knows which errors the family has, and their sizes; and one for the default beside the uncertainty of the
+prior matrix, as a certificate states it."""
+CERTIFIED = 0.02
+"""Least size of errors of coefficients by `STATED`, also where the family has none."""
 RANDOM, VALIDATION = "random", "validation"
 """Recordings beside those of the motions: one of another power-up, and one that is not fitted."""
-RATE_HZ, HOUR_NS = 100.0, 3_600_000_000_000
+RATE_HZ, HOUR_NS, LIMIT_COUNTS = 100.0, 3_600_000_000_000, 32767.0
 MOTIONS = {"grid": ("grid",), "tz": ("tz",), "pooled": ("grid", "tz", RANDOM)}
 """Recordings of each kind of case; the random one is of another power-up."""
 
@@ -248,21 +252,31 @@ def _touched(trace: Trace, limb: str, force_N: float, rng: np.random.Generator) 
     return replace(trace, loads={limb: trace.loads[limb] + strength[:, None] * push})
 
 
-def _written(folder: Path, name: str, limb: str, recording: Recording, duration_s: float, robot: str) -> Path:
-    """Write a recording, and an experiment file that knows of no error."""
+def _written(
+    folder: Path, name: str, limb: str, recording: Recording, duration_s: float, robot: str, sensor: str
+) -> Path:
+    """Write a recording, and an experiment file with lines of the robot and of the sensor."""
     write_recording(folder / name, recording)
     file, use = folder / f"{name}.toml", "validation" if name == VALIDATION else "calibration"
     file.write_text(
         f'schema = "forcetorque/experiment/1"\nname = "{name}"\n'
         f'[robot]\nurdf = "robot.urdf"\n{robot}[recording]\nformat = "parquet"\npath = "{name}"\n'
         f'[[sensor]]\nname = "{limb}"\nstream = "{limb}"\nserial = "SIM"\nprior = "matrix.txt"\n'
-        "limit_counts = 32767.0\n"
+        f"limit_counts = {LIMIT_COUNTS}\n{sensor}"
         '[[support]]\nframe = "pelvis"\ngravity_direction = [0.0, 0.0, -1.0]\n'
         f'[[interval]]\nlabel = "{name}"\nstart_s = {INTERVAL_MARGIN_S}\nend_s = {duration_s - INTERVAL_MARGIN_S:.3f}\n'
         f'use = "{use}"\nsupport = "pelvis"\nsession = "power-up {int(name == RANDOM)}"\n',
         encoding="utf-8",
     )
     return file
+
+
+def _certificate(family: str, prior: FloatArray) -> str:
+    """What a certificate states of a sensor whose coefficients are off by as much as those of the family."""
+    full_scale, counts = LIMIT_COUNTS * np.linalg.norm(prior, axis=1), np.full(prior.shape[1], LIMIT_COUNTS)
+    size_of_one_percent = assumptions.stated_prior_size(prior, counts, full_scale, 0.01 * full_scale / NORMAL_95)
+    percent = max(FAMILIES[family].coefficients, CERTIFIED) / size_of_one_percent
+    return f"full_scale = {full_scale.tolist()}\nprior_uncertainty_percent = {percent.tolist()}\n"
 
 
 @contextmanager
@@ -296,10 +310,11 @@ def sensor_runs(
     """Record the sensor in every trace; the files are in a folder, with the nominal robot and the prior matrix."""
     shutil.copyfile(named_robot(["biped"]), folder / "robot.urdf")
     write_matrix_file(folder / "matrix.txt", encode_matrix(one.workbench))
+    line, sensor = (UNCERTAIN, _certificate(family, one.workbench)) if robot == STATED else (robot, "")
     runs = []
     for trace in known:
         recording, movement = _recorded(seed, family, limb, one, trace), trace.movement
-        file = _written(folder, movement.name, limb, recording, movement.duration_s, robot)
+        file = _written(folder, movement.name, limb, recording, movement.duration_s, line, sensor)
         runs.append(SensorRun(load_experiment(file), limb))
     return runs
 
@@ -425,6 +440,13 @@ def main() -> None:
         action="store_const",
         const=EXACT,
         help="state no tolerance: the robot model is taken as exact",
+    )
+    parser.add_argument(
+        "--stated",
+        dest="robot",
+        action="store_const",
+        const=STATED,
+        help="state the uncertainty of the prior matrix, 2 %% of coefficients or what the family has",
     )
     parser.add_argument("--quick", action="store_true", help="one seed, one limb, the motion grid")
     parser.add_argument("--json", type=Path, help="file for every case")

@@ -250,7 +250,8 @@ TABLES = {
         r"sensor\[0\]",
         "allowed_gains, amplifier_gain, components, frame, full_scale, joint, limit_counts, measure_direction, "
         "measurement_noise, "
-        "measurement_offset_sd, mount, name, prior, serial, stream, variable",
+        "measurement_offset_sd, mount, name, prior, "
+        "prior_uncertainty_percent, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
     'label = "judge"': (

@@ -27,7 +27,7 @@ from forcetorque.experiment.calibration.stored_moments import IntervalMoments, R
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
 from forcetorque.experiment.long_recording import share_of_segments
-from forcetorque.experiment.raw_counts import full_scale_of
+from forcetorque.experiment.raw_counts import full_scale_of, prior_size_of
 from forcetorque.experiment.segmented_samples import IntervalParts
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
@@ -145,12 +145,14 @@ def assumptions_of(recording: CampaignRecording) -> Assumptions:
         The assumptions.
     """
     options = recording.options
+    full_scale = channel_full_scale(recording)
     return Assumptions(
-        full_scale=channel_full_scale(recording),
+        full_scale=full_scale,
         load_full_scale=None if recording.sensor.measured.all() else recording.sensor.full_scale,
         accuracy=options.accuracy,
         repeatability=options.repeatability,
         mount=options.tolerance.mount_of(recording.sensor.name),
+        prior_size=prior_size_of(recording.sensor, full_scale),
     )
 
 
@@ -175,19 +177,19 @@ def moments_of(
     Raises:
         ExperimentError: If the full scale of the sensor is not known.
     """
-    sensor, options = recording.sensor, recording.options
-    mount = options.tolerance.mount_of(sensor.name)
+    sensor, options, assumed = recording.sensor, recording.options, assumptions_of(recording)
     return RecordingMoments(
         sensor=recording.identity,
         experiment=recording.experiment,
         prior=sensor.prior,
         prior_source=sensor.prior_source,
-        full_scale=channel_full_scale(recording),
-        load_full_scale=None if sensor.measured.all() else sensor.full_scale,
-        accuracy=options.accuracy,
-        repeatability=options.repeatability,
-        mount_rotation_rad=mount.rotation_rad,
-        mount_shift_m=mount.shift_m,
+        full_scale=assumed.full_scale,
+        load_full_scale=assumed.load_full_scale,
+        accuracy=assumed.accuracy,
+        repeatability=assumed.repeatability,
+        mount_rotation_rad=assumed.mount.rotation_rad,
+        mount_shift_m=assumed.mount.shift_m,
+        prior_size=assumed.prior_size,
         drift=options.drift,
         nonlinear=options.nonlinear,
         variables=tuple(map(VariableDescription.of, variables)),

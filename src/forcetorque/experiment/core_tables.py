@@ -157,6 +157,9 @@ class Sensor(Table):
     """Full scale of fx, fy, fz, tx, ty, tz, or one number for all; N, N m; needed with the prior `identity`, which says
     nothing of sizes, and with `components`: the largest loads, by which the cross-talk of those that are not measured
     is sized."""
+    prior_uncertainty_percent: FullScale | None = None
+    """95 % uncertainty of a reading by the prior matrix, as a certificate states it: percent of the full scale of each
+    component, or one number for all; needs `full_scale`. If left out coefficients are expected to be 6 % off."""
     measurement_noise: SixPositive | None = None
     """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
     measurement_offset_sd: SixPositive | None = None
@@ -220,6 +223,16 @@ class Sensor(Table):
                 "components_rules",
                 "fewer than six components need prior, and full_scale of all six: loads that are not measured disturb "
                 "those that are in proportion to it",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _uncertainty_is_of_a_prior(self) -> Sensor:
+        if self.prior_uncertainty_percent is not None and (self.prior is None or self.components is not None):
+            raise PydanticCustomError(
+                "uncertainty_rules",
+                "prior_uncertainty_percent needs prior, of which it states the uncertainty, and a sensor of all six "
+                "components",
             )
         return self
 

@@ -111,6 +111,8 @@ class ExperimentSensor:
     """Largest magnitude of a raw reading; counts."""
     full_scale: FloatArray | None = None
     """Full scale per component, as the file specifies it; shape (6,); N, N m."""
+    prior_deviation: FloatArray | None = None
+    """Standard deviation of readings of full scale by the prior matrix, as the file states it; shape (6,); N, N m."""
     measurement_noise: FloatArray | None = None
     """Standard deviation of a reading from sample to sample, as the file specifies it; shape (6,); N, N m."""
     measurement_offset_sd: FloatArray | None = None

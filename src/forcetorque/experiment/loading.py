@@ -46,7 +46,7 @@ from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.kept_experiments import keep_experiment
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount
-from forcetorque.experiment.sensors import full_scale_of, read_prior, read_sensors
+from forcetorque.experiment.sensors import full_scale_of, prior_deviation_of, read_prior, read_sensors
 from forcetorque.experiment.streams import read_robot, read_streams
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support, Use
@@ -158,6 +158,7 @@ def _sensor(where: str, entry: PlannedSensor, model: RobotModel, inputs: Inputs)
         for variable in entry.variable
     ]
     prior = read_prior(where, entry, inputs)
+    full_scale = full_scale_of(entry, prior)
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
         serial=entry.serial,
@@ -166,7 +167,8 @@ def _sensor(where: str, entry: PlannedSensor, model: RobotModel, inputs: Inputs)
         prior=None if prior is None else prior.matrix,
         prior_source=None if prior is None else prior.source,
         limit_counts=entry.limit_counts,
-        full_scale=full_scale_of(entry, prior),
+        full_scale=full_scale,
+        prior_deviation=prior_deviation_of(where, entry, full_scale),
         variables=tuple(variables),
     )
 

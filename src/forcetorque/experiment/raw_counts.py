@@ -19,7 +19,7 @@ from forcetorque.base.arrays import (
     require_shape,
 )
 from forcetorque.base.errors import ExperimentError, known_names
-from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
+from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, stated_prior_size
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality
@@ -149,6 +149,21 @@ def full_scale_of(sensor: ExperimentSensor, accuracy: FloatArray | None, *, chan
         f'sensor {sensor.name!r}: expected full_scale with the prior "identity", which says nothing of sizes: six '
         "numbers in its [[sensor]], N and N m, as its data sheet has them; or accuracy of [calibration]"
     )
+
+
+def prior_size_of(sensor: ExperimentSensor, channel_full_scale: FloatArray) -> FloatArray | None:
+    """Give how far coefficients of the prior matrix are off, as the file states it.
+
+    Args:
+        sensor: The sensor.
+        channel_full_scale: Full scale of every channel; shape (c,).
+
+    Returns:
+        Relative to the root mean square of their row; shape (6,); None where nothing is stated.
+    """
+    if sensor.prior is None or sensor.full_scale is None or sensor.prior_deviation is None:
+        return None
+    return stated_prior_size(sensor.prior, channel_full_scale, sensor.full_scale, sensor.prior_deviation)
 
 
 class IntervalQuality(Row):

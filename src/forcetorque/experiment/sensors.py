@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names, measured_components
@@ -121,6 +122,30 @@ def full_scale_of(entry: Sensor, prior: SpecifiedPrior | None) -> FloatArray | N
     if entry.full_scale is not None:
         return np.array(entry.full_scale)
     return None if prior is None else prior.full_scale
+
+
+def prior_deviation_of(where: str, entry: Sensor, full_scale: FloatArray | None) -> FloatArray | None:
+    """Give how far readings by the prior matrix are off, as the file states it.
+
+    Args:
+        where: File and table, for messages.
+        entry: The sensor.
+        full_scale: Its full scale; shape (6,); N, N m; None if it is not known.
+
+    Returns:
+        Standard deviation; shape (6,); N, N m; None where nothing is stated.
+
+    Raises:
+        ExperimentError: If there is no full scale that it is a share of.
+    """
+    if entry.prior_uncertainty_percent is None:
+        return None
+    if full_scale is None:
+        raise ExperimentError(
+            f"{where}: expected full_scale, of which prior_uncertainty_percent is a share: six numbers, N and N m, as "
+            "the certificate has them"
+        )
+    return np.array(entry.prior_uncertainty_percent) / 100.0 * full_scale / NORMAL_95
 
 
 def _require_serial(serial: str | None, entry: Sensor, path: Path) -> None:
@@ -234,6 +259,7 @@ def _sensor(
             f"got {len(entry.amplifier_gain)}"
         )
     prior = read_prior(where, entry, inputs)
+    full_scale = full_scale_of(entry, prior)
     _require_components(where, entry, prior, present[0], channels)
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
@@ -243,7 +269,8 @@ def _sensor(
         prior=None if prior is None else prior.matrix,
         prior_source=None if prior is None else prior.source,
         limit_counts=entry.limit_counts,
-        full_scale=full_scale_of(entry, prior),
+        full_scale=full_scale,
+        prior_deviation=prior_deviation_of(where, entry, full_scale),
         measurement_noise=None if entry.measurement_noise is None else np.array(entry.measurement_noise),
         measurement_offset_sd=None if entry.measurement_offset_sd is None else np.array(entry.measurement_offset_sd),
         amplifier_gain=entry.amplifier_gain,

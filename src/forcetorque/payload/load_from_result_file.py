@@ -17,7 +17,7 @@ from forcetorque.base.stored_model import read_json
 from forcetorque.base.toml_file import first_error
 from forcetorque.experiment.calibration.assumptions import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.raw_counts import full_scale_of
+from forcetorque.experiment.raw_counts import full_scale_of, prior_size_of
 from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate
 from forcetorque.payload.identification.loads_with_intervals import load_estimates
@@ -195,7 +195,8 @@ def spread_of(experiment: Experiment, sensor: ExperimentSensor) -> MatrixSpread:
         raise ExperimentError(f"sensor {sensor.name!r}: expected prior, the matrix that is known in part, got none")
     accuracy = experiment.fit_options.accuracy
     full_scale = full_scale_of(sensor, accuracy, channels=sensor.prior.shape[1])
-    return MatrixSpread.of(sensor.prior, Assumptions(full_scale=full_scale, accuracy=accuracy))
+    size = prior_size_of(sensor, full_scale)
+    return MatrixSpread.of(sensor.prior, Assumptions(full_scale=full_scale, accuracy=accuracy, prior_size=size))
 
 
 def with_matrix_in_part(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:

@@ -48,9 +48,8 @@ def unfitted_posterior(
     """
     rows = rows_of(matrix, assumptions, in_wrench=True)
     unit = rows.unit
-    roots = np.concatenate(
-        [expected.SENSOR.expected * rows.sensor_root, expected.FRAME.expected * rows.frame_root], axis=2
-    )
+    sizes = rows.prior_sizes(assumptions, expected.SENSOR.expected)[:, None, None]
+    roots = np.concatenate([sizes * rows.sensor_root, expected.FRAME.expected * rows.frame_root], axis=2)
     prior = unit[:, None, None] ** 2 * roots @ roots.transpose(0, 2, 1)
     size = LOADS + len(variables) + 1
     covariance = np.zeros((len(unit), size, size))

@@ -19,6 +19,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.raw_counts import prior_size_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance, unfitted_posterior
 from forcetorque.planning.proposal import TEMPERATURE, Demand, Effort, Proposal, proposals, supports_of, workplaces
@@ -250,7 +251,12 @@ def _assumed(run: SensorRun, calibration: Calibration | None) -> tuple[FloatArra
             f"sensor {sensor.name!r}: expected a prior matrix or full_scale of [[sensor]], by which to say what is "
             "known before any recording; or name a calibration"
         )
-    assumptions = Assumptions(full_scale=scale, accuracy=options.accuracy, repeatability=options.repeatability)
+    assumptions = Assumptions(
+        full_scale=scale,
+        accuracy=options.accuracy,
+        repeatability=options.repeatability,
+        prior_size=prior_size_of(sensor, scale),
+    )
     return np.eye(6) if matrix is None else matrix, assumptions
 
 

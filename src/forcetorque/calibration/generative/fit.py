@@ -23,7 +23,7 @@ from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, i
 from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
 from forcetorque.experiment.calibration import assumptions as expected
 from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
-from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, MountTolerance
+from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError
 from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
@@ -114,24 +114,29 @@ class Layout:
         """Errors of the robot model, over their tolerances."""
         return self._slice(8)
 
-    def sizes(self, group: IntArray, terms: Sequence[ErrorTerm], *, with_prior: bool, mount: MountTolerance) -> Sizes:
+    def sizes(
+        self, group: IntArray, terms: Sequence[ErrorTerm], assumptions: Assumptions, *, with_prior: bool
+    ) -> Sizes:
         """Say which unknowns have one size, and what is expected of it.
 
         Args:
             group: Rows of one number share the sizes of their own unknowns; shape (rows,).
             terms: Numbers of the robot model that may be wrong.
+            assumptions: Whether the accuracy of the prior is stated, and how far the frame of the sensor may be off.
             with_prior: Whether the sensor has a prior matrix.
-            mount: How far the frame of the sensor may be off.
 
         Returns:
             The sizes.
         """
         sensor = expected.COEFFICIENTS if terms else expected.SENSOR
+        if assumptions.prior_size is not None:
+            sensor = expected.STATED
         if not with_prior:  # nothing is known of the sensor: its deviations may be as large as they like
             sensor = Scale(expected=1e3, weight=np.inf)
         own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING)
         kinds = list(dict.fromkeys(term.kind for term in terms))
-        shared = (expected.GAIN, *expected.mount_scales(mount), *(expected.MODEL for _ in kinds)) if terms else ()
+        mount = expected.mount_scales(assumptions.mount)
+        shared = (expected.GAIN, *mount, *(expected.MODEL for _ in kinds)) if terms else ()
         scales = (*own * (int(group.max()) + 1), *shared)
         counts = self._counts
         of_own = np.repeat(np.arange(len(own)), counts[: len(own)])
@@ -465,8 +470,8 @@ def fit_generative(
     terms = derivatives.terms
     layout = Layout(variables=len(variables), channels=raw.shape[1], terms=len(terms))
     basis = [
-        _basis(rows, matrix, k, layout, variables=_variable_sizes(variables, values, rows, k))
-        for k in range(len(rows.unit))
+        _basis(rows, matrix, k, layout, size=size, variables=_variable_sizes(variables, values, rows, k))
+        for k, size in enumerate(rows.prior_sizes(assumptions, 1.0))
     ]
 
     def solve(
@@ -485,7 +490,7 @@ def fit_generative(
             )
             for whitened, own, accuracy in zip(whiten(design, shapes), basis, rows.accuracy, strict=True)
         ]
-        sizes = layout.sizes(rows.group, terms, with_prior=prior is not None, mount=assumptions.mount)
+        sizes = layout.sizes(rows.group, terms, assumptions, with_prior=prior is not None)
         best = infer(data, sizes, local=design.local_places.ravel(), sensor=np.arange(LOADS), start=start)
         unknowns = best.rows()
         solved = SolvedRows(
@@ -585,11 +590,13 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
     return sizes
 
 
-def _basis(rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, variables: FloatArray) -> FloatArray:
+def _basis(
+    rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, size: float, variables: FloatArray
+) -> FloatArray:
     """What the columns of the design are worth in the unknowns of a row before those of terms; shape (a, b)."""
     v, pairs = layout.variables, len(PAIRS[0])
     basis = np.zeros((2 * LOADS + v + pairs, layout.unknowns - layout.terms))
-    basis[:LOADS, layout.coefficients] = rows.sensor_root[row]
+    basis[:LOADS, layout.coefficients] = size * rows.sensor_root[row]
     column = LOADS
     basis[column : column + v, layout.of_variables] = np.diag(variables)
     column += v

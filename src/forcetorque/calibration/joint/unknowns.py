@@ -15,6 +15,7 @@ from forcetorque.experiment.calibration.assumptions import (
     COEFFICIENTS_TOGETHER,
     GAIN,
     LOADS,
+    STATED,
     Assumptions,
     Scale,
     mount_scales,
@@ -223,7 +224,7 @@ class SensorPrior:
 
         Args:
             matrix: Prior matrix; shape (6, c); N/count, N m/count.
-            assumptions: Full scales of the channels, and how far the frame may be off.
+            assumptions: Full scales of the channels, and how far matrix and frame may be off.
 
         Returns:
             The prior distribution: every coefficient relative to the root mean square of its row, gains of channels,
@@ -234,15 +235,17 @@ class SensorPrior:
         scaled = matrix * assumptions.full_scale
         response = np.asarray(np.linalg.pinv(scaled), dtype=np.float64)
         size = np.sqrt((scaled**2).mean(axis=1))
+        stated = assumptions.prior_size
+        expected, own = (COEFFICIENTS_TOGETHER, np.ones(LOADS)) if stated is None else (STATED, stated)
         coefficients = np.zeros((LOADS, LOADS, CHANGES))
         for row in range(LOADS):
-            coefficients[row, :, LOADS * row : LOADS * (row + 1)] = size[row] * sensor_root(response)
+            coefficients[row, :, LOADS * row : LOADS * (row + 1)] = own[row] * size[row] * sensor_root(response)
         gains = np.einsum("kc,cd->kdc", scaled, response)
         moved = FRAME_CHANGES.transpose(1, 2, 0)
         basis = np.concatenate([coefficients, gains, moved], axis=2) * UNITS[:, None] / UNITS[:, None, None]
         return cls(
             basis=basis.reshape(CHANGES, -1),
-            scales=(COEFFICIENTS_TOGETHER, COEFFICIENTS_TOGETHER, GAIN, *mount_scales(assumptions.mount)),
+            scales=(expected, expected, GAIN, *mount_scales(assumptions.mount)),
             kinds=tuple(np.repeat(np.arange(5), [CHANGES // 2, CHANGES // 2, channels, 3, 3]).tolist()),
         )
 

@@ -51,6 +51,8 @@ and then stood upon, errs by more than the predicted 95 %.
 """
 COEFFICIENTS_TOGETHER: Final = Scale(expected=0.06, weight=2.0)
 """The same in a joint fit, which holds the size: evidence would take errors of the model for errors of sensors."""
+STATED: Final = Scale(expected=1.0, weight=4.0, least=1.0)
+"""The same over what is stated of a prior matrix: evidence may find it larger, never smaller."""
 GAIN: Final = Scale(expected=0.005, weight=1.0)
 """Gain of every channel, relative.
 
@@ -136,6 +138,9 @@ class Assumptions(ArrayRecord):
 
     One in a component that is not measured may move a channel as far as one in a component that is.
     """
+    prior_size: FloatArray | None = field(default=None, metadata=array(6))
+    """How far coefficients of the prior matrix are off, relative to the root mean square of their row, as a certificate
+    has it; shape (6,); None where nobody states it."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -183,6 +188,26 @@ class Assumptions(ArrayRecord):
         return ACCURACY_SHARE * np.linalg.norm(matrix * self.full_scale, axis=1)
 
 
+def stated_prior_size(
+    matrix: FloatArray, full_scale: FloatArray, load_full_scale: FloatArray, deviation: FloatArray
+) -> FloatArray:
+    """Give the size of errors of a prior matrix that make its readings as uncertain as is stated.
+
+    Args:
+        matrix: Prior matrix; shape (6, c); N, N m per count.
+        full_scale: Full scale of every channel; shape (c,); counts.
+        load_full_scale: Full scale of every component; shape (6,); N, N m.
+        deviation: Standard deviation of the error of every component, root mean square over the six loads of full scale
+            along one component each; shape (6,); N, N m.
+
+    Returns:
+        Relative to the root mean square of the row; shape (6,).
+    """
+    scaled = matrix * full_scale
+    squares = (np.linalg.pinv(scaled) ** 2).sum(axis=0) * load_full_scale**2
+    return np.asarray(deviation / np.sqrt((scaled**2).mean(axis=1) * squares.mean()))
+
+
 LOADS = 6
 """Coefficients of a row of the matrix, one for each component of a load; and components of a wrench."""
 
@@ -209,6 +234,21 @@ class Rows:
     """The same for gain, rotation and displacement of the reference; shape (rows, 6, 6)."""
     accuracy: FloatArray
     """Standard deviation of the slow error of the reference, in these units; shape (rows,)."""
+
+    def prior_sizes(self, assumptions: Assumptions, usual: float) -> FloatArray:
+        """Give the sizes of the errors of the prior matrix.
+
+        Args:
+            assumptions: What is known of the sensor.
+            usual: Size where nobody states one.
+
+        Returns:
+            What `sensor_root` of every row is to be multiplied by; shape (rows,).
+        """
+        stated = assumptions.prior_size
+        if stated is None:
+            return np.full(len(self.unit), usual)
+        return stated if self.space == "wrench" else np.full(len(self.unit), np.sqrt((stated**2).mean()))
 
 
 def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) -> Rows:

@@ -269,6 +269,8 @@ class RecordingMoments(StoredTable):
     """How far its frame may be turned from that of the robot model, as a standard deviation; None if not specified."""
     mount_shift_m: float | None = None
     """How far its origin may be from that of the robot model; m; None if not specified."""
+    prior_size: _Wrench | None = None
+    """How far coefficients of the prior matrix are off, relative to their row, as the file states it."""
     drift: bool
     """Whether the offset of a session may move evenly in time."""
     nonlinear: bool = False
@@ -295,6 +297,7 @@ class RecordingMoments(StoredTable):
             accuracy=self.accuracy,
             repeatability=self.repeatability,
             mount=MountTolerance(rotation_rad=self.mount_rotation_rad, shift_m=self.mount_shift_m),
+            prior_size=self.prior_size,
         )
 
     def save(self, path: Path | str, *, force: bool = False) -> None:
@@ -365,6 +368,7 @@ def _compared(recording: RecordingMoments) -> dict[str, Any]:
         "accuracy": None if recording.accuracy is None else recording.accuracy.tolist(),
         "repeatability": recording.repeatability,
         "tolerance of the mount (rotation, shift)": [recording.mount_rotation_rad, recording.mount_shift_m],
+        "uncertainty of the prior matrix": None if recording.prior_size is None else recording.prior_size.tolist(),
         "drift": recording.drift,
         "nonlinear": recording.nonlinear,
         "variables": [variable.model_dump(mode="json") for variable in recording.variables],

@@ -56,22 +56,20 @@ class MatrixSpread:
 
         Args:
             matrix: The matrix so far; shape (6, c); N/count, N m/count.
-            assumptions: Full scales of its channels.
+            assumptions: Full scales of its channels, and how far the matrix may be off where that is stated.
 
         Returns:
             The spread.
         """
-        rows = rows_of(matrix, assumptions, in_wrench=True) if matrix.shape[1] == _COMPONENTS else None
-        if rows is not None:
-            roots = np.stack([rows.sensor_root, rows.frame_root]) * rows.unit[:, None, None]
-            return cls(roots=roots, group=rows.group)
+        rows = rows_of(matrix, assumptions, in_wrench=matrix.shape[1] == _COMPONENTS)
+        # the size of a kind is relative to what is expected where nobody states it
+        sizes = rows.prior_sizes(assumptions, SENSOR.expected)[:, None, None] / SENSOR.expected
+        kinds = (sizes * rows.sensor_root, rows.frame_root)
+        if rows.space == "wrench":
+            return cls(roots=np.stack(kinds) * rows.unit[:, None, None], group=rows.group)
         # of other than six channels: what the deviations of the channels come to in the wrench that the prior reads
-        channels = rows_of(matrix, assumptions, in_wrench=False)
-        share = (matrix * channels.unit) ** 2
-        squares = [
-            np.einsum("ij,jab->iab", share, root @ root.transpose(0, 2, 1))
-            for root in (channels.sensor_root, channels.frame_root)
-        ]
+        share = (matrix * rows.unit) ** 2
+        squares = [np.einsum("ij,jab->iab", share, root @ root.transpose(0, 2, 1)) for root in kinds]
         return cls(roots=np.linalg.cholesky(np.stack(squares)), group=np.repeat([0, 1], 3))
 
     @property
