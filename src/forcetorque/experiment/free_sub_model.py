@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TypeVar
+from typing import Final, TypeVar
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, ExperimentError, RobotError, known_names
@@ -216,6 +216,10 @@ class SubModelChoice:
             with campaign.stated(run):
                 answers[campaign.recording(run)] = question(self.in_run(run))
         return answers
+
+
+BEYOND_SENSOR: Final = SubModelChoice()
+"""The sub-model outboard of the sensor, other sensors as the model expects."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -23,7 +23,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import errors_from_zero
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
+from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
@@ -243,11 +243,7 @@ class RecordingContactForces(ContactForceErrors):
 def contact_forces(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
-    *,
-    others: Mapping[str, Calibration] | None = None,
-    other_sensors: OtherSensors = OtherSensors.MODEL,
-    sub_model: str | None = None,
-    contact: str | None = None,
+    choice: SubModelChoice = BEYOND_SENSOR,
 ) -> ContactForces:
     """Evaluate calibrations of a sensor by the contact wrench of a sub-model that nothing touches.
 
@@ -255,10 +251,7 @@ def contact_forces(
         runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
         calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
             where there is none.
-        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
+        choice: Which sub-model nothing touches, and what the other sensors read.
 
     Returns:
         For every candidate the errors with its own offset and with one from each interval's first second, and the
@@ -268,7 +261,6 @@ def contact_forces(
         ExperimentError: If there is nothing to evaluate, or an interval has no support.
     """
     campaign = Campaign.of(runs)
-    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
     recordings = choice.in_campaign(campaign, lambda free: contact_wrenches(free, calibrations))
     return contact_forces_of(campaign.sensor, recordings)
 

@@ -32,7 +32,7 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors, SubModelChoice
+from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, FreeSubModel, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
@@ -96,26 +96,19 @@ class JointTorques(Result):
 def joint_torques(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
-    *,
-    others: Mapping[str, Calibration] | None = None,
-    other_sensors: OtherSensors = OtherSensors.MODEL,
-    sub_model: str | None = None,
-    contact: str | None = None,
+    choice: SubModelChoice = BEYOND_SENSOR,
 ) -> JointTorques:
     """Evaluate calibrations of a sensor by the joint torques that are estimated from it.
 
     The contacts are those of `estimate_experiment`: the support, and a full wrench at the sensor at the base of every
-    other sub-model; `contact` moves that of the free one. The model's torques are those of the support as the only
+    other sub-model; `choice` may move that of the free one. The model's torques are those of the support as the only
     contact.
 
     Args:
         runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
         calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
             where there is none.
-        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The free sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link of the free sub-model that takes up its contact wrench; None for that at its base.
+        choice: Which sub-model nothing touches, and what the other sensors read.
 
     Returns:
         For every candidate, with its own offset and with one from each interval's first second, the errors per joint.
@@ -124,7 +117,6 @@ def joint_torques(
         ExperimentError: If an interval has no support.
     """
     campaign = Campaign.of(runs)
-    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
     recordings = choice.in_campaign(campaign, lambda free: torque_error_samples(free, calibrations))
     return joint_torques_of(campaign, pooled_torque_errors(recordings))
 
