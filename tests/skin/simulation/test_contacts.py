@@ -14,6 +14,7 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import (
     ClothStrip,
     FlatWeight,
+    Palm,
     SkinBody,
     SkinContact,
     SkinObject,
@@ -41,6 +42,18 @@ def test_the_surface_is_the_cylinder(leg: SkinBody) -> None:
     np.testing.assert_allclose(np.hypot(*middle.positions[:, :2].T), RADIUS_M, atol=1e-3)
     assert ((middle.normals * LEG.normals).sum(axis=1) > np.cos(np.radians(4.0))).all()
     np.testing.assert_allclose(middle.stretch, 1.0, atol=0.03)
+
+
+def test_a_palm_bends_as_a_cylinder_does() -> None:
+    """Across by the circle of its curvature, to second order; bulges are as deep as stated; beside it is nothing."""
+    curvature, across = 12.0, np.linspace(-0.01, 0.01, 9)
+    palm = Palm(half_lengths_m=(0.05, 0.03), bend_per_m=curvature, bulges=np.zeros((0, 4)))
+    circle = (np.sqrt(1.0 - (curvature * across) ** 2) - 1.0) / curvature
+    np.testing.assert_allclose(palm.height(np.full(9, 0.01), across), circle, atol=0.01 * np.abs(circle).max())
+    bulged = Palm(half_lengths_m=(0.05, 0.03), bend_per_m=curvature, bulges=np.array([[0.01, 0.005, 0.002, 0.004]]))
+    at_bulge = np.array([0.01, 0.014]), np.array([0.005, 0.005])
+    np.testing.assert_allclose(palm.height(*at_bulge) - bulged.height(*at_bulge), 0.002 * np.exp([0.0, -0.5]))
+    assert np.isinf(palm.height(np.array([0.051, 0.0]), np.array([0.0, 0.031]))).all()
 
 
 def test_a_patch_that_folds_back_has_no_such_surface() -> None:
