@@ -244,6 +244,16 @@ def test_one_equation_of_two_unknowns_by_hand(unit: float) -> None:
     assert (posterior.rank[0], posterior.condition[0]) == (1, 1.0)
 
 
+@pytest.mark.parametrize("size", [1e-8, 1.0, 1e8])
+def test_rounding_is_told_from_a_negative_variance_in_any_unit(size: float) -> None:
+    """A covariance of any size may have eigenvalues that rounding makes negative, and no others."""
+    shape = np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1e-13])
+    np.testing.assert_array_equal(wrench_covariances(size * shape, name="skin", samples=1)[0], size * shape)
+    shape[5, 5] = -1e-4
+    with pytest.raises(EstimationError, match="no negative eigenvalue"):
+        wrench_covariances(size * shape, name="skin", samples=1)
+
+
 def test_the_residual_is_what_neither_unknowns_nor_errors_explain() -> None:
     """All parts add up to what is needed, and no change of the unknowns would make the residual smaller."""
     rng = np.random.default_rng(8)
