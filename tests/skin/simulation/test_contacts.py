@@ -19,6 +19,7 @@ from forcetorque.skin.simulation.contact import (
     SkinContact,
     SkinObject,
     Sphere,
+    _disc,
     contacts,
 )
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, REST_COUNTS, Loading, TaxelResponses, contact_recording
@@ -42,6 +43,14 @@ def test_the_surface_is_the_cylinder(leg: SkinBody) -> None:
     np.testing.assert_allclose(np.hypot(*middle.positions[:, :2].T), RADIUS_M, atol=1e-3)
     assert ((middle.normals * LEG.normals).sum(axis=1) > np.cos(np.radians(4.0))).all()
     np.testing.assert_allclose(middle.stretch, 1.0, atol=0.03)
+
+
+def test_points_of_a_disc_cover_it_evenly() -> None:
+    """Their centre and second moments are those of the disc, and none lies outside."""
+    points = _disc(0.03)
+    assert np.hypot(*points.T).max() < 0.03
+    np.testing.assert_allclose(points.mean(axis=0), 0.0, atol=1e-12)
+    np.testing.assert_allclose(points.T @ points / len(points), 0.03**2 / 4.0 * np.eye(2), atol=0.01 * 0.03**2 / 4.0)
 
 
 def test_a_palm_bends_as_a_cylinder_does() -> None:
