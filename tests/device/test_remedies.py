@@ -238,6 +238,14 @@ def test_postures_to_choose_from_are_within_the_ranges() -> None:
     assert set(hinge.round(6)) == set(third.device.hinge.locks_deg)
 
 
+def test_the_second_load_is_nearer_as_its_description_says() -> None:
+    """Its centre of mass is 25 mm nearer to the hinge; the first load is that of the twelve steps."""
+    option = _options(25.0)["second load"]
+    assert "25 mm nearer to the hinge" in option.description
+    first, second = (float(one.load.centre_of_mass_m[2]) for one in option.trajectories)
+    assert second == pytest.approx(first - 0.025)
+
+
 @pytest.mark.parametrize("rank", [5, 6])
 def test_the_weakest_spanned_direction_is_the_last_of_the_rank(rank: int) -> None:
     """Of loads along as many axes, each weaker than the one before; unspanned directions do not count."""
