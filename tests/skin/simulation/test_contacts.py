@@ -65,6 +65,18 @@ def test_a_palm_bends_as_a_cylinder_does() -> None:
     assert np.isinf(palm.height(np.array([0.051, 0.0]), np.array([0.0, 0.031]))).all()
 
 
+def test_a_cloth_strip_presses_on_its_area() -> None:
+    """Its pressure over all that it reaches comes to width times length, since it falls off evenly at its sides."""
+    strip = ClothStrip(width_m=0.02, arc_m=0.06, hem_m=0.004)
+    step = 1e-4
+    place = np.arange(-strip.reach_m, strip.reach_m, step) + 0.5 * step
+    along, across = np.meshgrid(place, place)
+    pressure = strip.pressure(along, across)
+    np.testing.assert_allclose(pressure.sum() * step**2, 0.02 * 0.06, rtol=1e-3)
+    assert pressure.max() == 1.0
+    np.testing.assert_array_equal(pressure[np.abs(along) > 0.012], 0.0)
+
+
 def test_a_patch_that_folds_back_has_no_such_surface() -> None:
     """Normals that point at the axis."""
     inside = SkinLayout(
