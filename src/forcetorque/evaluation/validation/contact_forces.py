@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, ClassVar, Literal
+from dataclasses import dataclass
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -18,7 +19,6 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     validation_excitation,
 )
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import errors_from_zero
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -26,7 +26,6 @@ from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
 from forcetorque.results.table import (
     Row,
     Shown,
@@ -211,10 +210,9 @@ class ContactForceErrors(Row):
     """The same of the moment."""
 
 
-class ContactForces(Result):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactForces:
     """Contact wrenches of a sub-model that nothing touches, by all candidates of a sensor."""
-
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:contact_answers"
 
     verdicts: tuple[ContactForceErrors, ...]
     """One per calibration and offset."""
@@ -222,14 +220,6 @@ class ContactForces(Result):
     """One per offset."""
     left_out: tuple[str, ...]
     """What could not be evaluated of the intervals, in words."""
-
-    def blocks(self) -> Iterator[Table | str]:
-        """Give a table per sensor, and who is best.
-
-        Yields:
-            Tables and sentences.
-        """
-        yield from contact_force_blocks(self.verdicts, self.best)
 
 
 class RecordingContactForces(ContactForceErrors):
@@ -239,7 +229,6 @@ class RecordingContactForces(ContactForceErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-@with_recording_notes
 def contact_forces(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
@@ -286,7 +275,6 @@ def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, Contact
         verdicts=verdicts,
         best=tuple(_best(sensor, contacts, list(recordings.values()))),
         left_out=contacts.left_out,
-        warnings=tuple(f"left out: {words}" for words in contacts.left_out),
     )
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -28,7 +29,6 @@ from forcetorque.evaluation.validation.joint_torque_errors import (
     torque_error_samples,
     torque_errors,
 )
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -70,29 +70,16 @@ class RecordingJointTorques(JointTorqueErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-class JointTorques(Result):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointTorques:
     """Joint torques that depend on one sensor, by all its candidates."""
-
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:torque_answers"
 
     verdicts: tuple[JointTorqueErrors, ...]
     """One per calibration, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
 
-    def blocks(self) -> Iterator[Table | str]:
-        """Give a table per sensor.
 
-        Yields:
-            Tables, or a sentence where there is nothing to show.
-        """
-        for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
-            yield joint_torque_table([row for row in self.verdicts if row.sensor == sensor])
-        if not self.verdicts:
-            yield "no joint torque is estimated from the sensor"
-
-
-@with_recording_notes
 def joint_torques(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
@@ -131,11 +118,7 @@ def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTo
     Returns:
         The same as `joint_torques`.
     """
-    return JointTorques(
-        verdicts=tuple(_rows(campaign, torques)),
-        left_out=torques.left_out,
-        warnings=tuple(f"left out: {words}" for words in torques.left_out),
-    )
+    return JointTorques(verdicts=tuple(_rows(campaign, torques)), left_out=torques.left_out)
 
 
 def joint_torque_table(rows: Sequence[JointTorqueErrors]) -> Table:
