@@ -53,6 +53,27 @@ def _doubts(
     return list(outcome.doubts())
 
 
+def test_errors_of_a_sensor_are_those_of_its_covariances() -> None:
+    """Of 300 N along z: the gain is what errs along the load, the force error all three axes."""
+
+    class Known:
+        load_centre = np.array([0.0, 0.0, -300.0, 1.0, 2.0, 3.0])
+        sessions = ("first", "last")
+
+        def prior_error_covariance(self, load: np.ndarray) -> np.ndarray:
+            return np.diag([4.0, 4.0, 36.0, 9.0, 9.0, 9.0])
+
+        def error_covariance(self, load: np.ndarray, *, session: str | None = None) -> np.ndarray:
+            offset = {None: 0.0, "first": 1e3, "last": 5.0}[session]
+            return np.diag([1.0, 1.0, 9.0, 1.0, 1.0, 1.0]) + offset * np.eye(6)
+
+    row = SensorErrorRow.of("leg_ft", Known())  # type: ignore[arg-type]
+    assert row.load_N == pytest.approx(300.0)
+    assert (row.gain_error_before_percent, row.gain_error_after_percent) == pytest.approx((2.0, 1.0))
+    assert (row.error_before_N, row.error_after_N) == pytest.approx((np.sqrt(44.0), np.sqrt(11.0)))
+    assert row.error_with_offset_N == pytest.approx(np.sqrt(26.0))
+
+
 @pytest.mark.parametrize(
     ("before_percent", "after_percent", "known"),
     [
