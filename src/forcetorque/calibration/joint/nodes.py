@@ -9,7 +9,16 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, names, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    FloatArray,
+    IntArray,
+    array,
+    check_arrays,
+    mapping,
+    names,
+    require_shape,
+)
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -48,14 +57,14 @@ class Stretch(ArrayRecord):
     def __len__(self) -> int:
         return len(self.time_s)
 
-    def samples(self, rows: slice) -> Stretch:
+    def samples(self, rows: slice | IntArray) -> Stretch:
         """Look at some of the samples.
 
         Args:
-            rows: Range of samples, without a step.
+            rows: Range of samples, without a step, or their numbers.
 
         Returns:
-            The same memory.
+            The same memory for a range.
         """
         return replace(
             self,
@@ -109,7 +118,7 @@ class StretchRows:
             stretch: The first part; others are of the same joints and sensors.
             beside: What else was logged at its instants, by name; shape (n, c) each.
         """
-        self._first = stretch.samples(slice(0, 0))
+        self._first = stretch.samples(np.arange(0))  # a copy, without the memory of the part
         self._rows: dict[tuple[str, str], RowsOnDisk] = {}
         self.append(stretch, beside)
 

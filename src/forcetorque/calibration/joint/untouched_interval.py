@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -176,24 +176,27 @@ def joint_interval(
         RecordingError: If no sample of the interval can be used.
     """
     parts = _parts(experiment, interval, sensors, segments)
-    first = next(parts)
-    names = {
-        "label": interval.label if label is None else label,
-        "recording": experiment.session_names(None)[0] if recording is None else recording,
-        "session": experiment.session_names(interval.label)[0] if session is None else session,
-    }
-    stretch, raw = replace(first.untouched.stretch, **names), first.raw
-    unusable = {name: [counts] for name, counts in first.unusable.items()}
+    untouched, raw, counts = next(parts)
+    unusable = {name: [own] for name, own in counts.items()}
     if segments:
-        rows = StretchRows(stretch, raw)
-        for part in parts:
-            rows.append(part.untouched.stretch, part.raw)
-            for name, counts in part.unusable.items():
-                unusable[name].append(counts)
+        rows = StretchRows(untouched.stretch, raw)
+        untouched = replace(untouched, stretch=untouched.stretch.samples(np.arange(0)))
+        for part, raw, counts in parts:
+            rows.append(part.stretch, raw)
+            for name, own in counts.items():
+                unusable[name].append(own)
+            del part, raw
         stretch, raw = rows.mapped()
+        untouched = replace(untouched, stretch=stretch)
+    stretch = replace(
+        untouched.stretch,
+        label=interval.label if label is None else label,
+        recording=experiment.session_names(None)[0] if recording is None else recording,
+        session=experiment.session_names(interval.label)[0] if session is None else session,
+    )
     return JointInterval(
         interval=interval,
-        untouched=replace(first.untouched, stretch=stretch),
+        untouched=replace(untouched, stretch=stretch),
         raw={
             name: RawWindows.of(stretch, values, UnusableCounts.total(unusable[name])) for name, values in raw.items()
         },
@@ -203,7 +206,7 @@ def joint_interval(
 def _parts(
     experiment: Experiment, interval: Interval, sensors: Sequence[str], segments: Sequence[Experiment]
 ) -> Iterator[_LoggedPart]:
-    """An interval as a whole, or its parts in segments; at least one."""
+    """An interval as a whole, or its parts in segments, which are not to be kept; at least one."""
     if not segments:
         yield _part(experiment, interval, sensors)
         return
@@ -212,23 +215,22 @@ def _parts(
         for part in segment.recording.intervals:
             if (part.label, part.use) == (interval.label, interval.use):
                 try:
-                    logged = _part(segment, part, sensors)
+                    logged = [_part(segment, part, sensors)]
                 except RecordingError as lost:  # the log has a gap there
                     error = lost
                 else:
                     seen = True
-                    yield logged
+                    yield logged.pop()
         forget_recording(experiment)
     if not seen:
         raise error
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _LoggedPart:
+class _LoggedPart(NamedTuple):
     untouched: UntouchedStretch
-    raw: Mapping[str, FloatArray]
+    raw: dict[str, FloatArray]
     """Raw readings at the instants of the stretch, by sensor; shape (n, c) each; counts; NaN in gaps."""
-    unusable: Mapping[str, UnusableCounts]
+    unusable: dict[str, UnusableCounts]
 
 
 def _part(experiment: Experiment, interval: Interval, sensors: Sequence[str]) -> _LoggedPart:

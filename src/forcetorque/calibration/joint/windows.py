@@ -195,6 +195,7 @@ def window_means(stretch: Stretch, values: FloatArray) -> tuple[FloatArray, Floa
         times.append(windows.time_s)
         means.append(windows.means(values[start : start + len(piece)]))
         start += len(piece)
+        forget_pages([values])
     return np.concatenate(times), np.concatenate(means)
 
 
