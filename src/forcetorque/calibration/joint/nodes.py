@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -139,7 +139,7 @@ class StretchRows:
         Returns:
             The stretch, and what else was logged at its instants.
         """
-        groups: dict[str, dict[str, FloatArray]] = {}
+        groups: dict[str, dict[str, Any]] = {}
         for (group, name), rows in self._rows.items():
             groups.setdefault(group, {})[name] = rows.mapped()
         stretch = replace(

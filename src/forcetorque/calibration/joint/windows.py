@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -175,7 +175,7 @@ def part_windows(
             for name, values in own.items():
                 values.append(getattr(one, name))
     for one, own in zip(first, rows, strict=True):
-        joined = {name: values.mapped() for name, values in own.items()}
+        joined: dict[str, Any] = {name: values.mapped() for name, values in own.items()}
         yield replace(one, stretch=stretch, **joined)
 
 
