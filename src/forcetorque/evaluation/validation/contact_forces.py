@@ -5,12 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.paired_comparison import PairedErrors, compare_errors
+from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
     ErrorComparison,
@@ -107,8 +109,8 @@ def best_candidate(
     Returns:
         The candidate, and the test of it against every other.
     """
-    sizes = {key: np.abs(wrench[~np.isnan(wrench).any(axis=1)]) for key, wrench in pooled.wrenches.items()}
-    norms = {key: float(np.linalg.norm(sizes[key][:, :3], axis=1).mean()) for key in candidates}
+    sizes = {key: _Size.of(pooled.wrenches[key]) for key in candidates}
+    norms = {key: size.norm for key, size in sizes.items()}
     least = min(candidates, key=norms.__getitem__)
     names = {key: pooled.candidates[key[0]].name for key in candidates}
     comparisons = []
@@ -123,7 +125,7 @@ def best_candidate(
                 offset=offset,
                 quantity="force",
                 unit="N",
-                samples=len(sizes[least]),
+                samples=sizes[least].samples,
                 mean=norms[least],
                 other=names[key],
                 other_mean=norms[key],
@@ -134,7 +136,7 @@ def best_candidate(
                 conclusion=ratio.conclusion,
             )
         )
-    by_axis = np.argmin([sizes[key].mean(axis=0) for key in candidates], axis=0)
+    by_axis = np.argmin([size.by_axis for size in sizes.values()], axis=0)
     return BestCalibration(
         sensor=sensor,
         offset=offset,
@@ -145,12 +147,32 @@ def best_candidate(
     )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Size:
+    """How large contact wrenches are, over the samples without a gap."""
+
+    samples: int
+    norm: float
+    """Mean norm of the force; N."""
+    by_axis: FloatArray
+    """Mean absolute value; shape (6,); N, N m."""
+
+    @classmethod
+    def of(cls, wrenches: FloatArray) -> Self:
+        count, norm, by_axis = 0, 0.0, np.zeros(6)
+        for (block,) in in_blocks(wrenches):
+            whole = block[~np.isnan(block).any(axis=1)]
+            count += len(whole)
+            norm, by_axis = norm + np.linalg.norm(whole[:, :3], axis=1).sum(), by_axis + np.abs(whole).sum(axis=0)
+        return cls(samples=count, norm=float(norm) / count, by_axis=by_axis / count)
+
+
 def _pairs(
     recordings: Sequence[ContactWrenches], first: tuple[int, Offset], second: tuple[int, Offset]
 ) -> list[PairedErrors]:
     """Contact wrenches of two candidates where nothing touches: what should be zero is the error."""
     return [
-        PairedErrors.of(one.wrenches[first], one.wrenches[second], np.zeros_like(one.wrenches[first]))
+        PairedErrors.of(one.wrenches[first], one.wrenches[second], np.broadcast_to(0.0, one.wrenches[first].shape))
         for one in recordings
         if first in one.wrenches
     ]
@@ -347,7 +369,11 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
 
 def _judgeable(contacts: ContactWrenches) -> list[tuple[int, Offset]]:
     """Keys of the wrenches that have a sample without a gap."""
-    return [key for key, wrenches in contacts.wrenches.items() if not np.isnan(wrenches).any(axis=1).all()]
+    return [
+        key
+        for key, wrenches in contacts.wrenches.items()
+        if not all(np.isnan(block).any(axis=1).all() for (block,) in in_blocks(wrenches))
+    ]
 
 
 def _best(

@@ -21,10 +21,11 @@ from forcetorque.evaluation.validation.contact_forces import (
     contact_force_rows,
     contact_forces_of,
 )
-from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.evaluation.validation.contact_wrenches import ContactRows, ContactWrenches
 from forcetorque.evaluation.validation.joint_torque_errors import (
     TorqueErrors,
     TorqueErrorSamples,
+    TorqueRows,
     pooled_torque_errors,
     torque_error_samples,
     torque_errors,
@@ -291,7 +292,13 @@ def _torques_and_contacts(
     free: FreeSubModel, calibrations: Mapping[str, Calibration]
 ) -> tuple[TorqueErrorSamples, ContactWrenches]:
     """Torques first: they need the motion of more joints, in which that of the contact force is found."""
-    return torque_error_samples(free, calibrations), contact_wrenches(free, calibrations)
+    candidates = free.whole.candidates(calibrations)
+    torques, contacts = TorqueRows(candidates), ContactRows(candidates)
+    for part in free.segments():
+        torques.add(part)
+        contacts.add(part)
+        del part
+    return torques.samples(), contacts.wrenches()
 
 
 def _validity(
