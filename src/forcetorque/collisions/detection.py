@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.collisions.residual import WINDOW_S, FreeModel, Level, Signals
+from forcetorque.collisions.residual import TOGETHER, WINDOW_S, FreeModel, Level, Signals
 from forcetorque.experiment.calibration.assumptions import LOADS
 
 RELEASE: Final = 0.25
@@ -35,8 +35,6 @@ _HIGH: Final = 0.8
 """Share of the blocks below the values that show it."""
 _FEWEST: Final = 8
 """Values that it takes at least."""
-_TOGETHER: Final = 256
-"""Windows that are compared at once while nothing touches the robot."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -174,7 +172,7 @@ def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
             close(current, stays=True)
             current = None
         held, before = current is not None, copy(level)
-        end = first + 1 if held else min(first + _TOGETHER, len(signals))
+        end = first + 1 if held else min(first + TOGETHER, len(signals))
         windows, wrenches, spreads, values = _compared(level, range(first, end), model, held=held)
         if not held and (over := np.flatnonzero(values > threshold)).size:
             level, end = before, int(windows[over[0]]) + 1  # what follows it is compared with the level held
@@ -207,10 +205,9 @@ def _compared(
     level: Level, windows: range, model: FreeModel, *, held: bool
 ) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
     """The k windows that have a level; what each reads too much, shape (k, 6), its covariance, and its statistic."""
-    changes, known = zip(*(level.change(window, held=held) for window in windows), strict=True)
-    with_level = np.array(known)
-    wrenches, covariances = model.wrench(np.array(changes)[with_level])
-    return np.array(windows)[with_level], wrenches, covariances, _squared(wrenches, covariances)
+    changes, known = level.changes(windows.start, windows.stop, held=held)
+    wrenches, covariances = model.wrench(changes if known.all() else changes[known])
+    return np.array(windows)[known], wrenches, covariances, _squared(wrenches, covariances)
 
 
 def _squared(wrenches: FloatArray, covariances: FloatArray) -> FloatArray:
@@ -218,20 +215,17 @@ def _squared(wrenches: FloatArray, covariances: FloatArray) -> FloatArray:
     return np.einsum("wi,wi->w", wrenches, np.linalg.solve(covariances, wrenches[..., None])[..., 0])
 
 
-def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> FloatArray:
+def statistics_of(changes: FloatArray, model: FreeModel) -> FloatArray:
     """Give the statistic of windows.
 
     Args:
-        residual: Changes of the residual; shape (w, 6); N, N m.
-        terms: Changes of the terms; shape (w, 6, p).
+        changes: Changes of their columns; shape (w, 6, 1 + p).
         model: What these are without a contact.
 
     Returns:
         Statistics; shape (w,).
     """
-    left = residual - terms @ model.mean
-    covariance = model.noise + np.einsum("wip,pq,wjq->wij", terms, model.covariance, terms, optimize=True)
-    return _squared(left, covariance)
+    return _squared(*model.wrench(changes))
 
 
 def smallest_force(covariances: FloatArray, threshold: float) -> float:
