@@ -65,12 +65,13 @@ def threshold_of(
     Returns:
         The threshold.
     """
-    from scipy.stats import f
+    from scipy.special import betaincinv  # scipy.stats is slow to import
 
     tests = 3600.0 / max(correlation_s, WINDOW_S)
     independent = len(statistic) * WINDOW_S / max(correlation_s, _SLOW_S)
     freedom = components * max(independent - 1.0, 1.0)
-    by_law = components * float(f.isf(min(alarms_per_hour / tests, 0.5), components, freedom))
+    share = float(betaincinv(0.5 * freedom, 0.5 * components, min(alarms_per_hour / tests, 0.5)))
+    by_law = freedom * (1.0 - share) / share  # `components` times the upper quantile of the F distribution
     blocks = np.array_split(statistic, max(round(len(statistic) * WINDOW_S / _BLOCK_S), 1))
     largest = np.array([block.max() for block in blocks if len(block)])
     by_tail = None
@@ -239,8 +240,8 @@ def smallest_force(covariances: FloatArray, threshold: float) -> float:
         Median over the windows; N.
     """
     from scipy.optimize import brentq
-    from scipy.stats import ncx2
+    from scipy.special import chndtr
 
-    far = brentq(lambda square: float(ncx2.sf(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
+    far = brentq(lambda square: 1.0 - float(chndtr(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
     of_force = covariances[:, :3, :3]
     return float(np.median(np.sqrt(far * np.linalg.eigvalsh(of_force)[:, -1])))
