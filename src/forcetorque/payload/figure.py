@@ -73,7 +73,9 @@ def _draw(panel: Axes, place: int, row: LoadRow, value: float | None, half_width
         panel.text(0.5, place, "open", transform=panel.get_yaxis_transform(), ha="center", va="center")
         return
     style = _ALONE if isinstance(row, RecordingLoadRow) else _ALL
-    mark: dict[str, Any] = {"color": style.colour, "marker": style.marker, "linestyle": "none"} if row.estimated else _STATED
+    mark: dict[str, Any] = (
+        {"color": style.colour, "marker": style.marker, "linestyle": "none"} if row.estimated else _STATED
+    )
     if half_width is not None and row.estimated:
         panel.plot([value - half_width, value + half_width], [place, place], color=style.colour, linewidth=1.8)
     panel.plot(value, place, markersize=7.0, **mark)
