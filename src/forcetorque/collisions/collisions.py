@@ -86,7 +86,8 @@ def find_collisions(
             "touches the robot beyond it; it has none"
         )
     learnt = _free(run, free)
-    signals = {one.label: signals_of(run, correction, one) for one in (*watched, *learnt)}
+    needed = {one.label: one for one in (*watched, *learnt)}
+    signals = {label: signals_of(run, correction, one) for label, one in needed.items()}
     names = tuple(dict.fromkeys(name for one in signals.values() for name in one.of_model))
     signals = {label: one.with_terms(names) for label, one in signals.items()}
     model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
@@ -121,16 +122,16 @@ def _require_rate(run: SensorRun) -> None:
 
 def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> tuple[FreeModel, Threshold]:
     """What is learnt from windows without contact."""
-    changes = [changes_of(one) for one in _untouched(run, free)]
-    residual, terms = (np.concatenate([one[part] for one in changes]) for part in range(2))
-    free_s = len(residual) * WINDOW_S
+    changes = np.concatenate([changes_of(one) for one in _untouched(run, free)])
+    free_s = len(changes) * WINDOW_S
     if free_s < _LEAST_FREE_S:
         raise ExperimentError(
             f"sensor {run.sensor.name!r}: expected at least {_LEAST_FREE_S:g} s in which nothing touches the robot "
             f"beyond it, got {free_s:.2g} s; name longer intervals by --free, from Python free"
         )
-    model = FreeModel.of(residual, terms, np.max([one.unmodelled for one in free], axis=0))
-    statistic = statistics_of(residual, terms, model)
+    unmodelled = np.max([one.unmodelled for one in free], axis=0)
+    model = FreeModel.of(changes[:, :, 0], changes[:, :, 1:], unmodelled)
+    statistic = statistics_of(changes, model)
     return model, threshold_of(statistic, model.correlation_s, alarms_per_hour=alarms_per_hour)
 
 

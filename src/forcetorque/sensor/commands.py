@@ -112,7 +112,9 @@ def response(
     calibration: Annotated[
         Path | None, typer.Option("--calibration", "-c", help="Calibration that reads the sensor.")
     ] = None,
-    figure: Annotated[Path | None, typer.Option("--figure", help="PNG of the response and of the decays.")] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG, SVG or PDF of the response and of the decays.")
+    ] = None,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:

@@ -37,7 +37,7 @@ from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, FreeSubModel, S
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult, Result
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
 
@@ -172,8 +172,10 @@ def _rows(campaign: Campaign, torques: TorqueErrorSamples) -> Iterator[JointTorq
         )
 
 
-class Validation(Result):
+class Validation(DrawnResult):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
+
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.contact_forces:validation_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:validation_answers"
 
