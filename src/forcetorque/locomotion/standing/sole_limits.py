@@ -166,8 +166,9 @@ def _of_foot(interval: IntervalBalance, foot: FootPressure, release_N: float) ->
     held = np.ones(len(normal), dtype=np.bool_)
     for span in slips:
         held[span] = False
-    risks = _spans(np.asarray(used.upper > 1.0) & held, interval.time_s)
-    for kind, spans in (("slip", slips), ("slip_risk", risks)):
+    risks = list(_spans(np.asarray(used.upper > 1.0) & held, interval.time_s))
+    kinds: tuple[tuple[EventKind, list[slice]], ...] = (("slip", slips), ("slip_risk", risks))
+    for kind, spans in kinds:
         for span in spans:
             yield _row(interval, foot, kind, span, span.start + int(np.nanargmax(used.value[span])), used=used)
 

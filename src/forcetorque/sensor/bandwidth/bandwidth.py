@@ -253,7 +253,7 @@ def _excitation(name: ExcitationKind | str) -> ExcitationKind:
 def _refuse_lacking(
     kind: ExcitationKind, component: int | None, component_name: str | None, force: str | None, mass_kg: float | None
 ) -> None:
-    if kind is ExcitationKind.STATIC and not (component is force is mass_kg is component_name is None):
+    if kind is ExcitationKind.STATIC and any(one is not None for one in (component, force, mass_kg)):
         raise ExperimentError(
             "static: the load is that which the experiment states, of every channel; leave out --component, --force "
             "and --mass-kg"
