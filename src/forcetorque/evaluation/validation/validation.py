@@ -37,7 +37,7 @@ from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, FreeSubModel, S
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
-from forcetorque.results.result import DrawnResult, Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
 
