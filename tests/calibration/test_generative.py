@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
+from forcetorque.base.noise.slow_noise import CANDIDATES
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.generative.model import _have_rank
 from forcetorque.calibration.thesis.regression import solve
@@ -148,6 +149,17 @@ def test_a_step_within_a_session_is_no_offset() -> None:
     stepped = replace(data, raw=data.raw + 300.0 * (np.arange(len(data)) >= 20)[:, None])
     apart = fit_generative([stepped], PRIOR, assumptions()).model.matrix
     assert np.abs(apart - fit_generative([data], PRIOR, assumptions()).model.matrix).max() > 1e-3 * np.abs(PRIOR).max()
+
+
+def test_what_drifts_is_no_error() -> None:
+    """The residual of a fit with a drift is that of the same readings without a ramp; as constant it is far larger."""
+    ramp, load = np.array([0.05, -0.02, 0.1, 0.002, 0.001, -0.003]), anyhow()
+    still, drifting, constant = (
+        fit_generative([read_by(load, drift=of_data)], PRIOR, assumptions(), drift=fitted, shapes=(CANDIDATES[0],))
+        for of_data, fitted in ((0.0, True), (ramp, True), (ramp, False))
+    )
+    np.testing.assert_allclose(drifting.residual, still.residual, rtol=0.02)
+    assert (constant.residual > 2.0 * drifting.residual).all()
 
 
 @pytest.mark.long

@@ -224,6 +224,16 @@ def test_one_block_has_no_choice_and_no_spread() -> None:
     assert fit.standard_errors is None
 
 
+def test_an_axis_needs_as_many_samples_as_it_has_unknowns() -> None:
+    """Six coefficients and an offset; the offset alone where the matrix is the prior's."""
+    raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]
+    few, enough = (DataSet(label="a", raw=raw[:n], reference=reference[:n]) for n in (6, 7))
+    with pytest.raises(FitError, match="at least 7 samples for 7 unknowns of every axis, got 6"):
+        calibrate([few], PRIOR, regularisation=1.0)
+    assert np.isfinite(calibrate([enough], PRIOR, regularisation=1.0).fit.matrix).all()
+    np.testing.assert_allclose(calibrate([few], PRIOR, regularisation=math.inf).fit.matrix, PRIOR)
+
+
 def test_bad_requests_are_refused() -> None:
     """No data, different channels, a choice without prior, and readings that never change."""
     raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]

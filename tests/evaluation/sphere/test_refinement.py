@@ -15,6 +15,7 @@ from forcetorque.evaluation.sphere.geometric_fit import (
     ellipsoid_of_parameters,
     ellipsoid_parameters,
     refine_ellipsoid,
+    sphere_equations,
 )
 from tests.evaluation.sphere.clouds import DEFORMED, grid, map_of, on, whole_sphere
 
@@ -70,6 +71,24 @@ def test_the_jacobian_is_that_of_finite_differences() -> None:
         assert ends[1] is not None
         slopes.append((ends[0].cost - ends[1].cost) / (4.0 * step))
     np.testing.assert_allclose(equations.gradient, slopes, rtol=1e-5, atol=1e-4)
+
+
+def test_the_jacobian_of_a_sphere_is_that_of_finite_differences() -> None:
+    """Gradient of half the sum of squares, along centre and radius, away from the minimum."""
+    rng = np.random.default_rng(5)
+    cloud = 30.0 * whole_sphere(60) + [1.0, -2.0, 3.0] + rng.normal(size=(60, 3))
+    parameters = np.array([2.0, -1.0, 2.5, 27.0])
+    equations = sphere_equations(cloud, parameters)
+    assert equations is not None
+    step = 1e-5
+
+    def cost(at: np.ndarray) -> float:
+        found = sphere_equations(cloud, at)
+        assert found is not None
+        return found.cost
+
+    slopes = [(cost(parameters + step * along) - cost(parameters - step * along)) / (4.0 * step) for along in np.eye(4)]
+    np.testing.assert_allclose(equations.gradient, slopes, rtol=1e-5)
 
 
 @pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])

@@ -65,7 +65,8 @@ def test_three_trials_of_which_one_drifts() -> None:
     assert group.pooled.mapped_centres is not None
     np.testing.assert_allclose(group.pooled.mapped_centres, np.outer([0.0, 40.0, -20.0], np.ones(3)), atol=0.5)
     for mode in (True, False):
-        mean, _, _ = mean_of_trials(group.identifiable_indices(with_model=mode))
+        indices = group.identifiable_indices(with_model=mode)
+        mean, _, _ = mean_of_trials(indices)
         drift, fit = group.drift(with_model=mode), group.pooled_fit(with_model=mode)
         assert drift is not None
         assert fit is not None
@@ -73,6 +74,7 @@ def test_three_trials_of_which_one_drifts() -> None:
         assert mean == pytest.approx(np.mean([one.index for one in singles if one is not None]) / GRAVITY)
         assert mean != fit.index / GRAVITY
         assert group.index(with_model=mode) == fit.index / GRAVITY
+        assert (len(indices), drift.index_kg) == (3, pytest.approx(indices[-1] - indices[0]))
         assert drift.exceeds is not None
         assert [name for name in drift.exceeds if name.startswith("mass")] == ["mass y"]
         assert GRAVITY * drift.mass_kg[1] == pytest.approx(0.06 * DEFORMED.axis_intersections[1], abs=0.3)
