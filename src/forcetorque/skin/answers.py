@@ -19,6 +19,10 @@ _TWO_SIGMA = 1.96
 """Standard deviations of a bound that holds with 95 %, of normal noise."""
 
 
+_NOT_FELT = "intervals leave out shear, lag of pads, and covers that swell; --weight-kg shows the last two"
+"""What skin does not show by itself."""
+
+
 def skin_calibration_answer(result: SkinCalibration) -> Answer:
     """Say how many taxels have a curve, and by how much it errs where it was not fitted.
 
@@ -95,6 +99,7 @@ def skin_wrench_answer(result: SkinWrench) -> Answer:
             f"{largest.time_s:.2f} s; mean of all contacts together {amount(result.mean_force_N, 'N')}",
             f"{len(result.lives)} contact{'s' * (len(result.lives) != 1)}, each from its first frame to its last; "
             f"method {result.method}, heat: {result.temperature}",
+            *((_NOT_FELT,) if result.weight is None else ()),
         ),
         step="take what was left after a release as rest, by --re-tare" if offered else "",
         written=(result.output_file, result.figure_file, result.film_file),
