@@ -175,6 +175,21 @@ def test_a_push_below_what_is_noticed_is_not(folder: Path, tmp_path: Path) -> No
     assert not _found(run).collisions
 
 
+def test_a_push_of_what_its_link_shows_is_noticed(folder: Path, tmp_path: Path) -> None:
+    """Every link has its force, none above that of any wrench; half as much again is noticed, a third is not."""
+    found = _found(_run(folder))
+    by_link = {row.link: row.smallest_force_N for row in found.by_link}
+    assert len(by_link) > 1
+    # the median is over fewer windows
+    assert all(0.0 < force <= 1.01 * found.sensitivity[0].smallest_force_N for force in by_link.values())
+    for share, count in ((1.5, 1), (0.3, 0)):
+        size = share * by_link["forearm"] / FORCE_N
+        target = tmp_path / str(count)
+        target.mkdir()
+        run = _planted(folder, target, lambda run, size=size: size * _push(run))
+        assert len(_found(run).collisions) == count
+
+
 def test_a_contact_in_the_free_interval_hides_no_other(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

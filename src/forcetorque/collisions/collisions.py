@@ -3,25 +3,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.collisions.detection import (
     Contact,
     Detected,
     Threshold,
     detect,
+    noticed_square,
     smallest_force,
     statistics_of,
     threshold_of,
 )
-from forcetorque.collisions.location import locate
+from forcetorque.collisions.location import locate, noticed_on_links
 from forcetorque.collisions.residual import WINDOW_S, FreeModel, Signals, changes_of, signals_of
-from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, SensitivityRow
+from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, LinkSensitivityRow, SensitivityRow
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
@@ -37,6 +39,8 @@ _LEAST_FREE_S: Final = 10.0
 """Time without contact below which noise is not known."""
 _ENOUGH_FREE_S: Final = 60.0
 """Time without contact that shows how heavy the tail of the noise is."""
+_POSTURES: Final = 50
+"""Windows of an interval that show what is noticed on which link."""
 _MARGIN_S: Final = 0.5
 """Time before and after a contact in which noise and errors are not learnt."""
 
@@ -83,7 +87,7 @@ def find_collisions(
     if not watched:
         raise ExperimentError(
             f"sensor {run.sensor.name!r}: expected an interval with a support in which nothing that the file states "
-            "touches the robot beyond it; it has none"
+            "touches the robot beyond it; it has none; what soles bear that the ground cannot do: `robot balance`"
         )
     learnt = _free(run, free)
     needed = {one.label: one for one in (*watched, *learnt)}
@@ -105,6 +109,7 @@ def find_collisions(
         experiment=run.experiment.name,
         collisions=tuple(sorted(rows, key=lambda row: row.start_s)),
         sensitivity=(_sensitivity(run, looked, threshold),),
+        by_link=tuple(_by_link(run, looked, threshold)),
         curves=(_curve(run, looked),),
         warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt])),
     )
@@ -218,6 +223,22 @@ def _sensitivity(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold
         free_s=threshold.free_s,
         looked_at_s=len(covariances) * WINDOW_S,
     )
+
+
+def _by_link(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) -> Iterator[LinkSensitivityRow]:
+    square = noticed_square(threshold.value)
+    forces: dict[str, list[FloatArray]] = {}
+    for one in looked:
+        every = max(len(one.detected.covariances) // _POSTURES, 1)
+        at_s = one.signals.time_s[np.isfinite(one.detected.excess[:, 0])][::every]
+        at_ns: IntArray = run.experiment.recording.start_ns + np.round(at_s * 1e9).astype(np.int64)
+        covariances = one.detected.covariances[::every]
+        for link, values in noticed_on_links(run, one.interval, at_ns, covariances, square).items():
+            forces.setdefault(link, []).append(values)
+    for link, parts in forces.items():
+        yield LinkSensitivityRow(
+            sensor=run.sensor.name, link=link, smallest_force_N=float(np.median(np.concatenate(parts)))
+        )
 
 
 def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:

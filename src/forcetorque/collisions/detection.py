@@ -229,6 +229,23 @@ def statistics_of(changes: FloatArray, model: FreeModel) -> FloatArray:
     return _squared(*model.wrench(changes))
 
 
+def noticed_square(threshold: float) -> float:
+    """Give the squared size over its covariance that a single window notices with a probability of `NOTICED`.
+
+    Args:
+        threshold: Threshold of the statistic.
+
+    Returns:
+        The square.
+    """
+    from scipy.optimize import brentq
+    from scipy.special import chndtr
+
+    return float(
+        brentq(lambda square: 1.0 - float(chndtr(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
+    )
+
+
 def smallest_force(covariances: FloatArray, threshold: float) -> float:
     """Give the force that a single window notices with a probability of `NOTICED`, wherever and however it acts.
 
@@ -239,9 +256,5 @@ def smallest_force(covariances: FloatArray, threshold: float) -> float:
     Returns:
         Median over the windows; N.
     """
-    from scipy.optimize import brentq
-    from scipy.special import chndtr
-
-    far = brentq(lambda square: 1.0 - float(chndtr(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
     of_force = covariances[:, :3, :3]
-    return float(np.median(np.sqrt(far * np.linalg.eigvalsh(of_force)[:, -1])))
+    return float(np.median(np.sqrt(noticed_square(threshold) * np.linalg.eigvalsh(of_force)[:, -1])))

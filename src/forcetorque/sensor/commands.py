@@ -89,7 +89,8 @@ def drift(
 def response(
     experiments: ExperimentsArgument,
     excitation: Annotated[
-        str, typer.Option("--excitation", "-e", help="What was done to the sensor: impact, release or pendulum.")
+        str,
+        typer.Option("--excitation", "-e", help="What was done to the sensor: impact, release, pendulum or static."),
     ],
     sensor: Annotated[str | None, typer.Option("--sensor", help="Sensor; the first of the file if left out.")] = None,
     component: Annotated[
@@ -118,7 +119,7 @@ def response(
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
+    """Tell bandwidth and resonance of a sensor, a filter that undoes them, or its static curves.
 
     Example: forcetorque bench response taps.toml -e impact --force hammer
 

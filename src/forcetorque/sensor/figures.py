@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
 from forcetorque.results.figures import (
     COLOURS,
     LIMIT_LINE,
@@ -170,8 +171,11 @@ def response_figure(response: Response) -> Figure:
         The figure.
 
     Raises:
+        ExperimentError: If the response is static, which has a table and no picture.
         MissingExtraError: If matplotlib is not installed.
     """
+    if response.static_curves:
+        raise ExperimentError("static curves have a table and no picture; leave out the figure, and look at --details")
     decays = response.decays[:MOST_DECAYS]
     curved = response.curve is not None
     decay_rows = -(-len(decays) // _COLUMNS)
