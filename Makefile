@@ -47,6 +47,7 @@ bench: $(VENV)/test.stamp
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.model_errors --json build/benchmarks/model_errors.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.planned_errors --json build/benchmarks/planned_errors.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.dynamics.processor_time --json build/benchmarks/dynamics_processor_time.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.joint --json build/benchmarks/joint.json
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.long_recordings --json build/benchmarks/long_recordings.json

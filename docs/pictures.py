@@ -53,6 +53,10 @@ PICTURES = {
     "device_envelope": (DEVICE, "device/envelope.png"),
     "coherence": (SWITCHING, "robot coherence switching/switching_day1.toml --figure {}"),
     "balance": (SWITCHING, "robot balance switching/switching_day1.toml --figure {}"),
+    "sessions": (
+        SWITCHING,
+        "bench drift switching/switching_day1.toml switching/switching_day2.toml --sensor l_leg_ft --figure {}",
+    ),
     "contest": (CONTEST, "bench contest contest.toml --figure {}"),
     "plates": (PLATES, f"bench fit-plate pole.c3d {POLE} -o FP2.json --figure {{}}"),
     "response": (BENCH, "bench response taps.toml --excitation impact --force log --figure {}"),

@@ -14,6 +14,7 @@ from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
+from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.validation import validation
 from forcetorque.experiment.free_sub_model import SubModelChoice
 from forcetorque.experiment.long_recording import is_long
@@ -135,6 +136,24 @@ def test_an_acceptance_of_segments_is_that_of_the_recordings(recorded: Path) -> 
         for offset, same_offset in zip(checks.offsets, same_checks.offsets, strict=True):
             assert (offset.label, offset.samples) == (same_offset.label, same_offset.samples)
             assert same_offset.temperature_degC == pytest.approx(offset.temperature_degC, abs=1e-9)
+
+
+def test_a_sphere_of_segments_is_that_of_the_recording(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By all samples where they are few; by some of them where they are many, which is said."""
+    (whole,) = spheres(run_of(recorded, FITTED)).analyses
+    with short_segments(3.0):
+        (segmented,) = spheres(run_of(recorded, FITTED)).analyses
+        monkeypatch.setattr("forcetorque.evaluation.sphere.sensor_sphere._MOST", 200)
+        thinned = spheres(run_of(recorded, FITTED))
+    assert whole.reference is not None
+    assert segmented.reference is not None
+    scale = np.abs(whole.reference).max()
+    np.testing.assert_array_equal(whole.force, segmented.force)
+    assert np.abs(whole.reference - segmented.reference).max() < 3.0 * _OF_LOAD_ONCE * scale
+    (some,) = thinned.analyses
+    assert some.every == -(-len(whole.force) // 200) > 1
+    assert 150 < len(some.force) < 250
+    assert f"one of {some.every} samples" in " ".join(thinned.warnings)
 
 
 def test_hashes_of_blocks_are_those_of_all_samples(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -184,15 +184,16 @@ def test_two_hundred_robots(base: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_logs_of_twelve_robots(tmp_path: Path) -> None:
+@pytest.mark.parametrize("robots", [12, 200])
+def test_logs_of_robots(tmp_path: Path, robots: int) -> None:
     """From logs to the page: five damaged sensors are the first five, calibrations are those of the logs."""
     damaged = {1: "gain", 3: "reversed", 4: "drifting", 7: "dead", 10: "clipped"}
-    plan = write_logs(12, damaged, tmp_path)
+    plan = write_logs(robots, damaged, tmp_path)
     done = run_plan(plan, InProcess())
-    assert (done.added, done.failures) == (48, ())
+    assert (done.added, done.failures) == (4 * robots, ())
     report = _report(tmp_path)
-    _assert_damaged_first(report, [f"FT{k:03}" for k in range(12)], damaged)
-    assert [row.fitted_recordings for row in report.coverage] == [2] * 12
+    _assert_damaged_first(report, [f"FT{k:03}" for k in range(robots)], damaged)
+    assert [row.fitted_recordings for row in report.coverage] == [2] * robots
     for row in report.ranked:
         records = Dataset(tmp_path / "fleet").records(Dataset(tmp_path / "fleet").of_sensor(row.serial))
         runs = [SensorRun(load_experiment(one.file), "arm_ft") for one in records if one.moments is not None]

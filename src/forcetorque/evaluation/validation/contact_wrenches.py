@@ -19,7 +19,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import ContactForceValidation, FreeSubModel
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.validation_offset import KNOWN_BEFORE, EvaluatedGaps, Offset, nothing_left
+from forcetorque.experiment.validation_offset import EvaluatedGaps, Offset, nothing_left
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.robot.contacts import Wrenches
@@ -221,8 +221,7 @@ class ContactRows:
             candidates: By what the sensor is read.
         """
         self._candidates, self._sub_model = candidates, ""
-        keys = [(index, offset) for index in range(len(candidates)) for offset in KNOWN_BEFORE]
-        self._rows = {key: RowsOnDisk((6,)) for key in keys}
+        self._rows: dict[tuple[int, Offset], RowsOnDisk] = {}
         self._time, self._expected = RowsOnDisk(), RowsOnDisk((6,))
         self._left_out: dict[str, None] = {}
         self._gaps = EvaluatedGaps()
@@ -251,7 +250,7 @@ class ContactRows:
                 judged = instants.judged_with_both(wrench, ("contact", index))
                 self._gaps.add(f"contact force by {self._candidates[index].name}", interval, judged)
                 for offset, errors in judged.items():
-                    self._rows[index, offset].append(errors)
+                    self._rows.setdefault((index, offset), RowsOnDisk((6,))).append(errors)
 
     def wrenches(self) -> ContactWrenches:
         """Put them together.
@@ -260,12 +259,11 @@ class ContactRows:
             The wrenches of all segments.
         """
         time_s = self._time.mapped()
-        found = len(time_s) > 0
         return ContactWrenches(
             sub_model=self._sub_model,
             candidates=self._candidates,
-            wrenches={key: rows.mapped() for key, rows in self._rows.items() if found},
-            time_s={key: time_s for key in self._rows if found},
+            wrenches={key: rows.mapped() for key, rows in self._rows.items()},
+            time_s=dict.fromkeys(self._rows, time_s),
             expected=self._expected.mapped(),
             left_out=(*self._left_out, *dict.fromkeys(self._gaps.words())),
         )
