@@ -15,7 +15,7 @@ from forcetorque.results.terminal.options import (
     PopulationOption,
     SensorOption,
 )
-from forcetorque.results.terminal.output import Format, say, show, start_logging
+from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -100,8 +100,8 @@ def report(
     )
     log.info("drawing")
     written.save(*files)
+    written = written.model_copy(update={"files": tuple(map(str, files))})
     show(written, output_format, details=details, experiments=sources.experiments)
-    say(f"written: {', '.join(map(str, files))}", output_format)
 
 
 def _of_sensors(

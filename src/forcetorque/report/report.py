@@ -63,6 +63,8 @@ class Report(Result):
     """One per experiment file."""
     results: dict[str, dict[str, Any]]
     """Results of other commands by file, as they were given."""
+    files: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
+    """Files that it is written to."""
     viewers: tuple[Section, ...] = Field(default=(), exclude=True, repr=False)
     """Sections of the document with a viewer."""
 
@@ -84,6 +86,7 @@ class Report(Result):
                 step=step,
                 lines=next_lines(use),
                 command=command,
+                written=self.files,
                 concern=CONCERN[use.decision],
             )
         for row in self.undecided:
@@ -93,6 +96,7 @@ class Report(Result):
                 verdict="NO VERDICT",
                 why=(row.reason,),
                 step=steps.get((row.sensor, row.serial), ""),
+                written=self.files,
                 concern=Concern.UNCERTAIN,
             )
 

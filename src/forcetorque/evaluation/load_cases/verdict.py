@@ -171,7 +171,7 @@ def verdict_texts(verdicts: tuple[LoadCaseVerdict, ...]) -> list[str]:
 
 LOOK_FOR_CAUSE: Final = (
     "Find the cause of the measured error before recording more: `forcetorque inspect` names contacts, steps, delays "
-    "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
+    "and losses; a mass that the robot model lacks, or a sensor that warms up, looks like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
 UNMEASURED: Final = (

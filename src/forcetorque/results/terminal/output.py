@@ -249,19 +249,6 @@ def show_warnings(result: Result) -> None:
         log.warning("%s", sentence)
 
 
-def say(sentence: str, output_format: Format) -> None:
-    """Print a sentence below a result for people; the other forms hold the result alone.
-
-    Args:
-        sentence: The sentence.
-        output_format: Form of the result.
-    """
-    from forcetorque.results.table_rendering import wrapped
-
-    if output_format is Format.TABLE:
-        sys.stdout.write(wrapped(sentence, width()) + "\n")
-
-
 def width() -> int:
     """Tell how wide a line may be.
 
