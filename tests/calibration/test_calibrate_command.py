@@ -124,7 +124,7 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     assert found is not None
     shown = [float(word) for word in found[1].split()]
     assert np.abs(np.array(shown[:6]) - 1000.0 * fitted.matrix[2]).max() < 0.0005001  # half of the third digit
-    assert "what the recordings taught" in made.out
+    assert "information gained: error that a unit load makes" in made.out
     assert run("calibrate", PARQUET, "-o", "other.json", "--type", "OnTdTO", "--details").out.count(" yes ") == 6
 
 

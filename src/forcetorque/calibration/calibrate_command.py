@@ -79,7 +79,7 @@ def calibrate(
         Path | None,
         typer.Option(
             "--figure",
-            help="PNG of what the recordings taught: errors of every load, before and after; with --jointly what is "
+            help="PNG of the information gained: errors of every load, before and after; with --jointly what is "
             "left of the equation of every part.",
         ),
     ] = None,
