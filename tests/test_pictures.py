@@ -10,6 +10,9 @@ from types import ModuleType
 import numpy as np
 import pytest
 
+from forcetorque.base.errors import ForceTorqueError
+from forcetorque.viewer.video import find_browser
+
 pytest.importorskip("matplotlib", reason="figures need matplotlib")
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -45,11 +48,24 @@ def test_each_is_small_and_on_a_page(pictures: ModuleType) -> None:
     """With words for who does not see it."""
     pages = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / "docs").rglob("*.md"))
     assert len(pictures.PICTURES) >= 5
-    for name in pictures.PICTURES:
+    for name in [*pictures.PICTURES, "viewer"]:
         assert (pictures.IMAGES / f"{name}.png").stat().st_size < MOST_BYTES
         before, found, _ = pages.partition(f"images/{name}.png)")
         assert found, f"no page shows {name}.png"
         assert len(before.rpartition("![")[2].partition("]")[0]) > 20
+
+
+@pytest.mark.long
+def test_the_viewer_is_that_of_today(pictures: ModuleType, tmp_path: Path) -> None:
+    """Drawn again by a browser, with the meshes of an iCub; colours differ by the drawing of the browser."""
+    pytest.importorskip("playwright", reason="a page is drawn by playwright")
+    pytest.importorskip("icub_models", reason="the robot is of icub-models")
+    try:
+        find_browser()
+    except ForceTorqueError as error:
+        pytest.skip(str(error))
+    pictures.draw_viewer(tmp_path)
+    assert _different(tmp_path / "viewer.png", pictures.IMAGES / "viewer.png") < MOST_DIFFERENT
 
 
 @pytest.mark.long

@@ -45,7 +45,7 @@ def test_a_page_goes_to_standard_output_alone(arm: Path, run: Run) -> None:
         (f"study fits {PARQUET} -o -", "--output -: expected a name, standard output takes the result only"),
         (f"estimate {PARQUET} -o -", "--output -: expected a name that ends in .parquet or .csv"),
         (f"report {PARQUET} -o -", "--output -: expected a name that ends in .html or .pdf"),
-        (f"bench gains {PARQUET} --figure -", "--figure -: expected a name that ends in .png"),
+        (f"bench gains {PARQUET} --figure -", "--figure -: expected a name that ends in .png or .svg or .pdf"),
         ("export fitted.json --to csv -o round", "Too many levels of symbolic links: 'round'"),
         (f"view {PARQUET} -o round", "Too many levels of symbolic links: 'round'"),
         (f"calibrate {PARQUET} -o round.json", "Too many levels of symbolic links: 'round.json'"),

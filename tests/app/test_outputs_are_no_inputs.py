@@ -57,7 +57,9 @@ WORDS = {
     "calibrate": f"{PARQUET} -o new.json",
     "robot coherence": f"{PARQUET}",
     "robot collisions": f"{PARQUET}",
+    "accept": f"{PARQUET} --spec fitted.json",
     "study compare": f"{PARQUET}",
+    "study validate": f"{PARQUET}",
     "bench fit-plate": f"{PARQUET} --serial FP1 --measure-direction parent_to_child",
     "bench contest": f"{PARQUET}",
     "bench device": f"{PARQUET}",
@@ -141,7 +143,7 @@ def _asked(command: str, option: str, name: str) -> list[str]:
     if option == "--output" and "-o" in words:
         del words[words.index("-o") :][:2]
         del words[words.index("-o") : words.index("-o") + 2]
-    if option == "--view" and "--to" in words:  # the form of the file that --output names
+    if option in {"--figure", "--view"} and "--to" in words:  # the form of the file that --output names
         del words[words.index("--to") : words.index("--to") + 2]
     return [*words, option, name]
 

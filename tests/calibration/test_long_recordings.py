@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, data_doubts
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.campaign import Campaign
@@ -122,3 +123,16 @@ def test_a_recording_of_validation_data_alone_has_no_moments(recorded: Path) -> 
         runs = _runs(recorded, CALIBRATION[0], VALIDATION[0])
         assert not runs[1].has(Use.CALIBRATION)
         assert len(recording_moments(Campaign(runs))) == 1
+
+
+def test_samples_that_cannot_be_used_are_counted_in_all_segments(days: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the reason is that of the first."""
+    (run,) = _runs(days, CALIBRATION[0])
+    samples = len(run.samples(Use.CALIBRATION)[0].samples)
+
+    def refused(*_: object, **__: object) -> None:
+        raise RecordingError("no joints")
+
+    monkeypatch.setattr(SensorRun, "interval_samples", refused)
+    with short_segments(), pytest.raises(RecordingError, match=rf"none of {samples} samples .* segments: no joints"):
+        recording_moments(_runs(days, CALIBRATION[0]))

@@ -123,6 +123,15 @@ SOUND = {
 }
 
 
+def test_what_derivatives_flatten_is_no_contact() -> None:
+    """A reference that lacks a third of its flattening agrees; control: one that lacks the same and does not say so."""
+    profile = np.clip(np.minimum((_time() - START_S) / 0.3, (END_S - _time()) / 0.3), 0.0, 1.0)
+    lacking = np.outer(profile, CONTACT)
+    unstated = replace(_data(_limb()), reference=_limb() - lacking)
+    assert _left_out(replace(unstated, flattening=3.0 * lacking)) == (0.0, ())
+    assert len(_left_out(unstated)[1]) == 1
+
+
 @pytest.mark.parametrize("name", SOUND)
 def test_sound_logs_lose_nothing(name: str) -> None:
     """Control: no sample of any of these leaves."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from copy import copy
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import cross
 from forcetorque.collisions.collisions import find_collisions
 from forcetorque.collisions.findings import with_collisions
-from forcetorque.collisions.residual import signals_of
+from forcetorque.collisions.residual import Level, signals_of
 from forcetorque.collisions.result import Collisions
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -34,6 +35,8 @@ from tests.scenes.experiments import MOUNTED, PARQUET, edit, write_experiments
 
 FORCE_N, PLACE_M, START_S, END_S = 12.0, (0.0, 0.0, -0.1), 17.0, 17.3
 """A push on the forearm, half way to the wrist, against its axis."""
+ROUNDING = 1e-9
+"""Of sums of some hundred numbers up to 100."""
 
 
 @pytest.fixture(scope="module")
@@ -60,12 +63,37 @@ def test_supports_share_terms_by_name(folder: Path) -> None:
     own = signals_of(run, run.read_by(None, None).bare, interval)
     names = ("mass of another", *reversed(own.of_model))
     shared = own.with_terms(names)
-    of_matrix = own.terms.shape[2] - len(own.of_model)
-    assert of_matrix == 36
+    first = own.columns.shape[2] - len(own.of_model)
+    assert first == 1 + 36
     assert len(own.of_model) > 3
-    np.testing.assert_array_equal(shared.terms[:, :, :of_matrix], own.terms[:, :, :of_matrix])
-    np.testing.assert_array_equal(shared.terms[:, :, of_matrix + 1 :], own.terms[:, :, : of_matrix - 1 : -1])
-    assert not shared.terms[:, :, of_matrix].any()
+    np.testing.assert_array_equal(shared.columns[:, :, :first], own.columns[:, :, :first])
+    np.testing.assert_array_equal(shared.columns[:, :, first + 1 :], own.columns[:, :, : first - 1 : -1])
+    assert not shared.columns[:, :, first].any()
+
+
+def test_windows_change_against_the_mean_of_those_before_them(folder: Path) -> None:
+    """Together as one by one: the mean forgets, stays where it is held, and begins anew after a pause."""
+    run = _run(folder)
+    whole = signals_of(run, run.read_by(None, None).bare, run.experiment.recording.intervals[0])
+    kept = np.ones(len(whole), dtype=np.bool_)
+    kept[120:140] = False
+    signals = whole.kept(kept)
+    together, known = Level(signals).changes(0, len(signals))
+    level, mean, count = Level(signals), np.zeros_like(signals.columns[0]), 0
+    for window, columns in enumerate(signals.columns):
+        count = 0 if window == 120 else count
+        if window == 80:
+            held = copy(level)
+            for later in range(window, window + 5):
+                (change,), _ = held.changes(later, later + 1, held=True)
+                np.testing.assert_allclose(change, signals.columns[later] - mean, atol=ROUNDING)
+        (change,), (is_known,) = level.changes(window, window + 1)
+        assert is_known == known[window] == (count >= 20)
+        np.testing.assert_allclose(change, columns - mean, atol=ROUNDING)
+        np.testing.assert_allclose(together[window], columns - mean, atol=ROUNDING)
+        count += 1
+        mean = mean + max(0.01, 1.0 / count) * (columns - mean)
+    assert len(signals) > 200
 
 
 def _relative_poses(run: SensorRun, link: str) -> tuple[FloatArray, FloatArray]:
@@ -145,6 +173,21 @@ def test_a_push_below_what_is_noticed_is_not(folder: Path, tmp_path: Path) -> No
     smallest = _found(_run(folder)).sensitivity[0].smallest_force_N
     run = _planted(folder, tmp_path, lambda run: 0.1 * smallest / FORCE_N * _push(run))
     assert not _found(run).collisions
+
+
+def test_a_push_of_what_its_link_shows_is_noticed(folder: Path, tmp_path: Path) -> None:
+    """Every link has its force, none above that of any wrench; half as much again is noticed, a third is not."""
+    found = _found(_run(folder))
+    by_link = {row.link: row.smallest_force_N for row in found.by_link}
+    assert len(by_link) > 1
+    # the median is over fewer windows
+    assert all(0.0 < force <= 1.01 * found.sensitivity[0].smallest_force_N for force in by_link.values())
+    for share, count in ((1.5, 1), (0.3, 0)):
+        size = share * by_link["forearm"] / FORCE_N
+        target = tmp_path / str(count)
+        target.mkdir()
+        run = _planted(folder, target, lambda run, size=size: size * _push(run))
+        assert len(_found(run).collisions) == count
 
 
 def test_a_contact_in_the_free_interval_hides_no_other(

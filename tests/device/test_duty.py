@@ -57,6 +57,13 @@ def test_holding_and_coming_back_change_nothing() -> None:
     assert duty.rms_Nm > 1.1 * 131.0 / np.sqrt(2.0)
 
 
+def test_the_time_of_day_changes_nothing() -> None:
+    """A motion that begins an hour later has the same root mean square."""
+    torque, angle = _swing(np.linspace(0.0, 1.0, 501))
+    time = np.linspace(0.0, 3.0, 501)
+    assert _duty(torque, angle, time + 3600.0).rms_Nm == pytest.approx(_duty(torque, angle, time).rms_Nm, rel=1e-9)
+
+
 def test_an_average_over_time_is_another_number() -> None:
     """Negative control: without the path, a hold at the peak moves the average."""
     torque, angle = _swing(np.linspace(0.0, 1.0, 501))

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from forcetorque.base.errors import RobotError, SensorError
 from forcetorque.device.description import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.mechanical_demands import hinge_ways, lag_rad, pendulum_Nm
+from forcetorque.device.mechanical_demands import HingePath, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 
 DEVICE = read_device()
@@ -61,6 +61,22 @@ def test_the_lock_at_minus_90_is_reached_with_yaw_turned_by_180(load_kg: float) 
     assert swing.end_rad == pytest.approx(-0.5 * np.pi, abs=1e-9)
     assert swing.drives_to_end
     assert swing.moment[-1] == pytest.approx(-pendulum_Nm(device, load))
+
+
+@pytest.mark.parametrize(("lock_deg", "end_deg"), [(0.0, 90.0), (90.0, 0.0), (-90.0, -30.0), (90.0, 30.0)])
+def test_gravity_drives_to_the_end_that_its_moment_points_to(lock_deg: float, end_deg: float) -> None:
+    """From the lock towards the end all the way; against it at one place the load stays there."""
+    towards = np.sign(end_deg - lock_deg) * np.array([3.0, 5.0, 0.0])
+
+    def drives(moment: np.ndarray) -> bool:
+        path = HingePath(
+            step=11, unlocked=True, lock_rad=np.deg2rad(lock_deg), end_rad=np.deg2rad(end_deg), moment=moment
+        )
+        return path.drives_to_end
+
+    assert drives(towards)
+    assert not drives(-towards)
+    assert not drives(towards * [1.0, -0.01, 1.0])
 
 
 def test_a_lock_that_the_load_cannot_reach_is_refused() -> None:

@@ -25,9 +25,9 @@ from forcetorque.device.excitation import (
     uncertain,
 )
 from forcetorque.device.expected_wrench import device_response
-from forcetorque.device.motion import DeviceTrajectory
+from forcetorque.device.motion import DeviceTrajectory, joint_ranges
 from forcetorque.device.motion_design import Designer
-from forcetorque.device.spanned_directions import device_span, optimised_motion
+from forcetorque.device.spanned_directions import device_span, optimised_motion, sensor_span_row
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span
@@ -220,6 +220,40 @@ def test_locks_are_changed_where_gravity_takes_the_load_there() -> None:
     expected = [chosen[0], *changes[0], chosen[1], *changes[1], *back, chosen[2]]
     np.testing.assert_allclose(np.rad2deg(motion.postures), expected, atol=1e-9)
     assert motion.unlocked == (False, True, False, False, True, False, True, False)
+
+
+def test_postures_to_choose_from_are_within_the_ranges() -> None:
+    """All at a lock, and every second one at multiples of 45 degrees."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, swaps=0)
+    pitch, yaw, hinge = np.rad2deg(designer._drawn(np.random.default_rng(3))).T
+    assert len(pitch) == designer.candidates
+    for angle in (pitch, yaw):
+        np.testing.assert_allclose(angle[::2] / 45.0, np.rint(angle[::2] / 45.0), atol=1e-9)
+        assert np.abs(angle[1::2] / 45.0 - np.rint(angle[1::2] / 45.0)).max() > 0.1
+        assert np.ptp(angle) > 90.0
+    low, high = joint_ranges(third.device)["pitch"]
+    assert max(low, -90.0) - 1e-9 <= pitch.min() <= pitch.max() <= min(high, 90.0) + 1e-9
+    assert -1e-9 <= yaw.min() <= yaw.max() <= 360.0 + 1e-9
+    assert set(hinge.round(6)) == set(third.device.hinge.locks_deg)
+
+
+def test_the_second_load_is_nearer_as_its_description_says() -> None:
+    """Its centre of mass is 25 mm nearer to the hinge; the first load is that of the twelve steps."""
+    option = _options(25.0)["second load"]
+    assert "25 mm nearer to the hinge" in option.description
+    first, second = (float(one.load.centre_of_mass_m[2]) for one in option.trajectories)
+    assert second == pytest.approx(first - 0.025)
+
+
+@pytest.mark.parametrize("rank", [5, 6])
+def test_the_weakest_spanned_direction_is_the_last_of_the_rank(rank: int) -> None:
+    """Of loads along as many axes, each weaker than the one before; unspanned directions do not count."""
+    strengths = 0.5 ** np.arange(6) * (np.arange(6) < rank)
+    row = sensor_span_row("ft_1", "steps", 6, Span.of(np.diag(strengths)))
+    largest = np.repeat([strengths[0], strengths[3]], 3)
+    assert row.rank == rank
+    assert row.smallest == pytest.approx((strengths / largest)[:rank].min() / np.sqrt(6.0))
 
 
 def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:

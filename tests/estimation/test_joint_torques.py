@@ -103,7 +103,9 @@ def test_with_measured_others_it_is_what_the_estimator_gives(arm: Path, branch: 
     experiment = _with_branch(arm, "fixed") if branch else load_experiment(arm / TWO)
     sensor, calibration = experiment.sensors[0], _fitted(experiment)
     found = _by_key(
-        joint_torques(SensorRun(experiment, sensor), {"new": calibration}, other_sensors=OtherSensors.MEASURED)
+        joint_torques(
+            SensorRun(experiment, sensor), {"new": calibration}, SubModelChoice(other_sensors=OtherSensors.MEASURED)
+        )
     )
     assert {joint for _, _, joint in found} == set(INBOARD)
     for candidate, calibrations in (("prior", {}), ("new", {"new": calibration})):
@@ -159,7 +161,7 @@ def test_where_the_contact_is_decides_which_joints_bear_the_error(arm: Path) -> 
     """With the contact of the free part at the hand, the joints between sensor and hand bear it too."""
     experiment = load_experiment(arm / TWO)
     sensor = experiment.sensors[0]
-    at_hand = _by_key(joint_torques(SensorRun(experiment, sensor), {}, contact="hand"))
+    at_hand = _by_key(joint_torques(SensorRun(experiment, sensor), {}, SubModelChoice(contact="hand")))
     at_sensor = _by_key(joint_torques(SensorRun(experiment, sensor), {}))
     assert {joint for _, _, joint in at_hand} == {*INBOARD, *BEYOND}
     for key, verdict in at_sensor.items():
@@ -172,7 +174,7 @@ def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
     """Of the joint before a branch, by the sensor there; of those that depend on the judged sensor alone, never."""
     experiment = _with_branch(arm, "fixed")
     by_model, as_measured = (
-        _by_key(joint_torques(SensorRun(experiment, experiment.sensors[0]), {}, other_sensors=mode))
+        _by_key(joint_torques(SensorRun(experiment, experiment.sensors[0]), {}, SubModelChoice(other_sensors=mode)))
         for mode in OtherSensors
     )
     for key, verdict in by_model.items():
@@ -189,7 +191,7 @@ def test_torques_that_the_log_does_not_allow_are_named(arm: Path) -> None:
     by_model = joint_torques(SensorRun(experiment, sensor), {})
     assert by_model.left_out == ()
     assert {verdict.joint for verdict in by_model.verdicts} == set(INBOARD)
-    as_measured = joint_torques(SensorRun(experiment, sensor), {}, other_sensors=OtherSensors.MEASURED)
+    as_measured = joint_torques(SensorRun(experiment, sensor), {}, SubModelChoice(other_sensors=OtherSensors.MEASURED))
     (words,) = as_measured.left_out
     assert words.startswith("torque of shoulder_yaw, from what is expected of arm_ft, tool_ft: ")
     assert "flap_joint" in words
@@ -257,6 +259,6 @@ def test_a_sensor_without_a_judged_sample_is_named(arm: Path) -> None:
     raw[(stream.stamp_ns > interval.start_ns) & (stream.stamp_ns < interval.end_ns)] = np.nan
     broken = replace(stream, signals={"raw": replace(stream.signal("raw"), values=raw)})
     gap = replace(experiment, recording=replace(recording, streams={**recording.streams, other.stream: broken}))
-    found = joint_torques(SensorRun(gap, gap.sensors[0]), {}, other_sensors=OtherSensors.MEASURED)
+    found = joint_torques(SensorRun(gap, gap.sensors[0]), {}, SubModelChoice(other_sensors=OtherSensors.MEASURED))
     assert found.left_out == ("torque of shoulder_yaw by prior over 'judge': every evaluated sample has a gap",)
     assert {verdict.joint for verdict in found.verdicts} == set(INBOARD[1:])

@@ -10,10 +10,16 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError
+from forcetorque.evaluation.acceptance.acceptance import accept
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
+from forcetorque.evaluation.validation.validation import validation
+from forcetorque.experiment.free_sub_model import SubModelChoice
+from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.fingerprint import window_hashes
 from tests.scenes.campaigns import FITTED, by_day, run_of, two_days
 from tests.scenes.segments import SEGMENT_S, short_segments
@@ -88,6 +94,47 @@ def test_an_evaluation_of_segments_is_that_of_the_recordings(recorded: Path, mon
     for outside, same_outside in zip(whole.validity, segmented.validity, strict=True):
         assert (outside.samples, outside.outside) == (same_outside.samples, same_outside.outside)
     assert [case.decision for case in whole.load_cases] == [case.decision for case in segmented.load_cases]
+
+
+@pytest.mark.usefixtures("in_blocks")
+def test_a_validation_of_segments_is_that_of_the_recordings(recorded: Path) -> None:
+    """Contact forces and joint torques with the offset of the first second of intervals, whose parts are many."""
+    calibration, choice = by_day(recorded), SubModelChoice()
+    whole = validation(two_days(recorded), {"new": calibration}, choice)
+    with short_segments(3.0):
+        campaign = two_days(recorded)
+        assert all(is_long(run) for run in campaign.runs)
+        segmented = validation(campaign, {"new": calibration}, choice)
+    assert {row.offset for row in whole.contact_forces} == {Offset.FIRST_SECOND, Offset.FITTED}
+    for row, same in zip(whole.contact_forces, segmented.contact_forces, strict=True):
+        assert (row.samples, row.offset, row.calibration) == (same.samples, same.offset, same.calibration)
+        np.testing.assert_allclose(same.mean_absolute[:3], row.mean_absolute[:3], atol=_OF_LOAD * row.excitation_N)
+        np.testing.assert_allclose(same.bias[3:], row.bias[3:], atol=_OF_LOAD * row.excitation_Nm)
+    assert len(whole.joint_torques) > 0
+    for torque, same_torque in zip(whole.joint_torques, segmented.joint_torques, strict=True):
+        assert (torque.samples, torque.joint) == (same_torque.samples, same_torque.joint)
+        assert same_torque.rmse == pytest.approx(torque.rmse, abs=_OF_LOAD * row.excitation_Nm)
+    assert (whole.left_out, whole.warnings) == (segmented.left_out, segmented.warnings)
+
+
+def test_an_acceptance_of_segments_is_that_of_the_recordings(recorded: Path) -> None:
+    """Every criterion with its number; offsets of intervals, and what the log lacks."""
+    limits = {"force_mean_N": 5.0, "mean_absolute": {"fz": 5.0}}
+    tables = {"evaluate": {"rmse": [9.0] * 6}, "validate": limits}
+    spec = AcceptanceFile(schema="forcetorque/acceptance/1", name="limits", **tables, recording={"missing_share": 0.1})
+    calibration = by_day(recorded)
+    whole = accept(two_days(recorded), spec, ("new", calibration))
+    with short_segments():
+        segmented = accept(two_days(recorded), spec, ("new", calibration))
+    assert len(whole.criteria) == 9
+    for one, same in zip(whole.criteria, segmented.criteria, strict=True):
+        assert (one.criterion, one.count, one.note) == (same.criterion, same.count, same.note)
+        assert same.measured == pytest.approx(one.measured, rel=_OF_LOAD_ONCE, abs=1e-3)
+    for checks, same_checks in zip(whole.recordings_measured, segmented.recordings_measured, strict=True):
+        assert checks.recording == same_checks.recording
+        for offset, same_offset in zip(checks.offsets, same_checks.offsets, strict=True):
+            assert (offset.label, offset.samples) == (same_offset.label, same_offset.samples)
+            assert same_offset.temperature_degC == pytest.approx(offset.temperature_degC, abs=1e-9)
 
 
 def test_hashes_of_blocks_are_those_of_all_samples(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,7 +14,6 @@ from forcetorque.base import rows_on_disk
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.franka.log_format import FrankaFormat
 from forcetorque.formats.log_format import LogDescription
-from forcetorque.formats.tabular import table
 from forcetorque.formats.ur_rtde import recorded_fields
 from forcetorque.formats.ur_rtde.log_format import UrRtdeFormat
 from tests.formats.franka.states import states, write_states, write_table
@@ -48,8 +47,7 @@ _LOGS: dict[str, Callable[[Path], LogDescription]] = {
 def _in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rows_on_disk, "_FEW_ROWS", 47)
     monkeypatch.setattr(recorded_fields, "_BLOCK_ROWS", 31)
-    for module in (rows_on_disk, recorded_fields, table):
-        monkeypatch.setattr(module, "IN_MEMORY", 1)
+    monkeypatch.setattr(rows_on_disk, "IN_MEMORY", 1)
     monkeypatch.setattr(rows_on_disk, "_WITHOUT_FILE", 0)
 
 

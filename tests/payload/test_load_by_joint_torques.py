@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -158,8 +159,8 @@ def test_a_posture_that_comes_again_counts_once(tmp_path: Path) -> None:
         assert load.centre_of_mass_m == pytest.approx(once.load.centre_of_mass_m, abs=1e-12)
 
 
-@pytest.mark.parametrize("same_postures", [False, True])
-def test_logs_of_different_tools_are_named(tmp_path: Path, same_postures: bool) -> None:
+@pytest.mark.parametrize(("same_postures", "ends"), [(False, (36, 72)), (True, (36, 72)), (False, (36, 54, 72))])
+def test_logs_of_different_tools_are_named(tmp_path: Path, same_postures: bool, ends: tuple[int, ...]) -> None:
     """In other postures, and in the same ones, which a load between them fits; logs of one tool are not named."""
     arm = held(4, postures=24)
     if same_postures:
@@ -169,8 +170,8 @@ def test_logs_of_different_tools_are_named(tmp_path: Path, same_postures: bool) 
     heavier = replace(arm, torque=arm.torque + np.concatenate([np.zeros((36, 7)), more]))
     for held_by, count in ((arm, 0), (heavier, 1)):
         states, logs = held_by.states(), {}
-        for name, part in (("first", states[:36]), ("second", states[36:])):
-            path = write_table(tmp_path / f"{name}.csv", part)
+        for start, end in itertools.pairwise((0, *ends)):
+            path = write_table(tmp_path / f"from_{start}.csv", states[start:end])
             torques = described_log(path, NOTHING_DECLARED).torques
             assert torques is not None
             logs[path] = torques

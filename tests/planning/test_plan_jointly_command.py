@@ -17,7 +17,9 @@ WORDS = ("plan", "grid_cold.toml", "move_cold.toml", "--jointly")
 
 def test_recordings_are_ordered(days: Path, run: Run) -> None:
     """The same as from Python; the JSON fits its schema."""
-    result = run(*WORDS, "--format", "json").result()
+    result = run(*WORDS, "--format", "json", "--figure", "plan.svg").result()
+    assert result["figure"] == "plan.svg"
+    assert "<svg" in (days / "plan.svg").read_text(encoding="utf-8")
     plan = plan_jointly([load_experiment(days / name) for name in WORDS[1:3]])
     assert [step["recording"] for step in result["steps"]] == [step.recording for step in plan.steps]
     assert len(result["steps"]) == 2
@@ -43,7 +45,6 @@ def test_people_see_steps_and_sensors(days: Path, run: Run) -> None:
         ("--clearance-deg", "5"),
         ("--seconds", "9"),
         ("-o", "next"),
-        ("--figure", "x.png"),
     ],
 )
 def test_options_of_one_sensor_are_refused(days: Path, run: Run, option: tuple[str, ...]) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import ClassVar, Literal
 
 import pytest
@@ -16,11 +17,15 @@ from typer.main import get_command
 
 import forcetorque
 from forcetorque.app.command_line import whole_program
-from forcetorque.base.errors import MissingExtraError
+from forcetorque.base.errors import MissingExtraError, OutputError
 from forcetorque.results.capability import named
 from forcetorque.results.figures import in_figure_style, new_figure
 from forcetorque.results.result import DrawnResult, result_classes
+from forcetorque.results.terminal.output import drawn_to, refuse_figure
 from tests.app.commands import question_of
+
+OTHER_RESULTS = {"payload_by_torques": "payload", "plan_jointly": "plan"}
+"""Results that a command has for other input, and the command."""
 
 
 @in_figure_style
@@ -66,6 +71,26 @@ def test_the_file_of_the_figure_is_named() -> None:
     assert drawn.details() == "drawn to toy.png\n"
 
 
+@pytest.mark.parametrize(("ending", "head"), [(".png", b"\x89PNG"), (".SVG", b"<?xml"), (".pdf", b"%PDF")])
+def test_the_name_of_the_file_says_what_is_drawn(tmp_path: Path, ending: str, head: bytes) -> None:
+    """The same bytes again, which a later run may replace; letters of lines stay letters."""
+    toy, file = Toy(values=(1.0, 3.0)), tmp_path / f"toy{ending}"
+    drawn = drawn_to(toy, file)
+    first = file.read_bytes()
+    assert (drawn.figure_file, first[: len(head)]) == (str(file), head)
+    refuse_figure(file)
+    assert drawn_to(toy, file) == drawn
+    assert file.read_bytes() == first
+
+
+def test_a_drawing_of_another_program_is_kept(tmp_path: Path) -> None:
+    """An SVG that was drawn by hand is not replaced."""
+    file = tmp_path / "sketch.svg"
+    file.write_text('<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg"/>\n', encoding="utf-8")
+    with pytest.raises(OutputError, match=r"sketch\.svg"):
+        refuse_figure(file)
+
+
 def test_without_matplotlib_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """In one line, with the command to install it."""
     monkeypatch.setitem(sys.modules, "matplotlib", None)
@@ -80,8 +105,9 @@ def test_every_command_with_a_figure_gives_a_result_with_one() -> None:
     program = get_command(whole_program())
     assert isinstance(program, Group)
     offered = {question_of(words) for words in _drawing_commands(program)}
-    assert offered == drawn
-    assert len(drawn) == 26
+    assert offered == drawn - OTHER_RESULTS.keys()
+    assert offered >= set(OTHER_RESULTS.values())
+    assert len(drawn) == 31
     for name in drawn:
         kind = results[name]
         assert issubclass(kind, DrawnResult)

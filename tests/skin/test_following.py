@@ -16,6 +16,7 @@ from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
+from forcetorque.skin.wrench.frames import touched_at_rest
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 from tests.skin.contact_trials import chamber_table
@@ -40,6 +41,18 @@ def calibrated_table() -> PressureTable:
 def learned_gains() -> HeatGains:
     """Gains of a warm-up."""
     return HeatGains.learned(fit_warm_up("warm", *counts_of(SHANK.recorded(WARM_UP)), SHANK.layout).taxels)
+
+
+@pytest.mark.parametrize("rate_hz", [10.0, 50.0])
+def test_a_touch_within_the_rest_is_seen_at_any_rate(table: PressureTable, rate_hz: float) -> None:
+    """Two taxels are pushed after 3 s and stay so: seen in a rest of 6 s, and no part of one of 2 s."""
+    seconds = np.arange(round(20.0 * rate_hz)) / rate_hz
+    counts = np.rint(240.0 + 0.4 * np.random.default_rng(5).normal(size=(len(seconds), table.columns)))
+    pushed = table.taxels[table.live][[4, 5]]
+    counts[np.ix_(seconds >= 3.0, pushed)] -= 8.0
+    for rest_s, expected in ((6.0, pushed), (2.0, [])):
+        reader = PatchReader.at_rest(table, counts[seconds < rest_s])
+        np.testing.assert_array_equal(touched_at_rest(reader, seconds, counts, rest_s=rest_s), expected)
 
 
 def _followed(

@@ -9,8 +9,10 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.inspection.findings import taxel_findings
 from forcetorque.recording.recording import Use
 from forcetorque.skin.experiment import load_patches
+from forcetorque.skin.taxels.faults import TaxelFault
 from tests.scenes.chambers import TAXELS, TEXT, chamber, responses, write_chamber
 from tests.scenes.patches import cylinder_patch, position_text
 
@@ -38,6 +40,16 @@ def test_a_patch_alone_is_read(file: Path) -> None:
     assert set(experiment.inputs_sha256) >= {"fit.toml"}
     assert experiment.patch("palm") is patch
     assert repr(experiment) == "<PatchExperiment 'fit': palm (60 taxels)>"
+
+
+def test_broken_taxels_are_named_without_a_pressure(tmp_path: Path) -> None:
+    """Those at a rail, and those that wrap; what a contact may do is no fault, and without faults there is none."""
+    broken = {7: TaxelFault.RAILS, 9: TaxelFault.JUMPS}
+    for name, faults, expected in (("broken", broken, {"taxel_rails": 1}), ("sound", {}, {})):
+        file = write_chamber(tmp_path, name, chamber(responses(), 11, broken=faults))
+        found = taxel_findings(load_patches(_changed(file, 'pressure = "chamber"\n', "")))
+        assert {finding.kind: finding.count for finding in found} == expected
+        assert all(finding.message == "palm: rails: 1 of 60 taxels in the log: 7" for finding in found)
 
 
 def test_other_questions_refuse_it(file: Path) -> None:

@@ -128,6 +128,30 @@ def test_the_rim_has_its_width_all_around() -> None:
     np.testing.assert_allclose(doubled[:, 2].sum() / 2.0, (side + 2.0 * HALF_PITCH_M) ** 2 - side**2, rtol=1e-12)
 
 
+def test_the_rim_goes_on_in_the_plane_of_the_skin() -> None:
+    """On a cylinder of facets its outer points rise above the tangent by less than a fifth of its width."""
+    positions = cylinder()
+    surface = skin_surface(positions)
+    rim = rim_strip(surface)
+    outwards = (rim.positions - positions[rim.taxels]) / HALF_PITCH_M
+    normals = positions[rim.taxels] * [0.0, 1.0, 1.0] / 0.05
+    assert len(outwards) == 50
+    assert np.abs((outwards * normals).sum(axis=1)).max() < 0.2
+
+
+@pytest.mark.parametrize("corner_deg", [20.0, 50.0, 57.0, 70.0, 90.0])
+def test_a_sharp_corner_of_the_rim_is_cut(corner_deg: float) -> None:
+    """The strip keeps its width where the corner is no longer than two widths, and never goes farther."""
+    half = np.deg2rad(0.5 * corner_deg)
+    arms = 0.01 * np.array([[0.0, 0.0, 0.0], [np.cos(half), -np.sin(half), 0.0], [np.cos(half), np.sin(half), 0.0]])
+    rim = rim_strip(skin_surface(arms, outward=np.tile([0.0, 0.0, 1.0], (3, 1))))
+    (length,) = np.linalg.norm(rim.positions - arms[rim.taxels], axis=1)[rim.taxels == 0] / HALF_PITCH_M
+    if 1.0 / np.sin(half) <= 2.0:
+        np.testing.assert_allclose(length, 1.0 / np.sin(half))
+    else:
+        assert 0.5 < length <= 2.0
+
+
 def test_where_two_boundaries_meet_each_keeps_its_strip() -> None:
     """Two triangles that touch in one taxel: six outer points, three around each."""
     positions = 0.01 * np.array([[0, 0, 0], [1, -0.5, 0], [1, 0.5, 0], [-1, 0.5, 0], [-1, -0.5, 0]], dtype=float)

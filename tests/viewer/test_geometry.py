@@ -230,6 +230,36 @@ def test_what_reads_meshes_may_be_absent(
     assert "pip install" in geometry.notes[0]
 
 
+COLLADA = """<?xml version="1.0"?>
+<!DOCTYPE COLLADA [<!ENTITY a "0">]>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+"""
+"""A triangle, behind an entity."""
+
+
+def test_collada_is_read_without_entities(tmp_path: Path) -> None:
+    """A mesh in DAE has its triangle; one with entities, which its reader would expand, is refused."""
+    pytest.importorskip("collada", reason="meshes in DAE need pycollada")
+    file = tmp_path / "m.dae"
+    file.write_text(COLLADA, encoding="ascii")
+    with pytest.raises(FormatError, match="expected plain XML"):
+        read_mesh(file, (1, 1, 1))
+    lines = COLLADA.splitlines(keepends=True)
+    file.write_text("".join([lines[0], *lines[2:]]), encoding="ascii")
+    mesh = read_mesh(file, (2, 1, 1))
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces[0]], [[0, 0, 0], [2, 0, 0], [0, 1, 0]])
+
+
 def _ball(count: int) -> Triangles:
     """A sphere of the radius 1 of about so many triangles."""
     import trimesh

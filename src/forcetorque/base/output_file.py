@@ -302,6 +302,7 @@ _FOOTER_BYTES = 1 << 24
 """Largest footer of a Parquet file that is looked at; ours have a few hundred columns at most."""
 
 _FIGURES = (b"\x89PNG\r\n\x1a\n", b"%PDF-")
+_SVG = re.compile(rb"<svg.*Matplotlib v", re.DOTALL)
 _HTML = re.compile(rb"\s*<!doctype html", re.IGNORECASE)
 _MP4 = re.compile(rb"....ftyp", re.DOTALL)
 _JSON = re.compile(rb'\s*\{\s*"schema"\s*:\s*"forcetorque/(?!recording/)')
@@ -379,7 +380,7 @@ def is_replaceable(path: Path) -> bool:
         head = stream.read(_HEAD_BYTES)
         if head.startswith(_PARQUET):
             return _is_table_of_results(stream.seek(0, os.SEEK_END), path)
-    known = not head or head.startswith((*_FIGURES, *_TEXTS)) or _GROUPS in head
+    known = not head or head.startswith((*_FIGURES, *_TEXTS)) or _GROUPS in head or _SVG.search(head) is not None
     return known or any(mark.match(head) for mark in (_HTML, _MP4, _JSON))
 
 

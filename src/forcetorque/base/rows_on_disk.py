@@ -118,6 +118,26 @@ class RowsOnDisk:
         return np.frombuffer(pages, dtype=self._dtype).reshape(-1, *self._shape)
 
 
+def rows_for(count: int, kinds: Iterable[tuple[tuple[int, ...], npt.DTypeLike]]) -> list[RowsInMemory | RowsOnDisk]:
+    """Begin to write arrays, in temporary files where all together are large.
+
+    Args:
+        count: Rows that each will have.
+        kinds: Shape of a row and kind of the numbers of each.
+
+    Returns:
+        A place for each.
+    """
+    arrays = [(shape, np.dtype(dtype)) for shape, dtype in kinds]
+    if count * sum(dtype.itemsize * math.prod(shape) for shape, dtype in arrays) > IN_MEMORY:
+        return [RowsOnDisk(shape, dtype) for shape, dtype in arrays]
+    return [RowsInMemory(count, shape, dtype) for shape, dtype in arrays]
+
+
+def _kind(array: npt.NDArray[Any]) -> tuple[tuple[int, ...], npt.DTypeLike]:
+    return array.shape[1:], array.dtype
+
+
 def concatenated(arrays: Sequence[npt.NDArray[Any]]) -> npt.NDArray[Any]:
     """Put arrays behind each other, in a temporary file where they are large.
 
@@ -144,8 +164,7 @@ def written(
     Returns:
         All rows, read-only.
     """
-    is_long = count * math.prod(shape) * np.dtype(dtype).itemsize > IN_MEMORY
-    rows = RowsOnDisk(shape, dtype) if is_long else RowsInMemory(count, shape, dtype)
+    (rows,) = rows_for(count, [(shape, dtype)])
     for block in blocks:
         rows.append(block)
         forget_pages([block])
@@ -212,7 +231,7 @@ def computed_rows(
     for blocks in row_blocks(*arrays):
         computed = compute(*blocks)
         if all_rows is None:
-            all_rows = _rows_like(count, computed)
+            all_rows = rows_for(count, map(_kind, computed))
         for rows, block in zip(all_rows, computed, strict=True):
             rows.append(block)
     return tuple(rows.mapped() for rows in all_rows or ())
@@ -230,18 +249,11 @@ def rows_where(kept: npt.NDArray[np.bool_], arrays: Sequence[npt.NDArray[Any]]) 
     """
     if kept.all():
         return tuple(arrays)
-    chosen = _rows_like(int(kept.sum()), arrays)
+    chosen = rows_for(int(kept.sum()), map(_kind, arrays))
     for is_kept, *blocks in row_blocks(kept, *arrays):
         for rows, block in zip(chosen, blocks, strict=True):
             rows.append(block[is_kept])
     return tuple(rows.mapped() for rows in chosen)
-
-
-def _rows_like(count: int, arrays: Sequence[npt.NDArray[Any]]) -> list[RowsInMemory | RowsOnDisk]:
-    """Places for rows such as those of arrays."""
-    if count * sum(array.dtype.itemsize * math.prod(array.shape[1:]) for array in arrays) > IN_MEMORY:
-        return [RowsOnDisk(array.shape[1:], array.dtype) for array in arrays]
-    return [RowsInMemory(count, array.shape[1:], array.dtype) for array in arrays]
 
 
 @contextmanager

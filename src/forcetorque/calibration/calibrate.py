@@ -14,6 +14,7 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.interval_and_mount_doubts import (
+    SegmentedDoubts,
     doubts_of_intervals,
     doubts_of_samples,
     with_estimated_mount,
@@ -38,7 +39,7 @@ from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
-from forcetorque.experiment.long_recording import is_long
+from forcetorque.experiment.long_recording import is_long, segment_runs, segments_of_run
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use
@@ -427,10 +428,19 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         the file, one per interval in which the file says that something touches the robot beyond it, and one per
         finding in a fitted interval; of many of one kind the first few, and how many more there are.
     """
-    if by_model and is_long(run):
-        yield from reduced_in_segments(run).warnings
+    if is_long(run):
+        yield from reduced_in_segments(run).warnings if by_model else _doubts_of_segments(run)
         return
     sensors = (run.sensor.name,)
     yield from doubts_of_samples(run)
     found = unreliable_intervals(run.experiment, Use.CALIBRATION, by_model=by_model, sensors=sensors, computed=run)
     yield from doubts_of_intervals(run, found, by_model=by_model)
+
+
+def _doubts_of_segments(run: SensorRun) -> tuple[str, ...]:
+    """Those of a long recording that is not compared with the model."""
+    doubts = SegmentedDoubts(run, by_model=False)
+    for part in segment_runs(run):
+        doubts.add(part)
+        del part
+    return doubts.warnings(segments_of_run(run))

@@ -79,8 +79,8 @@ def calibrate(
         Path | None,
         typer.Option(
             "--figure",
-            help="PNG of the information gained: errors of every load, before and after; with --jointly what is "
-            "left of the equation of every part.",
+            help="PNG, SVG or PDF of the information gained: errors of every load, before and after; with "
+            "--jointly what is left of the equation of every part.",
         ),
     ] = None,
     write_urdf: Annotated[

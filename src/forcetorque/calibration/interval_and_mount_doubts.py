@@ -93,13 +93,14 @@ def _touched(run: SensorRun) -> Iterator[str]:
 class SegmentedDoubts:
     """What makes a fit on a recording doubtful of which segments are looked at one after the other."""
 
-    def __init__(self, run: SensorRun) -> None:
+    def __init__(self, run: SensorRun, *, by_model: bool = True) -> None:
         """Begin.
 
         Args:
             run: The sensor in the whole recording, of which no samples are looked at.
+            by_model: As of `data_doubts`.
         """
-        self._run = run
+        self._run, self._by_model = run, by_model
         self._said: dict[str, None] = {}
         self._found: list[Sequence[Finding]] = []
 
@@ -110,7 +111,9 @@ class SegmentedDoubts:
             run: The sensor in the segment.
         """
         # a fit checks the causes by itself
-        found = inspect_experiment(run.experiment, with_causes=False, sensors=[run.sensor.name], computed=run)
+        found = inspect_experiment(
+            run.experiment, by_model=self._by_model, with_causes=False, sensors=[run.sensor.name], computed=run
+        )
         self._found.append(found)
         if run.has(Use.CALIBRATION):
             self._said |= dict.fromkeys(doubts_of_samples(run))
@@ -122,7 +125,7 @@ class SegmentedDoubts:
             The sentences of `data_doubts`.
         """
         among = unreliable_among(joined_findings(segments, self._found), self._run.experiment, Use.CALIBRATION)
-        return tuple(dict.fromkeys([*self._said, *doubts_of_intervals(self._run, among)]))
+        return tuple(dict.fromkeys([*self._said, *doubts_of_intervals(self._run, among, by_model=self._by_model)]))
 
 
 _DOUBTFUL = 3.0

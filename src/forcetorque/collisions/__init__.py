@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 CAPABILITY = Capability(
     page="locomotion/collisions.md",
-    needs=("calibration", "inspection"),
+    needs=("calibration", "inspection", "locomotion"),
     commands=("forcetorque.collisions.command:collisions", "forcetorque.collisions.command:joint_collisions"),
 )
 

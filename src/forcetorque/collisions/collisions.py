@@ -3,25 +3,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.collisions.detection import (
     Contact,
     Detected,
     Threshold,
     detect,
+    noticed_square,
     smallest_force,
     statistics_of,
     threshold_of,
 )
-from forcetorque.collisions.location import locate
+from forcetorque.collisions.location import locate, noticed_on_links
 from forcetorque.collisions.residual import WINDOW_S, FreeModel, Signals, changes_of, signals_of
-from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, SensitivityRow
+from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, LinkSensitivityRow, SensitivityRow
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
@@ -37,6 +39,8 @@ _LEAST_FREE_S: Final = 10.0
 """Time without contact below which noise is not known."""
 _ENOUGH_FREE_S: Final = 60.0
 """Time without contact that shows how heavy the tail of the noise is."""
+_POSTURES: Final = 50
+"""Windows of an interval that show what is noticed on which link."""
 _MARGIN_S: Final = 0.5
 """Time before and after a contact in which noise and errors are not learnt."""
 
@@ -83,10 +87,11 @@ def find_collisions(
     if not watched:
         raise ExperimentError(
             f"sensor {run.sensor.name!r}: expected an interval with a support in which nothing that the file states "
-            "touches the robot beyond it; it has none"
+            "touches the robot beyond it; it has none; what soles bear that the ground cannot do: `robot balance`"
         )
     learnt = _free(run, free)
-    signals = {one.label: signals_of(run, correction, one) for one in (*watched, *learnt)}
+    needed = {one.label: one for one in (*watched, *learnt)}
+    signals = {label: signals_of(run, correction, one) for label, one in needed.items()}
     names = tuple(dict.fromkeys(name for one in signals.values() for name in one.of_model))
     signals = {label: one.with_terms(names) for label, one in signals.items()}
     model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
@@ -104,6 +109,7 @@ def find_collisions(
         experiment=run.experiment.name,
         collisions=tuple(sorted(rows, key=lambda row: row.start_s)),
         sensitivity=(_sensitivity(run, looked, threshold),),
+        by_link=tuple(_by_link(run, looked, threshold)),
         curves=(_curve(run, looked),),
         warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt])),
     )
@@ -121,16 +127,16 @@ def _require_rate(run: SensorRun) -> None:
 
 def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> tuple[FreeModel, Threshold]:
     """What is learnt from windows without contact."""
-    changes = [changes_of(one) for one in _untouched(run, free)]
-    residual, terms = (np.concatenate([one[part] for one in changes]) for part in range(2))
-    free_s = len(residual) * WINDOW_S
+    changes = np.concatenate([changes_of(one) for one in _untouched(run, free)])
+    free_s = len(changes) * WINDOW_S
     if free_s < _LEAST_FREE_S:
         raise ExperimentError(
             f"sensor {run.sensor.name!r}: expected at least {_LEAST_FREE_S:g} s in which nothing touches the robot "
             f"beyond it, got {free_s:.2g} s; name longer intervals by --free, from Python free"
         )
-    model = FreeModel.of(residual, terms, np.max([one.unmodelled for one in free], axis=0))
-    statistic = statistics_of(residual, terms, model)
+    unmodelled = np.max([one.unmodelled for one in free], axis=0)
+    model = FreeModel.of(changes[:, :, 0], changes[:, :, 1:], unmodelled)
+    statistic = statistics_of(changes, model)
     return model, threshold_of(statistic, model.correlation_s, alarms_per_hour=alarms_per_hour)
 
 
@@ -217,6 +223,22 @@ def _sensitivity(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold
         free_s=threshold.free_s,
         looked_at_s=len(covariances) * WINDOW_S,
     )
+
+
+def _by_link(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) -> Iterator[LinkSensitivityRow]:
+    square = noticed_square(threshold.value)
+    forces: dict[str, list[FloatArray]] = {}
+    for one in looked:
+        every = max(len(one.detected.covariances) // _POSTURES, 1)
+        at_s = one.signals.time_s[np.isfinite(one.detected.excess[:, 0])][::every]
+        at_ns: IntArray = run.experiment.recording.start_ns + np.round(at_s * 1e9).astype(np.int64)
+        covariances = one.detected.covariances[::every]
+        for link, values in noticed_on_links(run, one.interval, at_ns, covariances, square).items():
+            forces.setdefault(link, []).append(values)
+    for link, parts in forces.items():
+        yield LinkSensitivityRow(
+            sensor=run.sensor.name, link=link, smallest_force_N=float(np.median(np.concatenate(parts)))
+        )
 
 
 def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:

@@ -49,9 +49,13 @@ def collisions(
         ExperimentError: If there is no interval to look at, or too little time without contact.
     """
     from forcetorque.collisions.collisions import find_collisions
+    from forcetorque.collisions.soles import events_on_soles
     from forcetorque.experiment.calibrations_under_test import one_named
 
-    return find_collisions(run, run.read_by(*one_named(calibration)).bare, intervals, free, alarms_per_hour)
+    name, read_by = one_named(calibration)
+    found = find_collisions(run, run.read_by(name, read_by).bare, intervals, free, alarms_per_hour)
+    events, untested = events_on_soles(run, None if read_by is None else (name or "", read_by), intervals)
+    return found.model_copy(update={"sole_events": events, "warnings": (*found.warnings, *untested)})
 
 
 @command("external torques of all joints over their thresholds, with the contacts")

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.collisions.residual import WINDOW_S, FreeModel, Level, Signals
+from forcetorque.collisions.residual import TOGETHER, WINDOW_S, FreeModel, Level, Signals
 from forcetorque.experiment.calibration.assumptions import LOADS
 
 RELEASE: Final = 0.25
@@ -35,8 +35,6 @@ _HIGH: Final = 0.8
 """Share of the blocks below the values that show it."""
 _FEWEST: Final = 8
 """Values that it takes at least."""
-_TOGETHER: Final = 256
-"""Windows that are compared at once while nothing touches the robot."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,12 +65,13 @@ def threshold_of(
     Returns:
         The threshold.
     """
-    from scipy.stats import f
+    from scipy.special import betaincinv  # scipy.stats is slow to import
 
     tests = 3600.0 / max(correlation_s, WINDOW_S)
     independent = len(statistic) * WINDOW_S / max(correlation_s, _SLOW_S)
     freedom = components * max(independent - 1.0, 1.0)
-    by_law = components * float(f.isf(min(alarms_per_hour / tests, 0.5), components, freedom))
+    share = float(betaincinv(0.5 * freedom, 0.5 * components, min(alarms_per_hour / tests, 0.5)))
+    by_law = freedom * (1.0 - share) / share  # `components` times the upper quantile of the F distribution
     blocks = np.array_split(statistic, max(round(len(statistic) * WINDOW_S / _BLOCK_S), 1))
     largest = np.array([block.max() for block in blocks if len(block)])
     by_tail = None
@@ -174,7 +173,7 @@ def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
             close(current, stays=True)
             current = None
         held, before = current is not None, copy(level)
-        end = first + 1 if held else min(first + _TOGETHER, len(signals))
+        end = first + 1 if held else min(first + TOGETHER, len(signals))
         windows, wrenches, spreads, values = _compared(level, range(first, end), model, held=held)
         if not held and (over := np.flatnonzero(values > threshold)).size:
             level, end = before, int(windows[over[0]]) + 1  # what follows it is compared with the level held
@@ -207,10 +206,9 @@ def _compared(
     level: Level, windows: range, model: FreeModel, *, held: bool
 ) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
     """The k windows that have a level; what each reads too much, shape (k, 6), its covariance, and its statistic."""
-    changes, known = zip(*(level.change(window, held=held) for window in windows), strict=True)
-    with_level = np.array(known)
-    wrenches, covariances = model.wrench(np.array(changes)[with_level])
-    return np.array(windows)[with_level], wrenches, covariances, _squared(wrenches, covariances)
+    changes, known = level.changes(windows.start, windows.stop, held=held)
+    wrenches, covariances = model.wrench(changes if known.all() else changes[known])
+    return np.array(windows)[known], wrenches, covariances, _squared(wrenches, covariances)
 
 
 def _squared(wrenches: FloatArray, covariances: FloatArray) -> FloatArray:
@@ -218,20 +216,34 @@ def _squared(wrenches: FloatArray, covariances: FloatArray) -> FloatArray:
     return np.einsum("wi,wi->w", wrenches, np.linalg.solve(covariances, wrenches[..., None])[..., 0])
 
 
-def statistics_of(residual: FloatArray, terms: FloatArray, model: FreeModel) -> FloatArray:
+def statistics_of(changes: FloatArray, model: FreeModel) -> FloatArray:
     """Give the statistic of windows.
 
     Args:
-        residual: Changes of the residual; shape (w, 6); N, N m.
-        terms: Changes of the terms; shape (w, 6, p).
+        changes: Changes of their columns; shape (w, 6, 1 + p).
         model: What these are without a contact.
 
     Returns:
         Statistics; shape (w,).
     """
-    left = residual - terms @ model.mean
-    covariance = model.noise + np.einsum("wip,pq,wjq->wij", terms, model.covariance, terms, optimize=True)
-    return _squared(left, covariance)
+    return _squared(*model.wrench(changes))
+
+
+def noticed_square(threshold: float) -> float:
+    """Give the squared size over its covariance that a single window notices with a probability of `NOTICED`.
+
+    Args:
+        threshold: Threshold of the statistic.
+
+    Returns:
+        The square.
+    """
+    from scipy.optimize import brentq
+    from scipy.special import chndtr
+
+    return float(
+        brentq(lambda square: 1.0 - float(chndtr(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
+    )
 
 
 def smallest_force(covariances: FloatArray, threshold: float) -> float:
@@ -244,9 +256,5 @@ def smallest_force(covariances: FloatArray, threshold: float) -> float:
     Returns:
         Median over the windows; N.
     """
-    from scipy.optimize import brentq
-    from scipy.stats import ncx2
-
-    far = brentq(lambda square: float(ncx2.sf(threshold, LOADS, square)) - NOTICED, 0.0, 2.0 * threshold + 200.0)
     of_force = covariances[:, :3, :3]
-    return float(np.median(np.sqrt(far * np.linalg.eigvalsh(of_force)[:, -1])))
+    return float(np.median(np.sqrt(noticed_square(threshold) * np.linalg.eigvalsh(of_force)[:, -1])))

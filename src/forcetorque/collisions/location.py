@@ -104,7 +104,7 @@ def locate(run: SensorRun, interval: Interval, at_ns: int, excess: FloatArray, c
     # the sensor and what touches carry the bodies together
     on_robot = -equation.transmission[0, 0]
     wrench, spread = on_robot @ excess, on_robot @ covariance @ on_robot.T
-    axes = _axes(tree, equation)
+    axes = _axes(tree, equation, 0)
     lines = {link: _nearest(wrench, points) for link, points in axes.items()}
     half = {link: NORMAL_95 * _deviation(wrench, spread, points) for link, points in axes.items()}
     link = min(lines, key=lambda name: lines[name][0])
@@ -126,13 +126,44 @@ def locate(run: SensorRun, interval: Interval, at_ns: int, excess: FloatArray, c
     )
 
 
-def _axes(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:
-    """Points of the axes of the bodies of a part, by the heaviest link of each; shape (k, 3); m."""
+def noticed_on_links(
+    run: SensorRun, interval: Interval, at_ns: IntArray, covariances: FloatArray, square: float
+) -> dict[str, FloatArray]:
+    """Give the force on each link beyond a sensor that is noticed, whatever its direction and its place on the axis.
+
+    Args:
+        run: The sensor.
+        interval: Interval of the instants.
+        at_ns: Instants; shape (n,); ns.
+        covariances: What the sensor reads without a contact; shape (n, 6, 6).
+        square: Square over the covariance that is noticed.
+
+    Returns:
+        Forces by link, that at the worst place of the axis in the worst direction; shape (n,) each; N.
+
+    Raises:
+        ExperimentError: If the interval has no support, or no link lies beyond the sensor.
+    """
+    tree, equation = equation_at(run, interval, at_ns)
+    forces: dict[str, list[float]] = {}
+    for index, covariance in enumerate(covariances):
+        of_robot = np.linalg.inv(equation.transmission[index, 0])
+        information = of_robot.T @ np.linalg.solve(covariance, of_robot)
+        for link, points in _axes(tree, equation, index).items():
+            force = np.tile(np.eye(6, 3), (len(points), 1, 1))
+            force[:, 3:] = np.cross(points[:, None], np.eye(3)).swapaxes(1, 2)
+            least = np.linalg.eigvalsh(force.swapaxes(1, 2) @ information @ force)[:, 0].min()
+            forces.setdefault(link, []).append(float(np.sqrt(square / least)))
+    return {link: np.array(values) for link, values in forces.items()}
+
+
+def _axes(tree: BodyTree, equation: PartEquation, at: int) -> dict[str, FloatArray]:
+    """Points of the axes of the bodies of a part at an instant, by the heaviest link of each; shape (k, 3); m."""
     axes = {}
     for index in equation.part.bodies:
-        body, pose = tree.bodies[index], equation.poses[index][0]
+        body, pose = tree.bodies[index], equation.poses[index][at]
         children = [k for k in equation.part.bodies if tree.bodies[k].parent == index]
-        ends = [equation.poses[k][0][:3, 3] for k in children]
+        ends = [equation.poses[k][at][:3, 3] for k in children]
         ends += [(pose @ tree.frames[link][1])[:3, 3] for link in body.links]
         if body.inertia.mass > 0.0:
             ends.append(pose[:3, :3] @ (body.inertia.first_moment / body.inertia.mass) + pose[:3, 3])

@@ -16,7 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Final, NamedTuple
+from itertools import pairwise
+from typing import Final
 
 import numpy as np
 
@@ -40,6 +41,8 @@ PAUSE_S: Final = 0.5
 """Pause in the readings after which the level begins anew; s."""
 WARM_UP_S: Final = 1.0
 """Time that the level takes at first; s."""
+TOGETHER: Final = 64
+"""Windows that are compared at once while nothing touches the robot."""
 UNMODELLED: Final = 0.02
 """Slow errors that no term explains, as a share of the load of the limb. A few seconds without contact do not show
 them; on the yoga log of an iCub they are 2 to 4 N of 40 N at most."""
@@ -55,10 +58,9 @@ class Signals:
 
     time_s: FloatArray
     """Middle of each window on the clock of the recording; shape (w,); s."""
-    residual: FloatArray
-    """Measured less expected wrench; shape (w, 6); N, N m."""
-    terms: FloatArray
-    """What errors of one standard deviation add to it, of the matrix and of the robot model; shape (w, 6, p)."""
+    columns: FloatArray
+    """Measured less expected wrench, then what errors of one standard deviation add to it, of the matrix and of the
+    robot model; shape (w, 6, 1 + p); N, N m."""
     of_model: tuple[str, ...]
     """Names of the terms of the robot model, which are the last ones."""
     of_load: FloatArray
@@ -78,7 +80,7 @@ class Signals:
         Returns:
             The others left out.
         """
-        return replace(self, time_s=self.time_s[marks], residual=self.residual[marks], terms=self.terms[marks])
+        return self if marks.all() else replace(self, time_s=self.time_s[marks], columns=self.columns[marks])
 
     def with_terms(self, names: Sequence[str]) -> Signals:
         """Order the terms of the robot model, and add those that another support has: here they move nothing.
@@ -89,16 +91,13 @@ class Signals:
         Returns:
             The same windows with these terms.
         """
-        of_matrix = self.terms.shape[2] - len(self.of_model)
-        terms = np.zeros((len(self), LOADS, of_matrix + len(names)))
-        terms[:, :, :of_matrix] = self.terms[:, :, :of_matrix]
-        terms[:, :, [of_matrix + names.index(name) for name in self.of_model]] = self.terms[:, :, of_matrix:]
-        return replace(self, terms=terms, of_model=tuple(names))
-
-    @property
-    def values(self) -> FloatArray:
-        """Residual and terms as columns; shape (w, 6 (1 + p))."""
-        return np.concatenate([self.residual[:, :, None], self.terms], axis=2).reshape(len(self), -1)
+        if tuple(names) == self.of_model:
+            return self
+        first = self.columns.shape[2] - len(self.of_model)
+        columns = np.zeros((len(self), LOADS, first + len(names)))
+        columns[:, :, :first] = self.columns[:, :, :first]
+        columns[:, :, [first + names.index(name) for name in self.of_model]] = self.columns[:, :, first:]
+        return replace(self, columns=columns, of_model=tuple(names))
 
     def starts(self) -> BoolArray:
         """Windows before which there is a pause, the first among them; shape (w,)."""
@@ -130,16 +129,18 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
     load = means[:, LOADS:]
     at_ns: IntArray = start_ns + np.round(time_s * 1e9).astype(np.int64)
     rates = np.gradient(load, time_s, axis=0) if len(time_s) > 1 else np.zeros_like(load)
-    terms, columns = derivatives_at(run, interval, "", at_ns, rates)
-    # a residual falls by what the expected wrench rises
-    of_model = -columns * np.array([term.deviation for term in terms])
-    known = np.isfinite(of_model).all(axis=(1, 2))
+    terms, derivatives = derivatives_at(run, interval, "", at_ns, rates)
+    known = np.isfinite(derivatives).all(axis=(1, 2))
     of_load = _of_load(run, correction.model.matrix)
-    of_matrix = np.einsum("wl,lkp->wkp", load, of_load)
+    columns = np.empty((int(np.count_nonzero(known)), LOADS, 1 + of_load.shape[2] + len(terms)))
+    columns[:, :, 0] = means[known, :LOADS]
+    of_matrix, of_model = np.split(columns[:, :, 1:], [of_load.shape[2]], axis=2)
+    of_matrix[:] = (load[known] @ of_load.reshape(LOADS, -1)).reshape(of_matrix.shape)
+    # a residual falls by what the expected wrench rises
+    np.multiply(derivatives[known], [-term.deviation for term in terms], out=of_model)
     return Signals(
         time_s=time_s[known],
-        residual=means[known, :LOADS],
-        terms=np.concatenate([of_matrix, of_model], axis=2)[known],
+        columns=columns,
         of_model=tuple(term.name for term in terms),
         of_load=of_load,
         unmodelled=np.repeat([UNMODELLED * _large(load[:, part]) for part in FORCE_AND_MOMENT], 3),
@@ -168,59 +169,61 @@ class Level:
         """Start before the first window.
 
         Args:
-            signals: The windows, of which `change` is asked in turn.
+            signals: The windows, of which `changes` is asked in turn.
         """
-        self._values, self._starts, self._time_s = signals.values, signals.starts(), signals.time_s
+        self._values, self._starts = signals.columns.reshape(len(signals), -1), signals.starts()
+        self._shape = signals.columns.shape[1:]
         self._level = np.zeros(self._values.shape[1])
         self._count = 0
 
-    def change(self, window: int, *, held: bool = False) -> tuple[FloatArray, bool]:
-        """Take a window against the level of those before it.
+    def changes(self, first: int, end: int, *, held: bool = False) -> tuple[FloatArray, BoolArray]:
+        """Take windows against the level of those before each.
 
         Args:
-            window: The next window.
-            held: Whether the level stays as it is, because something touches the robot.
+            first: The next window.
+            end: The window behind the last one.
+            held: Whether the level stays as it is once it is known, because something touches the robot.
 
         Returns:
-            Columns less their level, and whether the level is known; shape (6 (1 + p),).
+            Columns of the windows less their level, shape (w, 6, 1 + p), and whether the level is known; shape (w,).
         """
-        if self._starts[window]:
-            self._count = 0
-        values = self._values[window]
-        change, known = values - self._level, self._count * WINDOW_S >= WARM_UP_S
-        if not held or not known:
-            self._count += 1
-            # a new array: a copy of this object keeps the level that it was made with
-            self._level = self._level + max(WINDOW_S / LEVEL_S, 1.0 / self._count) * change
-        return change, known
+        # a level is the one before `first` and the windows since then, each with its weight
+        weights, known = np.zeros((end - first + 1, 1 + end - first)), np.zeros(end - first, dtype=np.bool_)
+        weights[0, 0] = 1.0
+        for k in range(end - first):
+            if self._starts[first + k]:
+                self._count = 0
+            known[k] = self._count * WINDOW_S >= WARM_UP_S
+            gain = 0.0
+            if not held or not known[k]:
+                self._count += 1
+                gain = max(WINDOW_S / LEVEL_S, 1.0 / self._count)
+            np.multiply(weights[k], 1.0 - gain, out=weights[k + 1])
+            weights[k + 1, 1 + k] = gain
+        values = self._values[first:end]
+        levels = weights @ np.vstack([self._level, values])
+        # a new array: a copy of this object keeps the level that it was made with
+        self._level = levels[-1].copy()
+        return (values - levels[:-1]).reshape(-1, *self._shape), known
 
     def restart(self) -> None:
         """Take the level anew from the next windows on."""
         self._count = 0
 
 
-class Changes(NamedTuple):
-    """What the windows with a known level change against those before them; w windows."""
-
-    residual: FloatArray
-    """Changes of the residual; shape (w, 6); N, N m."""
-    terms: FloatArray
-    """Changes of the terms; shape (w, 6, p)."""
-
-
-def changes_of(signals: Signals) -> Changes:
+def changes_of(signals: Signals) -> FloatArray:
     """Take all windows against the level of those before them.
 
     Args:
         signals: The windows.
 
     Returns:
-        Changes, without the windows that have no level yet.
+        Changes of their columns, without the windows that have no level yet; shape (w, 6, 1 + p).
     """
     level = Level(signals)
-    pairs = [level.change(window) for window in range(len(signals))]
-    columns = np.array([change for change, known in pairs if known]).reshape(-1, LOADS, 1 + signals.terms.shape[2])
-    return Changes(columns[:, :, 0], columns[:, :, 1:])
+    ends = [*range(TOGETHER, len(signals), TOGETHER), len(signals)]
+    changes = [level.changes(first, end) for first, end in pairwise([0, *ends])]
+    return np.concatenate([columns[known] for columns, known in changes])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -240,15 +243,16 @@ class FreeModel:
         """Give what changes cannot be explained by.
 
         Args:
-            change: Residual and terms of windows, less their level; shape (w, 6 (1 + p)).
+            change: Columns of windows, less their level; shape (w, 6, 1 + p).
 
         Returns:
             Unexplained wrenches, shape (w, 6), and their covariances if nothing touches the robot; shape (w, 6, 6);
             N, N m.
         """
-        columns = change.reshape(len(change), LOADS, change.shape[1] // LOADS)
-        terms = columns[:, :, 1:]
-        return columns[:, :, 0] - terms @ self.mean, self.noise + terms @ self.covariance @ terms.transpose(0, 2, 1)
+        terms = change[:, :, 1:]
+        # one product of two matrices for all windows, in place of one for each
+        spread = (change.reshape(-1, change.shape[2])[:, 1:] @ self.covariance).reshape(terms.shape)
+        return change[:, :, 0] - terms @ self.mean, self.noise + spread @ terms.transpose(0, 2, 1)
 
     def contact(self, excess: FloatArray, covariance: FloatArray, of_load: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Correct the reading of a contact by the errors of the matrix.
@@ -281,8 +285,8 @@ class FreeModel:
         Returns:
             The model; windows that are far from all others do not count.
         """
-        kept = np.ones(len(residual), dtype=bool)
         p = terms.shape[2]
+        squares, products = _normal_equations(residual, terms)
         mean, left = np.zeros(p), residual
         covariance: FloatArray = np.eye(p)
         correlation = 1.0
@@ -292,10 +296,10 @@ class FreeModel:
             kept = np.asarray(np.sqrt(((left / scale) ** 2).mean(axis=1)) < _FAR)
             correlation = _correlated(left[kept])
             noise = left[kept].T @ left[kept] / max(int(np.count_nonzero(kept)), 1) + np.diag(scale**2) * _TINY
-            weighed = terms[kept] / (correlation * np.diag(noise))[:, None]
-            information = np.eye(p) + np.tensordot(terms[kept], weighed, axes=((0, 1), (0, 1)))
-            covariance = np.asarray(np.linalg.inv(information))
-            mean = covariance @ np.tensordot(weighed, residual[kept], axes=((0, 1), (0, 1)))
+            far_squares, far_products = _normal_equations(residual[~kept], terms[~kept])
+            weights = 1.0 / (correlation * np.diag(noise))
+            covariance = np.asarray(np.linalg.inv(np.eye(p) + np.tensordot(weights, squares - far_squares, axes=1)))
+            mean = covariance @ (weights @ (products - far_products))
             left = residual - terms @ mean
         return cls(
             mean=mean,
@@ -303,6 +307,13 @@ class FreeModel:
             noise=noise + np.diag(unmodelled**2),
             correlation_s=correlation * WINDOW_S,
         )
+
+
+def _normal_equations(residual: FloatArray, terms: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Squares of the terms, shape (k, p, p), and their products with the residual, shape (k, p), of k components."""
+    of_components = terms.transpose(1, 2, 0)  # (k, p, w)
+    squares = np.array([one @ one.T for one in of_components])
+    return squares, (of_components @ residual.T[:, :, None])[:, :, 0]
 
 
 def _correlated(left: FloatArray) -> float:

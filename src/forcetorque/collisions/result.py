@@ -8,6 +8,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from forcetorque.locomotion.answers import event_texts
+from forcetorque.locomotion.standing.sole_limits import SoleEventRow
 from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import plus_minus
 from forcetorque.results.result import DrawnResult
@@ -76,6 +78,18 @@ class SensitivityRow(Row):
     """Time that was looked at, without that in which the level is found."""
 
 
+class LinkSensitivityRow(Row):
+    """What a sensor can notice on one link."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Sensor."""
+    link: Annotated[str, Shown("link")]
+    """Link beyond it."""
+    smallest_force_N: Annotated[float, Shown("noticed from", "N", digits=1)]
+    """Force on the axis of the link that a window of 50 ms notices with a probability of 95 %, whatever its direction
+    and its place on the axis; median over what was looked at."""
+
+
 class CollisionCurve(Row):
     """The force that a sensor reads too much over time, for the figure."""
 
@@ -100,6 +114,10 @@ class Collisions(DrawnResult):
     """Contacts of every sensor in the order of time."""
     sensitivity: tuple[SensitivityRow, ...]
     """A row for every sensor."""
+    by_link: tuple[LinkSensitivityRow, ...] = ()
+    """A row for every link beyond each sensor."""
+    sole_events: tuple[SoleEventRow, ...] = ()
+    """Times in which what presses on a sole beyond a sensor is not what the ground can do, or friction may not hold."""
     curves: tuple[CollisionCurve, ...] = Field(default=(), exclude=True, repr=False)
     """Forces over time, for the figure."""
 
@@ -113,13 +131,14 @@ class Collisions(DrawnResult):
             rows = [row for row in self.collisions if row.sensor == sensor.sensor]
             strongest = max(rows, key=lambda row: row.over_threshold, default=None)
             count = f"{len(rows)} CONTACT{'S' if len(rows) > 1 else ''}" if rows else "NO CONTACT"
+            soles = list(event_texts(self.sole_events))
             yield Answer(
                 subject=f"{sensor.sensor}, {self.experiment}",
                 verdict=f"{count} in {sensor.looked_at_s:.3g} s",
-                why=(*([_strongest(strongest)] if strongest is not None else []), _noticed(sensor)),
-                step="look at the log around it" if rows else "",
-                command=typed("view", FIRST_EXPERIMENT) if rows else "",
-                concern=Concern.UNCERTAIN if rows else Concern.NONE,
+                why=(*([_strongest(strongest)] if strongest is not None else []), *soles, _noticed(sensor)),
+                step="look at the log around it" if rows or soles else "",
+                command=typed("view", FIRST_EXPERIMENT) if rows or soles else "",
+                concern=Concern.UNCERTAIN if rows or soles else Concern.NONE,
             )
 
     def blocks(self) -> Iterator[Table | str]:
@@ -130,7 +149,11 @@ class Collisions(DrawnResult):
         """
         if self.collisions:
             yield table_of(self.collisions, "contacts that the file does not state; ±: half a 95 % interval")
+        if self.sole_events:
+            yield table_of(self.sole_events, "what the ground cannot do to a sole, and slips; ±: half a 95 % interval")
         yield table_of(self.sensitivity, "what is noticed")
+        if self.by_link:
+            yield table_of(self.by_link, "on which link, in its worst direction and place")
 
     def records(self) -> list[dict[str, object]]:
         """Give the contacts as flat lines.

@@ -11,7 +11,16 @@ import numpy as np
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.contests.ranking import ContestLoadRow
-from forcetorque.results.figures import ROW_INCHES, in_figure_style, legend_below, look, new_figure, shown_name
+from forcetorque.results.figures import (
+    ROW_INCHES,
+    headline,
+    in_figure_style,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+    two_digits,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,6 +59,10 @@ def contest_figure(rows: Sequence[ContestLoadRow]) -> Figure:
         panel.set_yscale("log")
     for panel in panels[1]:
         panel.set_xlabel("load, kg")
+    heaviest = max(row.load_kg for row in rows)
+    best = min((row for row in rows if row.load_kg == heaviest), key=lambda row: float(np.linalg.norm(row.rmse[:3])))
+    size = two_digits(float(np.linalg.norm(best.rmse[:3])))
+    headline(figure, f"Least force error under {heaviest:g} kg: {size} N, {shown_name(best.contestant)}")
     legend_below(
         figure,
         [(shown_name(name), look(k).key) for k, name in enumerate(names)],

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -23,13 +22,12 @@ from forcetorque.dataset.added_features import Added, AddedFeature, add_features
 from forcetorque.dataset.compensation_result import CompensatedDataset
 from forcetorque.dataset.episode_checks import equal_runs
 from forcetorque.dataset.force_fields import ForceField, OrientationField
-from forcetorque.dataset.frames import EpisodeBlocks, episode_frames, whole_numbers
+from forcetorque.dataset.frames import episode_frames, file_frames
 from forcetorque.dataset.resumable_folder import resumable_folder
 from forcetorque.dataset.tool_load import KnownLoad, Tool, ToolSamples, identified
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.formats.lerobot.dataset import INFO, Episode, LeRobotDataset, frame_batches
-from forcetorque.formats.lerobot.log_format import frame_numbers
+from forcetorque.formats.lerobot.dataset import INFO, Episode, LeRobotDataset
 from forcetorque.formats.signals import even_stamps
 from forcetorque.payload.identification.load_estimates import three
 from forcetorque.payload.result import LoadRow
@@ -253,7 +251,7 @@ def _values(
 ) -> dict[int, npt.NDArray[np.float32]]:
     """Wrench and standard deviation of the episodes of a file."""
     values: dict[int, npt.NDArray[np.float32]] = {}
-    for episode, frames in _file_frames(dataset, file, episodes, request.measurement.labels):
+    for episode, frames in file_frames(dataset, file, episodes, request.measurement.labels):
         place = f"{file}: episode {episode.index}"
         wrench, turned, gravity = _split(request.measurement, frames, place)
         left, covariance = tool.taken_off(wrench, gravity, dataset.fps)
@@ -270,16 +268,6 @@ def _values(
             )
         values[episode.index] = both.astype(np.float32)
     return values
-
-
-def _file_frames(
-    dataset: LeRobotDataset, file: Path, episodes: tuple[Episode, ...], labels: tuple[str, ...]
-) -> Iterator[tuple[Episode, FloatArray]]:
-    blocks = EpisodeBlocks(file, episodes)
-    for numbers, batch in frame_batches(dataset, file, labels):
-        columns = [frame_numbers(batch.column(k)) for k in range(1, 1 + len(labels))]
-        yield from blocks.add(whole_numbers(numbers), np.stack(columns, axis=1))
-    blocks.require_complete()
 
 
 def _into_frame(request: Request, tool: Tool, turned: FloatArray) -> FloatArray:

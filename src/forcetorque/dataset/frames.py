@@ -29,11 +29,31 @@ def episode_frames(dataset: LeRobotDataset, labels: tuple[str, ...]) -> Iterator
         FormatError: If a file is damaged, or has other frames than the list of episodes.
     """
     for file, episodes in dataset.files():
-        open_episodes = EpisodeBlocks(file, episodes)
-        for numbers, batch in frame_batches(dataset, file, labels):
-            columns = [frame_numbers(batch.column(k)) for k in range(1, 1 + len(labels))]
-            yield from open_episodes.add(whole_numbers(numbers), np.stack(columns, axis=1))
-        open_episodes.require_complete()
+        yield from file_frames(dataset, file, episodes, labels)
+
+
+def file_frames(
+    dataset: LeRobotDataset, file: Path, episodes: tuple[Episode, ...], labels: tuple[str, ...]
+) -> Iterator[tuple[Episode, FloatArray]]:
+    """Give the frames of the episodes of one file; as `episode_frames`.
+
+    Args:
+        dataset: The dataset.
+        file: One of its files.
+        episodes: The episodes of the file.
+        labels: Elements that are read.
+
+    Yields:
+        An episode and its frames; shape (n, k); NaN where a number is missing.
+
+    Raises:
+        FormatError: If the file is damaged, or has other frames than the list of episodes.
+    """
+    open_episodes = EpisodeBlocks(file, episodes)
+    for numbers, batch in frame_batches(dataset, file, labels):
+        columns = [frame_numbers(batch.column(k)) for k in range(1, 1 + len(labels))]
+        yield from open_episodes.add(whole_numbers(numbers), np.stack(columns, axis=1))
+    open_episodes.require_complete()
 
 
 def whole_numbers(column: Any) -> IntArray:

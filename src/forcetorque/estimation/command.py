@@ -64,7 +64,8 @@ def estimate(
         Path | None,
         typer.Option(
             "--figure",
-            help="PNG of joint torques over time, by source with --fuse; of several experiments one each, as -o.",
+            help="PNG, SVG or PDF of joint torques over time, by source with --fuse; of several experiments one each, "
+            "as -o.",
         ),
     ] = None,
     force: ForceOption = False,

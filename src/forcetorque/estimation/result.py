@@ -188,7 +188,7 @@ class EstimatedRecording(Row):
     skin: tuple[SkinContactSummary, ...] = ()
     """One per interval and contact on skin."""
     figure_file: str | None = Field(default=None, alias="figure")
-    """PNG of the figure of joint torques; null where none was written."""
+    """File of the figure of joint torques; null where none was written."""
 
     def tables(self) -> Iterator[Table | str]:
         """Give contacts, contacts on skin, sub-models and fused torques.

@@ -77,7 +77,7 @@ def evaluate(
     return errors.model_copy(update={"load_cases": use_verdicts(campaign, by_name)})
 
 
-@command()
+@command("every criterion as a share of its limit")
 def accept(
     run: Annotated["Runs", Option("Sensor in one recording or in several, whose errors are pooled.", "--sensor")],
     spec: Annotated[
@@ -122,7 +122,7 @@ def accept(
         return accept(run, limits, chosen, others=others, population=population)
 
 
-@command()
+@command("contact force and joint torques by calibration, with their intervals")
 def validate(
     run: Annotated[
         "Runs", Option("Sensor in one recording or in several; their validation intervals are evaluated.", "--sensor")

@@ -3,19 +3,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TypeVar
+from typing import Final, TypeVar
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import EstimationError, ExperimentError, RobotError, known_names
+from forcetorque.base.errors import EstimationError, ExperimentError, RecordingError, RobotError, known_names
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.long_recording import is_long, segment_runs
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.validation_offset import EvaluatedInstants, IntervalStart
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.contacts import Contact, ContactType
@@ -199,7 +202,7 @@ class SubModelChoice:
         run.sensor.require_six_components("a validation by contact forces and joint torques")
         measured = self.other_sensors is OtherSensors.MEASURED
         corrections = corrections_of(run.experiment, self.others or {}) if measured else {}
-        return FreeSubModel(run=run, choice=self, corrections=corrections)
+        return FreeSubModel(run=run, whole=run, choice=self, corrections=corrections)
 
     def in_campaign(self, campaign: Campaign, question: Callable[[FreeSubModel], Answer]) -> dict[str, Answer]:
         """Ask the sub-model of every recording that has validation intervals.
@@ -218,16 +221,65 @@ class SubModelChoice:
         return answers
 
 
+BEYOND_SENSOR: Final = SubModelChoice()
+"""The sub-model outboard of the sensor, other sensors as the model expects."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FreeSubModel:
     """A sub-model that the evaluated sensor bounds and that nothing touches, whatever supports the robot."""
 
     run: SensorRun
-    """The evaluated sensor."""
+    """The evaluated sensor, in a recording or in a segment of one."""
+    whole: SensorRun
+    """The same in the whole recording."""
     choice: SubModelChoice
     """Which sub-model it is, and where its contact."""
     corrections: Mapping[str, Correction]
     """How the sensors are read, by name; empty where the others read what the model expects."""
+    starts: dict[str, IntervalStart] = field(default_factory=dict)
+    """Starts of the intervals that were looked at, by label."""
+
+    def segments(self) -> Iterator[FreeSubModel]:
+        """Give the same in one segment of a long recording after the other.
+
+        Yields:
+            Those with a part of a validation interval, not to be kept; that recording where it is not long.
+
+        Raises:
+            RecordingError: If an interval has no sample.
+        """
+        if not is_long(self.whole):
+            yield replace(self, starts={})
+            return
+        starts: dict[str, IntervalStart] = {}
+        for run in segment_runs(self.whole):
+            if run.has(Use.VALIDATION):
+                yield replace(self, run=run, starts=starts)
+            del run
+        for interval in self.whole.intervals(Use.VALIDATION):
+            if interval.label not in starts:
+                self.whole.instants(interval)  # says what it lacks
+
+    def instants(self) -> Iterator[tuple[Interval, EvaluatedInstants]]:
+        """Give the instants at which the sensor is evaluated.
+
+        Yields:
+            Every validation interval, or the part of one that lies in the segment, with its instants.
+
+        Raises:
+            RecordingError: If an interval of a recording that is no segment has no sample.
+        """
+        for interval in self.run.intervals(Use.VALIDATION):
+            with stated_in(f"interval {interval.label!r}"):
+                try:
+                    own = self.run.instants(interval)
+                except RecordingError:
+                    if self.run is self.whole:
+                        raise
+                    continue  # the log has a gap there
+                start = IntervalStart(stamp_ns=int(own.at_ns[own.samples.inside][0]))
+                yield interval, replace(own, start=self.starts.setdefault(interval.label, start))
 
     def seen_from_support(self, interval: Interval) -> ContactForceValidation:
         """Find the sub-model in an interval.

@@ -49,6 +49,19 @@ def recorded_segments(
     return segments_of(experiment.recording, length_s=longest_s, margin_s=max(_LEAST_MARGIN_S, _WINDOWS * max(windows)))
 
 
+def segment_experiments(experiment: Experiment) -> tuple[Experiment, ...]:
+    """Give an experiment in the segments of its recording.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        The experiment in every segment; none where the recording is not long.
+    """
+    segments = recorded_segments(experiment)
+    return tuple(replace(experiment, recording=one.recording) for one in segments) if len(segments) > 1 else ()
+
+
 def is_long(run: SensorRun) -> bool:
     """Tell whether a recording is reduced segment by segment.
 

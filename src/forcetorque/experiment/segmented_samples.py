@@ -214,5 +214,13 @@ class IntervalParts:
             RecordingError: The first reason.
         """
         for interval in self._run.intervals(self._use):
-            if (label := interval.label) not in self._seen:
-                raise self._errors.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")
+            if (label := interval.label) in self._seen:
+                continue
+            error = self._errors.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")
+            lost = [dropped for dropped, _ in self.lost.get(label, ())]
+            if len(lost) > 1:
+                raise RecordingError(
+                    f"interval {label!r}: none of {sum(lost)} samples can be used; in the first of its "
+                    f"{len(lost)} segments: {error}"
+                )
+            raise error

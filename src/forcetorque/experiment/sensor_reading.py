@@ -202,17 +202,17 @@ class Readings:
             raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
         return cls(logged=logged, raw=recover_raw(logged, sensor.prior), variables=variables)
 
-    def at(self, chosen: BoolArray) -> Self:
+    def at(self, chosen: BoolArray | slice) -> Self:
         """Pick some instants.
 
         Args:
-            chosen: Which; shape (n,).
+            chosen: Which; shape (n,), or a range.
 
         Returns:
-            The readings there.
+            Copies of the readings there.
         """
-        variables = {name: values[chosen] for name, values in self.variables.items()}
-        return replace(self, logged=self.logged[chosen], raw=self.raw[chosen], variables=variables)
+        variables = {name: np.array(values[chosen]) for name, values in self.variables.items()}
+        return replace(self, logged=np.array(self.logged[chosen]), raw=np.array(self.raw[chosen]), variables=variables)
 
     def blocks(self) -> Iterator[Self]:
         """Give the readings block by block.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, Final, Self
@@ -178,11 +178,23 @@ class ValidationSet(ArrayRecord):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class IntervalStart:
+    """The first sample of an interval, and the offsets that its first second gives."""
+
+    stamp_ns: int
+    """Its stamp."""
+    offsets: dict[Hashable, FloatArray] = field(default_factory=dict)
+    """Offsets by what errs; shape (k,) each; filled by the first part of the interval."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class EvaluatedInstants:
     """Instants of one interval: filters, and tells its first second from what is evaluated."""
 
     samples: PaddedSamples
     """Instants of the interval, with those around it that the filter of all that is evaluated takes."""
+    start: IntervalStart | None = None
+    """Start of an interval whose parts are looked at one after the other; that of these samples if None."""
 
     @property
     def at_ns(self) -> IntArray:
@@ -193,26 +205,28 @@ class EvaluatedInstants:
     def first(self) -> BoolArray:
         """Samples of the first second of the interval, which give an offset and are not evaluated; shape (m,)."""
         stamps = self.at_ns[self.samples.inside]
-        return stamps < stamps[0] + round(OFFSET_S * 1e9)
+        start_ns = stamps[0] if self.start is None else self.start.stamp_ns
+        return np.asarray(stamps < start_ns + round(OFFSET_S * 1e9))
 
     @property
     def judged_ns(self) -> IntArray:
         """Instants of the later samples, which are evaluated; shape (m,); ns."""
         return self.at_ns[self.samples.inside][~self.first]
 
-    def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
+    def with_offset(self, error: FloatArray, source: Offset, of: Hashable) -> FloatArray:
         """Take off the mean error of the first second where the offset is to come from there.
 
         Args:
             error: Errors, not filtered; shape (n, k); NaN in gaps.
             source: Which offset is wanted.
+            of: What errs; alike in all parts of an interval.
 
         Returns:
             Errors, not filtered; all NaN where every sample of the first second has a gap: the offset is not known.
         """
         if source is Offset.FITTED:
             return error
-        return error + self._offset(self.samples.smoothed(error))
+        return error + self._offset(self.samples.smoothed(error), of)
 
     def judged(self, error: FloatArray) -> FloatArray:
         """Filter errors as readings and references are elsewhere, and leave out the first second.
@@ -225,21 +239,26 @@ class EvaluatedInstants:
         """
         return self.samples.smoothed(error)[~self.first]
 
-    def judged_with_both(self, error: FloatArray) -> dict[Offset, FloatArray]:
+    def judged_with_both(self, error: FloatArray, of: Hashable) -> dict[Offset, FloatArray]:
         """Give what is evaluated with either offset.
 
         Args:
             error: Errors with the fitted offset, not filtered; shape (n, k).
+            of: As of `with_offset`.
 
         Returns:
             Filtered errors of the later samples by offset; shape (m, k).
         """
         filtered = self.samples.smoothed(error)
         later = filtered[~self.first]
-        return {Offset.FITTED: later, Offset.FIRST_SECOND: later + self._offset(filtered)}
+        return {Offset.FITTED: later, Offset.FIRST_SECOND: later + self._offset(filtered, of)}
 
-    def _offset(self, filtered: FloatArray) -> FloatArray:
-        return mean_offset(-filtered[self.first])
+    def _offset(self, filtered: FloatArray, of: Hashable) -> FloatArray:
+        if self.start is None:
+            return mean_offset(-filtered[self.first])
+        if of not in self.start.offsets:
+            self.start.offsets[of] = mean_offset(-filtered[self.first])
+        return self.start.offsets[of]
 
 
 def nothing_left(instants: EvaluatedInstants, interval: Interval) -> str | None:
@@ -253,23 +272,34 @@ def nothing_left(instants: EvaluatedInstants, interval: Interval) -> str | None:
     return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be evaluated"
 
 
-def gap_words(what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> str | None:
-    """Tell whether gaps leave nothing to evaluate in an interval, with either offset or with that of the first second.
+class EvaluatedGaps:
+    """Whether gaps leave nothing to evaluate in intervals, with either offset."""
 
-    Args:
-        what: What is evaluated, in words.
-        interval: The interval.
-        judged: Errors with either offset; shape (m,) or (m, k); a sample with a NaN is not evaluated.
+    def __init__(self) -> None:
+        """Begin."""
+        self._known: dict[tuple[str, str], dict[Offset, bool]] = {}
 
-    Returns:
-        What is left out, in words; None where both can be evaluated.
-    """
-    unknown = [
-        offset for offset, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()
-    ]
-    if Offset.FITTED in unknown:
-        return f"{what} over {interval.label!r}: every evaluated sample has a gap"
-    if unknown:
-        offset = Offset.FIRST_SECOND.value
-        return f"{what} over {interval.label!r}, offset {offset}: every sample of its first second has a gap"
-    return None
+    def add(self, what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> None:
+        """Look at an interval, or the next part of one.
+
+        Args:
+            what: What is evaluated, in words.
+            interval: The interval.
+            judged: Errors with either offset; shape (m,) or (m, k); a sample with a NaN is not evaluated.
+        """
+        known = self._known.setdefault((what, interval.label), dict.fromkeys(judged, False))
+        for offset, errors in judged.items():
+            known[offset] |= not np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()
+
+    def words(self) -> Iterator[str]:
+        """Say what gaps leave out.
+
+        Yields:
+            Sentences; none of what can be evaluated with both offsets.
+        """
+        for (what, label), known in self._known.items():
+            if not known.get(Offset.FITTED, True):
+                yield f"{what} over {label!r}: every evaluated sample has a gap"
+            elif not all(known.values()):
+                offset = Offset.FIRST_SECOND.value
+                yield f"{what} over {label!r}, offset {offset}: every sample of its first second has a gap"

@@ -150,14 +150,19 @@ def needs_samples(dataset: Dataset, sensors: Sequence[str] = ()) -> str:
     Returns:
         The text, with the experiment files of the last recordings.
     """
-    files = [file for sensor in sensors for file in dataset.of_sensor(sensor)] or list(dataset.files)
-    rows = sorted(dataset.rows(files, ["start_ns", "file"]), key=lambda row: (row["start_ns"], row["file"]))
-    names = list(dict.fromkeys(row["file"] for row in reversed(rows)))
+    names = list(dict.fromkeys(reversed(_files_in_time(dataset, sensors))))
     more = f" and {len(names) - _MOST_LOGS} more" if len(names) > _MOST_LOGS else ""
     return (
         f"needs samples, which a dataset does not keep; name experiment files in place of {dataset.folder}: "
         f"{', '.join(names[:_MOST_LOGS])}{more}"
     )
+
+
+def _files_in_time(dataset: Dataset, sensors: Sequence[str]) -> list[str]:
+    """Files of the recordings of sensors, or of all, as they were recorded."""
+    chosen = [file for sensor in sensors for file in dataset.of_sensor(sensor)] or list(dataset.files)
+    rows = sorted(dataset.rows(chosen, ["start_ns", "file"]), key=lambda row: (row["start_ns"], row["file"]))
+    return [row["file"] for row in rows]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -185,9 +190,7 @@ class DatasetLogs:
             ExperimentError: If a recording is a log to which an experiment file was applied.
             MissingFileError: If a file is not there any more.
         """
-        chosen = [file for sensor in sensors for file in dataset.of_sensor(sensor)] or list(dataset.files)
-        rows = sorted(dataset.rows(chosen, ["start_ns", "file"]), key=lambda row: (row["start_ns"], row["file"]))
-        files = tuple(dict.fromkeys(row["file"] for row in rows))
+        files = tuple(dict.fromkeys(_files_in_time(dataset, sensors)))
         why = f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected"
         for file in files:
             if not file.lower().endswith(".toml"):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TypeVar, cast
@@ -29,8 +29,8 @@ from forcetorque.recording.recording import Finding, Interval, MovingSupport, Re
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.faults import TaxelFault
-from forcetorque.skin.taxels.recording import PatchRecording, patch_recordings
+from forcetorque.skin.taxels.faults import TaxelFault, taxel_faults
+from forcetorque.skin.taxels.recording import patch_recordings
 
 _Found = TypeVar("_Found")
 
@@ -379,7 +379,7 @@ def inspect_patches(experiment: PatchExperiment) -> tuple[Finding, ...]:
     """Find faults of a recording of skin, and of its taxels.
 
     Returns:
-        Findings of the streams, then of the taxels in every interval with a pressure.
+        Findings of the streams, then of the taxels.
     """
     return (*inspect_recording(experiment.recording), *taxel_findings(experiment))
 
@@ -388,36 +388,57 @@ def taxel_findings(experiment: PatchExperiment) -> tuple[Finding, ...]:
     """Find faults of the taxels of an experiment.
 
     Returns:
-        Findings of every interval with a pressure.
+        Findings of every interval with a pressure; of a patch without one, of the whole log, those that need none.
     """
     return tuple(finding for patch in experiment.patches for finding in _of_patch(experiment, patch))
 
 
 def _of_patch(experiment: PatchExperiment, patch: ExperimentPatch) -> Iterator[Finding]:
-    if patch.pressure is None:
-        return
     start = experiment.recording.start_ns
+    if patch.pressure is None:
+        yield from _without_pressure(experiment, patch)
+        return
     try:
         recordings = patch_recordings(experiment, patch)
     except ForceTorqueError as error:
         yield Finding(stream=patch.counts, kind="not_compared", message=f"no look at the taxels: {error}", count=0)
         return
     for recording in recordings:
-        for fault in TaxelFault:
-            yield from _with(patch, recording, fault, start)
+        span = (start + round(1e9 * float(recording.seconds[at])) for at in (0, -1))
+        yield from _with_faults(patch, repr(recording.label), recording.faults, TaxelFault, *span)
 
 
-def _with(patch: ExperimentPatch, recording: PatchRecording, fault: TaxelFault, start: int) -> Iterator[Finding]:
-    columns = [int(patch.taxels[k]) for k, reasons in enumerate(recording.faults) if fault in reasons]
-    if columns:
-        named = ", ".join(map(str, columns[:_NAMED])) + (", ..." if len(columns) > _NAMED else "")
+def _without_pressure(experiment: PatchExperiment, patch: ExperimentPatch) -> Iterator[Finding]:
+    """What no pressure explains: a contact may be sudden, and most taxels are not touched."""
+    stream = experiment.recording.stream(patch.counts)
+    counts = stream.signal("taxel_counts").values[:, patch.taxels]
+    whole = np.isfinite(counts).all(axis=1)
+    if np.count_nonzero(whole) > 1:
+        faults = taxel_faults(counts[whole], np.full(counts.shape[1], np.inf))
+        span = (int(stream.stamp_ns[whole][at]) for at in (0, -1))
+        yield from _with_faults(patch, "the log", faults, (TaxelFault.WRAPS, TaxelFault.RAILS), *span)
+
+
+def _with_faults(
+    patch: ExperimentPatch,
+    label: str,
+    faults: Sequence[Sequence[TaxelFault]],
+    named: Iterable[TaxelFault],
+    start_ns: int,
+    end_ns: int,
+) -> Iterator[Finding]:
+    for fault in named:
+        columns = [int(patch.taxels[k]) for k, reasons in enumerate(faults) if fault in reasons]
+        if not columns:
+            continue
+        names = ", ".join(map(str, columns[:_NAMED])) + (", ..." if len(columns) > _NAMED else "")
         yield Finding(
             stream=patch.counts,
             kind=f"taxel_{fault.name.lower()}",
-            message=f"{patch.name}: {len(columns)} of {len(patch.taxels)} taxels in {recording.label!r}: {named}",
+            message=f"{patch.name}: {fault.value}: {len(columns)} of {len(patch.taxels)} taxels in {label}: {names}",
             count=len(columns),
-            start_ns=start + round(1e9 * float(recording.seconds[0])),
-            end_ns=start + round(1e9 * float(recording.seconds[-1])),
+            start_ns=start_ns,
+            end_ns=end_ns,
             size=float(len(columns)),
             unit="taxels",
         )

@@ -15,12 +15,19 @@ if TYPE_CHECKING:
     from forcetorque.locomotion.motion_quality import Motion, OscillationRow
     from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary
     from forcetorque.locomotion.standing.result import SupportPhaseRow
+    from forcetorque.locomotion.standing.sole_limits import SoleEventRow
     from forcetorque.locomotion.standing.standing import Balance
     from forcetorque.locomotion.torque_control.causes import CauseRow, OscillationCauses
     from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
 
 _NAMED = 3
 """Phases or phenomena that are named; tables have all."""
+_EVENTS = {
+    "slip": "slips, or holds more than its friction",
+    "slip_risk": "may slip",
+    "outside": "pressed outside its outline, which the ground cannot do",
+    "pulls": "pulled, which the ground cannot do",
+}
 
 
 def balance_answer(balance: Balance) -> Answer:
@@ -39,7 +46,7 @@ def balance_answer(balance: Balance) -> Answer:
     return Answer(
         subject=f"{', '.join(balance.experiments)}{weight}",
         verdict=f"DOWN: {shares} of {whole:.3g} s" if phases else "NO FOOT IS DOWN",
-        why=(*([_net_force(phases[0])] if phases else []), *_pressure(balance)),
+        why=(*([_net_force(phases[0])] if phases else []), *_pressure(balance), *event_texts(balance.events)),
         concern=Concern.UNCERTAIN if balance.refused or not phases else Concern.NONE,
     )
 
@@ -60,6 +67,31 @@ def _pressure(balance: Balance) -> Iterator[str]:
             yield f"centre of pressure in {row.interval}: (x, y) = {centre} on {row.frame}"
             return
     yield from balance.refused[:1]
+
+
+def event_texts(events: Sequence[SoleEventRow]) -> Iterator[str]:
+    """Name the longest time of each kind in which a sole bears what the ground cannot do, or may slip.
+
+    Args:
+        events: The events.
+
+    Yields:
+        One line per kind.
+    """
+    for kind, text in _EVENTS.items():
+        rows = [row for row in events if row.kind == kind]
+        if rows:
+            row = max(rows, key=lambda row: row.end_s - row.start_s)
+            more = f", and {len(rows) - 1} more" if len(rows) > 1 else ""
+            yield f"{text}: {row.sole} from {row.start_s:.2f} to {row.end_s:.2f} s{_size(row)}{more}"
+
+
+def _size(row: SoleEventRow) -> str:
+    if row.beyond_mm is not None:
+        return f", by {plus_minus(row.beyond_mm, row.beyond_half_width_95_mm, 'mm')}"
+    if row.used_percent is not None:
+        return f", {plus_minus(row.used_percent, row.used_half_width_95_percent, '%')} of its friction"
+    return f", {amount(row.normal_N, 'N')}"
 
 
 def coherence_answers(coherence: Coherence) -> Iterator[Answer]:

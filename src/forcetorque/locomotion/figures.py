@@ -31,6 +31,7 @@ from forcetorque.results.figures import (
     new_figure,
     shown_name,
     thinned_line,
+    two_digits,
 )
 from forcetorque.results.table import short_names
 
@@ -183,6 +184,13 @@ def coherence_figure(result: Coherence) -> Figure:
     if not all(row.evidence for row in result.rows):
         hollow = {"color": MUTED, "marker": "o", "markerfacecolor": PAPER, "linestyle": "none"}
         keys.append(("not evidence: the phase gave offset or matrix", hollow))
+    worst = max(result.rows, key=lambda row: (row.evidence, float(np.linalg.norm(row.force_error_N))))
+    size = two_digits(float(np.linalg.norm(worst.force_error_N)))
+    headline(
+        figure,
+        f"Net force off the weight: mean of up to {size} N, {shown_name(worst.phase)} by "
+        f"{shown_name(names[worst.calibration])}",
+    )
     legend_below(figure, keys)
     return figure
 

@@ -30,6 +30,10 @@ class SoleTable(Table):
     """A point of the sole's plane in the frame, from which points on the sole count; its origin if left out."""
     outline_m: Annotated[FloatArray, ArrayField((None, 2))] | None = None
     """Corners x, y of the sole from that point; without them nothing shows whether a point lies outside."""
+    friction: float | None = None
+    """Force along the ground over the normal force up to which the sole holds; without it no slip is looked for."""
+    torsional_friction_m: float | None = None
+    """Torsion about the normal over the normal force up to which it holds; m."""
     stream: Text | None = None
     """Stream with the `vertical_force` of the ground on it, where no sensor of the foot was logged."""
 
@@ -80,7 +84,13 @@ def read_soles(
             if entry.stream is not None:
                 recording.stream(entry.stream).signal("vertical_force")
             position = np.zeros(3) if entry.position_m is None else entry.position_m
-            sole = Sole(frame=entry.frame, position=position, outline=entry.outline_m)
+            sole = Sole(
+                frame=entry.frame,
+                position=position,
+                outline=entry.outline_m,
+                friction=entry.friction,
+                torsional_friction_m=entry.torsional_friction_m,
+            )
         soles.append(ExperimentSole(sole=sole, stream=entry.stream))
     return tuple(soles)
 

@@ -23,6 +23,8 @@ from forcetorque.results.terminal.options import (
 )
 from forcetorque.results.terminal.output import (
     Format,
+    drawn_to,
+    refuse_figure,
     refuse_two_on_standard_output,
     show,
     show_warnings,
@@ -133,6 +135,9 @@ def payload(
         Path | None,
         typer.Option("--save-experiment", help="Experiment file to write of a log; - for standard output."),
     ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG, SVG or PDF of mass and centre of mass with their intervals.")
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -171,6 +176,7 @@ def payload(
     log = start_logging()
     _declare_experiment_file(experiments, save_experiment, output, output_format, force=force)
     refuse_load_file(output, to, output_format, override, force=force)
+    refuse_figure(figure, force=force)
     refuse_a_file_twice(experiments)
     specified = specified_keys(recording or ())
     logs = [path for path in experiments if not is_experiment_file(path)]
@@ -203,6 +209,8 @@ def payload(
                 robot = held.robot_load(override=override)
             write_load(robot, output, to, world_frame=None, sensor_pose=None, log=log)
             held = held.model_copy(update={"robot_file": str(output)})
+        if figure is not None:
+            held = drawn_to(held, figure)
         if output == STANDARD_OUTPUT:
             show_warnings(held)
         else:
@@ -216,6 +224,8 @@ def payload(
             log.info("the bias is that of %r, the last power-up; tare before use", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
             load = load.model_copy(update={"robot_file": str(output)})
+        if figure is not None:
+            load = drawn_to(load, figure)
     if STANDARD_OUTPUT in (output, save_experiment):  # the file itself went there
         show_warnings(load)
     else:

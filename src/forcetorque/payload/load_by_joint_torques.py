@@ -25,7 +25,7 @@ from forcetorque.payload.load_warnings import overruled, torque_doubt
 from forcetorque.payload.result import ArmLog, LoadRow, load_words
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.results.number_text import plus_minus
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
 
 _SAME_RAD = 0.02
@@ -60,8 +60,11 @@ class JointTorqueRow(Row):
     """Root mean square of what load and bias leave."""
 
 
-class TorqueLoad(Result):
+class TorqueLoad(DrawnResult):
     """What an arm holds beyond its flange, by its joint torques."""
+
+    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
 
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:torque_answers"
     of_several: ClassVar[tuple[str, ...]] = ("arms",)
@@ -84,6 +87,11 @@ class TorqueLoad(Result):
     """The logs."""
     robot_file: str | None = Field(default=None, exclude=True, repr=False)
     """File for a robot that was written; None for none."""
+
+    @property
+    def loads(self) -> tuple[LoadRow, ...]:
+        """The load, as of a sensor there may be several."""
+        return (self.load,)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the load, then the joints.

@@ -27,7 +27,7 @@ from forcetorque.payload.identification.load_estimates import (
 )
 from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
 from forcetorque.results.number_text import finite_or_none, plus_minus, with_error
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
 _ROUNDING = 1e-12
@@ -349,8 +349,11 @@ def gravity_words(gravity: float) -> str:
     return f"gravity {gravity:.6g} m/s2, whose relative error is that of the mass"
 
 
-class WeighedLoad(Result):
+class WeighedLoad(DrawnResult):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
+
+    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("loads", "recordings")
 
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:payload_answers"
 

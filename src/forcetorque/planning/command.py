@@ -59,7 +59,7 @@ def plan(
     ] = None,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", help="PNG of the predicted errors before and after each recording."),
+        typer.Option("--figure", help="PNG, SVG or PDF of the predicted errors before and after each recording."),
     ] = None,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -83,21 +83,19 @@ def plan(
     )
 
     log = start_logging()
+    refuse_figure(figure)
     if jointly:
         alone = {"-c": calibration, "--load-case": load_case, "--sensor": sensor, "--clearance-deg": clearance_deg}
-        refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output, "--figure": figure})
+        refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output})
         contents = list(read_experiments(experiments, log).values())
-        show(
-            plan_jointly(contents, recordings=recordings, progress=log.info),
-            output_format,
-            details=details,
-            experiments=experiments,
-        )
+        ordered = plan_jointly(contents, recordings=recordings, progress=log.info)
+        if figure is not None:
+            ordered = drawn_to(ordered, figure)
+        show(ordered, output_format, details=details, experiments=experiments)
         return
     refuse_standard_output("--output", output)
     if output is not None:
         refuse_full_folder(output, where="--output ")
-    refuse_figure(figure)
     known = None if calibration is None else one_calibration(calibration, sensor)
     contents = planned_experiments(experiments, log)
     name = planned_sensor(contents[0], sensor, known)

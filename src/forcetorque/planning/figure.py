@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of a plan: the predicted error at the loads of use, before and after each recording."""
+"""Figures of plans: the predicted error at the loads of use, before and after each recording."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from forcetorque.base.errors import ShapeError
 from forcetorque.results.figures import (
     LIMIT_LINE,
     ROW_INCHES,
@@ -22,6 +23,7 @@ from forcetorque.results.number_text import amount
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from forcetorque.planning.joint_calibration_plan import JointPlan, SensorForecast
     from forcetorque.planning.planning import Plan
 
 
@@ -64,4 +66,48 @@ def plan_figure(plan: Plan) -> Figure:
     )
     limit = [("allowed", LIMIT_LINE)] if np.isfinite(limits).any() else []
     legend_below(figure, [("typical; line: at most, with 95 %; below: held at, tool", style.key), *limit])
+    return figure
+
+
+@in_figure_style
+def joint_plan_figure(plan: JointPlan) -> Figure:
+    """Draw what a plan for several sensors at once expects.
+
+    Returns:
+        The figure: force errors beside moment errors over what is allowed, of every sensor at its loads of use, by the
+        prior matrices and after each recording.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If no step is planned.
+    """
+    if not plan.steps:
+        raise ShapeError("steps: expected at least one recording to draw, got none")
+    cases: dict[tuple[str, str], list[SensorForecast]] = {}
+    for row in plan.sensors:
+        cases.setdefault((row.sensor, row.load_case), []).append(row)
+    figure, count = new_figure(ROW_INCHES[1]), len(plan.steps)
+    forces, moments = figure.subplots(1, 2)
+    keys = []
+    for k, ((sensor, case), rows) in enumerate(cases.items()):
+        style, steps = look(k), [0, *(row.step for row in rows)]
+        first = rows[0]
+        for panel, before, after, allowed in (
+            (forces, first.force_before_N, [row.force_after_N for row in rows], first.force_allowed_N),
+            (moments, first.moment_before_Nm, [row.moment_after_Nm for row in rows], first.moment_allowed_Nm),
+        ):
+            if np.isfinite(allowed):
+                panel.plot(steps, np.array([before, *after]) / allowed, markersize=6.0, linewidth=1.2, **style.key)
+        keys.append((shown_name(f"{sensor}: {case}"), style.key))
+    for panel, quantity in ((forces, "force"), (moments, "moment")):
+        panel.axhline(1.0, **LIMIT_LINE)
+        panel.set_ylabel(f"predicted {quantity} error over what is allowed")
+        panel.set_ylim(bottom=0.0)
+        panel.set_xticks(range(count + 1), ["prior", *(shown_name(row.recording) for row in plan.steps)])
+    headline(
+        figure,
+        f"errors over what is allowed, mean of {len(cases)} load cases: {plan.steps[0].excess_before:.2g} by the "
+        f"priors, {plan.steps[-1].excess_after:.2g} after {count} recording{'s' if count > 1 else ''}",
+    )
+    legend_below(figure, [*keys, ("allowed", LIMIT_LINE)])
     return figure

@@ -19,7 +19,7 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.planning.search import HELPS
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 
 
@@ -79,8 +79,10 @@ _PROVISIONAL = "planned"
 """What stands for version and date in calibrations that are compared and thrown away."""
 
 
-class JointPlan(Result):
+class JointPlan(DrawnResult):
     """Recordings, the most useful first, and what every sensor is expected to err by after each."""
+
+    drawn_by: ClassVar[str] = "forcetorque.planning.figure:joint_plan_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.planning.answers:joint_plan_answer"
 

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.results.figures import (
     COLOURS,
     REFERENCE_COLOUR,
+    headline,
     in_figure_style,
     legend_below,
     new_figure,
@@ -55,6 +56,10 @@ def centre_error_figure(picture: PlatePicture) -> Figure:
         panel.set_title(f"{name}: up to {two_digits(largest)} mm, drawn {two_digits(scale)} times as long")
         panel.set_xlabel("x of the plate, mm")
         panel.set_ylabel("y of the plate, mm")
+    before, after = (
+        two_digits(float(np.linalg.norm(errors, axis=1).max())) for errors in (picture.before_mm, picture.after_mm)
+    )
+    headline(figure, f"Error of the centre of pressure: up to {before} mm as measured, {after} mm calibrated")
     words = [f"centre of pressure {name}" for name in kinds]
     keys = [("load", _LOAD), *zip(words, styles, strict=True)]
     legend_below(figure, [(shown_name(name), style) for name, style in keys])

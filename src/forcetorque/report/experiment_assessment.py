@@ -26,8 +26,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.findings import inspect_experiment
-from forcetorque.inspection.inspect import FindingRow, finding_rows
+from forcetorque.inspection.inspect import FindingRow, finding_rows, inspect_segments
 from forcetorque.recording.recording import Use
 from forcetorque.report.assessment import (
     Assessment,
@@ -192,7 +191,7 @@ def assess_experiment(
         duration_s=(end - start) * 1e-9,
         streams=stream_overviews(experiment.recording),
         intervals=interval_overviews(experiment.recording),
-        findings=finding_rows(start, with_collisions(inspect_experiment(experiment), experiment, first)),
+        findings=finding_rows(start, with_collisions(inspect_segments(experiment), experiment, first)),
         sensors=tuple(sensors),
         sub_models=tuple(map(SubModelRow.of, residuals)),
         part_residuals=tuple(residuals),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all figures share: size, letters, palette, curves that are checked and thinned, and the way to PNG."""
+"""What all figures share: size, letters, palette, curves that are checked and thinned, and the way to a file."""
 
 from __future__ import annotations
 
@@ -303,6 +303,30 @@ def png_bytes(figure: Figure) -> bytes:
     # `savefig` would go through everything twice, the first time for the layout alone
     FigureCanvasAgg(figure).print_png(png)  # type: ignore[no-untyped-call]
     return png.getvalue()
+
+
+FIGURE_ENDINGS = (".png", ".svg", ".pdf")
+"""How files of figures may end."""
+
+
+def figure_bytes(figure: Figure, ending: str) -> bytes:
+    """Draw a figure for a file.
+
+    Args:
+        figure: The figure.
+        ending: One of `FIGURE_ENDINGS`.
+
+    Returns:
+        The same bytes of the same figure, whenever it is drawn; lines and letters of SVG and PDF can be enlarged.
+    """
+    if ending == ".png":
+        return png_bytes(figure)
+    from matplotlib import rc_context
+
+    drawn, undated = io.BytesIO(), {".svg": "Date", ".pdf": "CreationDate"}[ending]
+    with rc_context({"svg.hashsalt": "forcetorque"}):
+        figure.savefig(drawn, format=ending[1:], metadata={undated: None})
+    return drawn.getvalue()
 
 
 def drawable(values: Any, *, name: str, shape: tuple[int | None, ...]) -> FloatArray:

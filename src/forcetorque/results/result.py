@@ -271,7 +271,7 @@ class Result(Row):
 
 
 class DrawnResult(Result):
-    """Result with a figure, which `--figure` of its command writes as a PNG."""
+    """Result with a figure, which `--figure` of its command writes as PNG, SVG or PDF."""
 
     drawn_by: ClassVar[str]
     """Function that draws it, as `module:name`; classes with a `figure` of their own have none."""
@@ -279,7 +279,7 @@ class DrawnResult(Result):
     """Fields or properties that this function takes; the result itself if there are none."""
 
     figure_file: str | None = Field(default=None, alias="figure")
-    """PNG of the figure; null where none was written."""
+    """File of the figure; null where none was written."""
 
     def figure(self) -> Figure:
         """Draw the result.

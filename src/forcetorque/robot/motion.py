@@ -406,7 +406,8 @@ def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[_
             if source == "position":
                 hint = ""
                 still = (
-                    "; if it stood still all along, specify where in fixed of [robot], among arrays repeat its position"
+                    "; if it stood still all along, specify where in fixed of [robot], among arrays repeat its "
+                    "position; else take a sensor, or a support, beyond which it does not lie"
                 )
             raise RecordingError(
                 f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}{still}"

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from forcetorque.sensor.sessions.session_drift import Drift
     from forcetorque.sensor.temperature.temperature_drift import Thermal, ThermalDriftRow
 
+_CURVES = 3
+"""Curved channels that are named; the table has all."""
+
 
 def thermal_answers(thermal: Thermal) -> Iterator[Answer]:
     """Give the answer for every sensor.
@@ -104,6 +107,8 @@ def response_answer(response: Response) -> Answer:
     Returns:
         The answer.
     """
+    if response.static_curves:
+        return _static_answer(response)
     # of a quantity that comes from several sources the last is that of the measured force
     numbers = {row.quantity: row for row in response.numbers}
     shown = [f"{name} {_number(row)}" for name, row in numbers.items()]
@@ -118,6 +123,25 @@ def response_answer(response: Response) -> Answer:
         why=("; ".join((*shown[1:], *first, *filtered)), *_channels(response.channels), *response.refused[:1]),
         written=(response.figure_file,),
         concern=Concern.BAD if not shown else Concern.UNCERTAIN if doubtful else Concern.NONE,
+    )
+
+
+def _static_answer(response: Response) -> Answer:
+    curved = [row for row in response.static_curves if row.curved]
+    worst = max(response.static_curves, key=lambda row: row.linear_rmse / row.span)
+    return Answer(
+        subject=f"{response.sensor} ({response.serial}), static",
+        verdict=f"CURVED: {', '.join(row.channel for row in curved)}" if curved else "STRAIGHT",
+        why=(
+            *(
+                f"{row.channel}: {row.best}, {amount(row.nonlinearity_percent, '%')} of its span from a line"
+                for row in curved[:_CURVES]
+            ),
+            f"largest error of a line, {worst.channel}: {amount(worst.linear_rmse, worst.unit)} of a span of "
+            f"{amount(worst.span, worst.unit)}, on {worst.points} points that were held out",
+        ),
+        written=(response.figure_file,),
+        concern=Concern.UNCERTAIN if curved else Concern.NONE,
     )
 
 

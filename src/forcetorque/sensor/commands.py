@@ -89,7 +89,8 @@ def drift(
 def response(
     experiments: ExperimentsArgument,
     excitation: Annotated[
-        str, typer.Option("--excitation", "-e", help="What was done to the sensor: impact, release or pendulum.")
+        str,
+        typer.Option("--excitation", "-e", help="What was done to the sensor: impact, release, pendulum or static."),
     ],
     sensor: Annotated[str | None, typer.Option("--sensor", help="Sensor; the first of the file if left out.")] = None,
     component: Annotated[
@@ -112,11 +113,13 @@ def response(
     calibration: Annotated[
         Path | None, typer.Option("--calibration", "-c", help="Calibration that reads the sensor.")
     ] = None,
-    figure: Annotated[Path | None, typer.Option("--figure", help="PNG of the response and of the decays.")] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG, SVG or PDF of the response and of the decays.")
+    ] = None,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
+    """Tell bandwidth and resonance of a sensor, a filter that undoes them, or its static curves.
 
     Example: forcetorque bench response taps.toml -e impact --force hammer
 

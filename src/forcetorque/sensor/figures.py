@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
 from forcetorque.results.figures import (
     COLOURS,
     LIMIT_LINE,
@@ -99,12 +100,12 @@ def thermal_figure(sensors: Sequence[SensorThermal]) -> Figure:
         sensors: Sensors; two rows each, of forces and of moments.
 
     Returns:
-        The figure, twice `ROW_INCHES` high for each sensor.
+        The figure, 1.5 times `ROW_INCHES` high for each sensor.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
     """
-    figure = new_figure(1.6 * ROW_INCHES[1] * len(sensors))
+    figure = new_figure(1.5 * ROW_INCHES[1] * len(sensors))
     panels = figure.subplots(2 * len(sensors), 3, squeeze=False, sharex="row")
     for k, sensor in enumerate(sensors):
         for j, panel in enumerate(panels[2 * k : 2 * k + 2].ravel()):
@@ -113,6 +114,13 @@ def thermal_figure(sensors: Sequence[SensorThermal]) -> Figure:
         panels[2 * k, 0].set_title(name if sensor.separable_from_time else f"{name}: {_UNKNOWN}", loc="left")
         for panel in panels[2 * k + 1]:
             panel.set_xlabel("temperature, degC")
+    drifts = [
+        (abs(row.drift_per_degC), f"{shown_name(sensor.curve.signals[j])} {row.drift_per_degC:+.2g} {row.unit}/degC")
+        for sensor in sensors
+        for j, row in enumerate(sensor.components[:3])
+        if sensor.separable_from_time
+    ]
+    headline(figure, f"Largest drift of {max(drifts)[1]}" if drifts else f"Drift: {_UNKNOWN}")
     dots = [(name, _dots(style) | {"linestyle": "none"}) for _, name, style in _BRANCHES]
     lines = [(f"{name}, fitted", {"color": style.colour, "linestyle": style.dashes}) for _, name, style in _BRANCHES]
     legend_below(figure, [*dots, *lines])
@@ -163,8 +171,11 @@ def response_figure(response: Response) -> Figure:
         The figure.
 
     Raises:
+        ExperimentError: If the response is static, which has a table and no picture.
         MissingExtraError: If matplotlib is not installed.
     """
+    if response.static_curves:
+        raise ExperimentError("static curves have a table and no picture; leave out the figure, and look at --details")
     decays = response.decays[:MOST_DECAYS]
     curved = response.curve is not None
     decay_rows = -(-len(decays) // _COLUMNS)
@@ -268,14 +279,15 @@ def session_figure(sensors: Sequence[SensorSessions]) -> Figure:
         sensors: Sensors; two rows each, offsets and gains, with a panel per component.
 
     Returns:
-        The figure, `ROW_INCHES` high for each row.
+        The figure, 1.5 times `ROW_INCHES` high for each sensor.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
     """
     width = max(len({row.component for row in sensor.rows}) for sensor in sensors)
-    figure = new_figure(ROW_INCHES[1] * 2 * len(sensors))
+    figure = new_figure(1.5 * ROW_INCHES[1] * len(sensors))
     panels = figure.subplots(2 * len(sensors), width, squeeze=False)
+    drawn = []
     for k, sensor in enumerate(sensors):
         components = list(dict.fromkeys(row.component for row in sensor.rows))
         for row, quantity in enumerate(("offset", "gain")):
@@ -283,9 +295,11 @@ def session_figure(sensors: Sequence[SensorSessions]) -> Figure:
                 rows = [one for one in sensor.rows if one.component == component]
                 changed = any(one.component == component and one.quantity == quantity for one in sensor.drifts)
                 _draw_sessions(panel, rows, quantity, changed=changed)
+                drawn.append(changed)
             for panel in panels[2 * k + row, len(components) :]:
                 panel.set_visible(False)
         panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
+    headline(figure, f"{sum(drawn)} of {len(drawn)} offsets and gains changed beyond noise")
     legend_below(figure, [("changed beyond noise", look(1).key), ("no change beyond noise", look(0).key)])
     return figure
 

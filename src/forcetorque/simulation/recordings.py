@@ -28,7 +28,7 @@ from forcetorque.recording.stream_faults import true_runs
 from forcetorque.results.answer import Answer, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
-from forcetorque.simulation.motions.movement import Movement, Phase, PhaseKind
+from forcetorque.simulation.motions.movement import Movement, MovementKind, Phase, PhaseKind
 from forcetorque.simulation.network import fail_groups, jitter_stamps, lose_messages, offset_clocks
 from forcetorque.simulation.scenario.file import Load, Network
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, Scenario, SimulatedRecording, simulate
@@ -53,6 +53,18 @@ def support_text(link: str, *, down: FloatArray | None) -> str:
     return f'\n[[support]]\nframe = "{link}"\ngravity_direction = [{direction}]\n'
 
 
+def sole_text(link: str) -> str:
+    """Write a sole: feet of simulated robots stand with the plane z = 0 of their links on the ground.
+
+    Args:
+        link: Link that stands.
+
+    Returns:
+        The table, TOML.
+    """
+    return f'\n[[sole]]\nframe = "{link}"\n'
+
+
 def phases_text(simulated: SimulatedRecording) -> Iterator[str]:
     """Write supports, soles and intervals, one for each phase.
 
@@ -71,8 +83,8 @@ def phases_text(simulated: SimulatedRecording) -> Iterator[str]:
     for link, kind in bearing.items():
         down = -movement.base_pose([0.0], link)[0, 2, :3]  # a link that bears alone stands in the same way all the time
         yield support_text(link, down=None if kind is PhaseKind.HANGING else down)
-        if kind is not PhaseKind.HANGING:  # the planes of feet are their soles, for `robot balance`
-            yield f'\n[[sole]]\nframe = "{link}"\n'
+        if kind is not PhaseKind.HANGING:
+            yield sole_text(link)
     for phase in phases:
         yield _phase_interval_text(simulated, phase)
 
@@ -136,14 +148,16 @@ def _load_text(load: Load) -> str:
 
 
 def _contacts_text(movement: Movement, *, imu: bool) -> str:
-    """The support and, of a robot on both feet, the other foot, whose contact is as unknown."""
+    """The support, soles of a robot on its feet and, of one on both, the other foot, whose contact is as unknown."""
     support, *others = movement.touched
     if movement.carriage is None:
-        return support_text(support, down=movement.gravity_direction)
+        sole = sole_text(support) if movement.kind is MovementKind.BALANCING else ""
+        return support_text(support, down=movement.gravity_direction) + sole
     # without an IMU the first foot stands all the time
     down = -movement.base_pose([0.0], support)[0, 2, :3]
     contacts = [f'\n[[contact]]\nframe = "{link}"\n' for link in others]
-    return support_text(support, down=None if imu else down) + "".join(contacts)
+    soles = [sole_text(link) for link in movement.touched]
+    return "".join([support_text(support, down=None if imu else down), *soles, *contacts])
 
 
 def _interval_text(simulated: SimulatedRecording) -> str:

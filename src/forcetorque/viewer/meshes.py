@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingExtraError, install_line
+from forcetorque.base.input_file import read_xml
 from forcetorque.base.run_files import declare_input
 from forcetorque.robot.installed import package_roots
 
@@ -86,7 +87,7 @@ def read_mesh(file: Path, scale: Sequence[float]) -> Triangles:
     """Read a mesh file.
 
     Args:
-        file: STL, OBJ, PLY, GLB or, where `pycollada` is installed, DAE.
+        file: STL, OBJ, PLY, GLB or DAE.
         scale: Factors along the axes of the file.
 
     Returns:
@@ -98,10 +99,9 @@ def read_mesh(file: Path, scale: Sequence[float]) -> Triangles:
     """
     if file.suffix.lower() not in FORMATS:
         raise FormatError(f"{file}: expected a mesh that ends in {', '.join(FORMATS)}")
-    if importlib.util.find_spec("trimesh") is None:
-        raise MissingExtraError(f"meshes need trimesh: {install_line('viewer')}")
-    if file.suffix.lower() == ".dae" and importlib.util.find_spec("collada") is None:
-        raise MissingExtraError("meshes in DAE need pycollada: pip install pycollada")
+    for module in ("trimesh", *(("collada",) if file.suffix.lower() == ".dae" else ())):
+        if importlib.util.find_spec(module) is None:
+            raise MissingExtraError(f"meshes in {file.suffix} need {module}: {install_line('viewer')}")
     vertices, faces = _load(file)
     if not len(faces) or not np.isfinite(vertices).all() or faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{file}: expected triangles, got none or damaged ones")
@@ -115,6 +115,8 @@ def _load(file: Path) -> tuple[FloatArray, npt.NDArray[np.int64]]:
     import trimesh
 
     declare_input(file)
+    if file.suffix.lower() == ".dae":
+        read_xml(file)  # refuses entities, which pycollada expands
     try:
         with file.open("rb") as stream:
             # without a resolver nothing beside the file, such as a texture, is read

@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import chi2
 
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.torque.covariance_fusion import disagreement, fuse, means_in_windows
+from forcetorque.estimation.torque.covariance_fusion import WindowMeans, disagreement, fuse, means_in_windows
 from forcetorque.estimation.torque.source import TorqueSource
 from tests.estimation.torque.sources import JOINTS, SAMPLES, shifted, source, stamps, three, truth
 
@@ -41,6 +41,32 @@ def test_two_numbers_by_hand() -> None:
     np.testing.assert_allclose(fusion.torque[:, 0], [1.4, 2.0], atol=EXACT)
     np.testing.assert_allclose(fusion.covariance[:, 0, 0], [0.8, 1.0], atol=EXACT)
     assert fusion.half_width[0, 0] == pytest.approx(1.96 * np.sqrt(0.8), rel=1e-3)
+
+
+@pytest.mark.parametrize("size", [0.02, 2.0])
+def test_parts_of_an_innovation_by_the_eigenvalue_of_what_lasts(size: float) -> None:
+    """Two sources of one torque over 20 windows, a lasting error of one: its square by hand, in one part or two.
+
+    With d the differences, l the lasting error over the noise of d and h = l.l, below h = 1 all of
+    `d (1 + l l')^-1 d` passes; above, `(l.d)^2 / (h (h + 1))` lasts and `d.d - (l.d)^2 / h` passes.
+    """
+    rng = np.random.default_rng(6)
+    lasting = size * rng.uniform(1.0, 2.0, 20)
+    difference = rng.normal(size=20) + lasting
+    noise = np.full((20, 1, 1), 0.5)
+    first = WindowMeans(torque=difference[:, None], noise=noise, lasting=lasting[:, None, None])
+    second = WindowMeans(torque=np.zeros((20, 1)), noise=noise, lasting=np.zeros((20, 1, 0)))
+    found, h = disagreement([first, second]), lasting @ lasting
+    together = difference @ np.linalg.solve(np.eye(20) + np.outer(lasting, lasting), difference)
+    if h < 1.0:
+        parts = (0.0, 0, together, 20)
+    else:
+        share = (lasting @ difference) ** 2 / h
+        parts = (share / (h + 1.0), 1, difference @ difference - share, 19)
+    lasts, passes = found.lasting, found.passing
+    assert (lasts.degrees_of_freedom, passes.degrees_of_freedom) == (parts[1], parts[3])
+    np.testing.assert_allclose([lasts.chi2, passes.chi2], [parts[0], parts[2]], rtol=1e-9)
+    assert lasts.chi2 + passes.chi2 == pytest.approx(together)
 
 
 def test_where_nobody_knows_there_is_nothing() -> None:

@@ -10,7 +10,14 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, FitError
-from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, friction_terms, motor_source
+from forcetorque.estimation.torque.motor import (
+    Friction,
+    _Scatter,
+    drive_torque,
+    fit_friction,
+    friction_terms,
+    motor_source,
+)
 from tests.scenes.simulated_motor import SimulatedMotor
 
 RATE_HZ = 50.0
@@ -20,6 +27,20 @@ MOTOR = SimulatedMotor(
 TRUE = np.array([1.5, 0.6, 0.08, 0.1])
 STANDSTILL = 0.02
 SEEDS = range(40)
+
+
+def test_lasting_errors_of_the_trusted_torque_are_not_noise_of_the_motor() -> None:
+    """What they explain neither widens a sample nor makes samples repeat themselves; unexplained, it does both."""
+    samples, length = 6000, 50
+    used = np.arange(samples) % 7 != 0
+    white = 0.5 * np.random.default_rng(3).normal(size=used.sum())
+    lasting = np.sin(np.arange(samples) / 300.0)[used][:, None]
+    explained = _Scatter.of(used, white + lasting[:, 0], lasting, length=length)
+    assert explained.variance == pytest.approx(0.25, rel=0.1)
+    assert explained.repeated < 2.0
+    unexplained = _Scatter.of(used, white + lasting[:, 0], 0.0 * lasting, length=length)
+    assert unexplained.variance == pytest.approx(0.75, rel=0.1)
+    assert unexplained.repeated > 10.0
 
 
 def _motion(rng: np.random.Generator, samples: int = 2000) -> tuple[FloatArray, FloatArray]:

@@ -244,6 +244,31 @@ def test_one_equation_of_two_unknowns_by_hand(unit: float) -> None:
     assert (posterior.rank[0], posterior.condition[0]) == (1, 1.0)
 
 
+@pytest.mark.parametrize("size", [1e-8, 1.0, 1e8])
+def test_rounding_is_told_from_a_negative_variance_in_any_unit(size: float) -> None:
+    """A covariance of any size may have eigenvalues that rounding makes negative, and no others."""
+    shape = np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1e-13])
+    np.testing.assert_array_equal(wrench_covariances(size * shape, name="skin", samples=1)[0], size * shape)
+    shape[5, 5] = -1e-4
+    with pytest.raises(EstimationError, match="no negative eigenvalue"):
+        wrench_covariances(size * shape, name="skin", samples=1)
+
+
+def test_the_residual_is_what_neither_unknowns_nor_errors_explain() -> None:
+    """All parts add up to what is needed, and no change of the unknowns would make the residual smaller."""
+    rng = np.random.default_rng(8)
+    equations = Affine(
+        constant=rng.normal(size=(3, 7)), free=rng.normal(size=(3, 7, 3)), errors=rng.normal(size=(3, 7, 2))
+    )
+    found = posterior_of(equations)
+    acting = np.einsum("nru,nu->nr", equations.free, found.unknowns)
+    erring = np.einsum("nrm,nm->nr", equations.errors, found.errors)
+    np.testing.assert_allclose(equations.constant + acting + erring + found.residual, 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.einsum("nru,nr->nu", equations.free, found.residual), 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.einsum("nrm,nr->nm", equations.errors, found.residual), 0.0, atol=1e-12)
+    assert np.linalg.norm(found.residual, axis=1).min() > 0.1
+
+
 def test_what_no_reading_sees_is_named_in_newtons() -> None:
     """Two wrenches of 4 N and 2 N m per unknown that cancel: the largest component is made 1 N."""
     acts = np.array([0.0, 4.0, 0.0, 0.0, 0.0, 2.0])

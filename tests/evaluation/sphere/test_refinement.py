@@ -72,6 +72,17 @@ def test_the_jacobian_is_that_of_finite_differences() -> None:
     np.testing.assert_allclose(equations.gradient, slopes, rtol=1e-5, atol=1e-4)
 
 
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+def test_a_disc_is_no_ellipsoid_in_any_unit(size: float) -> None:
+    """One whose third half-axis is 1e13 times as long has no equations; one of a million times has."""
+    cloud = on(DEFORMED, whole_sphere(60)) / size
+    places = np.flatnonzero(np.equal(*np.tril_indices(3)))
+    for third, known in ((1e-6, True), (1e-13, False)):
+        parameters = np.zeros(9)
+        parameters[3 + places] = size * np.array([1.0, 1.0, third])
+        assert (ellipsoid_equations(cloud, parameters) is not None) is known
+
+
 def test_parameters_and_back() -> None:
     """Nine numbers hold an ellipsoid."""
     back = ellipsoid_of_parameters(ellipsoid_parameters(DEFORMED))

@@ -190,6 +190,16 @@ def test_the_file_says_condition_and_number(arm: Path) -> None:
             parse_experiment(file)
 
 
+def test_a_file_numbers_its_trial_and_not_each_of_several(arm: Path) -> None:
+    """Of a file whose intervals are trials the number is that of none of them, but of the only one."""
+    path = add(arm / PARQUET, TRIAL.format(3))
+    several, failures = read_trials([path], by_interval=True)
+    assert failures == []
+    assert [trial.number for trial in several] == [None, None]
+    (alone,), _ = read_trials([path], intervals=["judge"], by_interval=True)
+    assert (alone.number, alone.condition) == (3, "2 N m")
+
+
 @pytest.mark.long
 def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
     """A file is a trial, or each interval is one; both read as `sphere` does."""

@@ -92,7 +92,8 @@ def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
     right = {"tool": _fitted(experiment, 1)}
 
     def force(**how: object) -> float:
-        verdicts = _by_candidate(contact_forces(SensorRun(experiment, sensor), calibrations, **how).verdicts)  # type: ignore[arg-type]
+        choice = SubModelChoice(**how)  # type: ignore[arg-type]
+        verdicts = _by_candidate(contact_forces(SensorRun(experiment, sensor), calibrations, choice).verdicts)
         return verdicts["new", Offset.FIRST_SECOND].force_mean_N
 
     model = force()
@@ -108,7 +109,7 @@ def test_the_outer_sensor_is_judged_by_either_side(arm: Path) -> None:
     experiment = load_experiment(arm / TWO)
     tool = experiment.sensors[1]
     beyond = _by_candidate(contact_forces(SensorRun(experiment, tool), {}).verdicts)
-    before = _by_candidate(contact_forces(SensorRun(experiment, tool), {}, sub_model="arm_ft").verdicts)
+    before = _by_candidate(contact_forces(SensorRun(experiment, tool), {}, SubModelChoice(sub_model="arm_ft")).verdicts)
     key = ("prior", Offset.FITTED)
     assert beyond[key].sub_model == "tool_ft"
     assert before[key].sub_model == "arm_ft"
@@ -124,9 +125,9 @@ def test_what_cannot_be_judged_is_refused(arm: Path) -> None:
     experiment = load_experiment(arm / TWO)
     sensor = experiment.sensors[0]
     with pytest.raises(EstimationError, match=r"interval 'judge': sub_model: expected one of the two"):
-        contact_forces(SensorRun(experiment, sensor), {}, sub_model="tool_ft")
+        contact_forces(SensorRun(experiment, sensor), {}, SubModelChoice(sub_model="tool_ft"))
     with pytest.raises(EstimationError, match="bears the support 'base'"):
-        contact_forces(SensorRun(experiment, sensor), {}, sub_model="base")
+        contact_forces(SensorRun(experiment, sensor), {}, SubModelChoice(sub_model="base"))
     foreign = _fitted(experiment, 1)
     with pytest.raises(SerialNumberError, match="SIM/002"):
         contact_forces(SensorRun(experiment, sensor), {"new": foreign})

@@ -355,7 +355,7 @@ def test_a_long_table_is_mapped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
         signals=(TableSignal(quantity="position", columns=("x", "y"), units=("deg", "deg")),),
     )
     (expected,) = read_table(file, layout, stream="joints", clock="log").streams
-    monkeypatch.setattr("forcetorque.formats.tabular.table.IN_MEMORY", 1)
+    monkeypatch.setattr("forcetorque.base.rows_on_disk.IN_MEMORY", 1)
     monkeypatch.setattr("forcetorque.formats.tabular.row_readers.BLOCK_SIZE", 10_000)
     (mapped,) = read_table(file, layout, stream="joints", clock="log").streams
     assert np.array_equal(mapped.stamp_ns, expected.stamp_ns)

@@ -12,9 +12,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.robust_fit import fit, plain_fit
 from tests.cases import some_cases
 from tests.payload.identification.payloads import SIZES, poses, problem_of, weight
 
@@ -59,6 +61,25 @@ def _named(fault: str, count: int) -> int:
 def test_a_planted_fault_is_named(fault: str) -> None:
     """Four of five draws, with its axis or pose; a moment of a light load hides a gain of 5 %."""
     assert _named(fault, 5) >= 4
+
+
+@pytest.mark.parametrize(("first", "second"), [(0, 1), (0, 2), (1, 2), (3, 4), (4, 5)])
+def test_the_share_that_exchanged_axes_leave_is_that_of_these_axes(first: int, second: int) -> None:
+    """Noise of both columns over their misfit as they are listed, by the geometric mean; others do not count."""
+    rng = np.random.default_rng(11)
+    gravity = poses(POSES, rng)
+    reading = weight(gravity, 2.0, np.array([0.02, -0.03, 0.05])) + SIZES * rng.normal(size=(POSES, 6))
+    order = np.arange(6)
+    order[[first, second]] = second, first
+    fitted = fit(problem_of(reading[:, order], gravity), drift=False)
+    (row,) = axis_errors(fitted, permuted=True, drift=False)
+    assert (row.name, WRENCH_COMPONENTS[first] in row.description) == ("exchanged axes", True)
+    listed, right = (
+        plain_fit(problem_of(values, gravity), drift=False, weight=fitted.weight)[1][:, [first, second]]
+        for values in (reading[:, order], reading)
+    )
+    squares = [fitted.weight @ one**2 for one in (right, listed)]
+    assert row.residual_share == pytest.approx(np.sqrt(np.prod(squares[0] / squares[1]) ** 0.5), rel=1e-6)
 
 
 @pytest.mark.long

@@ -98,6 +98,22 @@ def test_one_bias_for_all_power_ups_is_noticed() -> None:
     assert alike.p_value > 0.01
 
 
+def test_power_ups_with_one_bias_differ_by_chance_as_often_as_said() -> None:
+    """Of 40 problems with equal biases at most 8 are below 0.05, 10 to 30 below one half.
+
+    Of a right test fewer than one set of 40 in 1000 is outside; of one whose statistic is off threefold none is inside.
+    """
+    p_values = []
+    for seed in range(40):
+        rng = np.random.default_rng(7000 + seed)
+        gravity, number = poses(40, rng), np.repeat([0, 1], 20)
+        same = problem_of(weight(gravity) + SIZES * rng.normal(size=(40, 6)), gravity, session=number)
+        (sessions,) = bias_tests(fit(same, drift=False), drift=False)
+        p_values.append(sessions.p_value)
+    assert np.sum(np.array(p_values) < 0.05) <= 8
+    assert 10 <= np.sum(np.array(p_values) < 0.5) <= 30
+
+
 def test_biases_that_are_open_are_not_compared() -> None:
     """Of a sensor that never turns nobody tells weight and bias apart: there is no p, and nothing is computed of it."""
     gravity = np.tile(poses(1, np.random.default_rng(3)), (4, 1))

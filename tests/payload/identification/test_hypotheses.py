@@ -246,6 +246,18 @@ def test_a_stated_load_is_of_the_size_that_is_read() -> None:
     assert named >= 95
 
 
+@pytest.mark.parametrize("factor", [9.80665, 12.0])
+def test_a_multiple_of_a_stated_load_leaves_what_it_leaves(factor: float) -> None:
+    """A load takes the size of readings up, so that the residual stays as it is: the account contradicts, no more."""
+    problem = problem_of(_reading() * factor, GRAVITY, loads=KNOWN)
+    (row,) = (
+        one
+        for one in scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True)
+        if "force" in one.description
+    )
+    assert (row.residual_share, row.severity) == (1.0, "contradiction")
+
+
 def test_loads_stated_as_nothing_have_no_size() -> None:
     """There is nothing that readings could be a multiple of; with noise or without."""
     nothing = (Load(name="tool", mass=0.0),)

@@ -40,6 +40,15 @@ def test_hysteresis_lowers_counts_while_unloading() -> None:
     assert abs(lags[1]) < 0.3
 
 
+@pytest.mark.parametrize("fault", TaxelFault)
+def test_a_broken_taxel_sends_whole_counts_of_a_byte(fault: TaxelFault) -> None:
+    """Whatever is wrong with it, and where its level runs out of the range too."""
+    broken = chamber(responses(), 5, broken={3: fault, 40: fault}, highest_pa=5.0 * HIGHEST_PA)
+    counts = broken.stream("counts").signal("taxel_counts").values[:, [3, 40]]
+    np.testing.assert_array_equal(counts, np.rint(counts))
+    assert 0.0 <= counts.min() <= counts.max() <= 255.0
+
+
 def test_a_taxel_that_is_not_there_cannot_break() -> None:
     """It is named."""
     with pytest.raises(SkinError, match="broken: expected taxels of 0 to 59, got 60"):

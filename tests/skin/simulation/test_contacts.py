@@ -14,10 +14,12 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import (
     ClothStrip,
     FlatWeight,
+    Palm,
     SkinBody,
     SkinContact,
     SkinObject,
     Sphere,
+    _disc,
     contacts,
 )
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, REST_COUNTS, Loading, TaxelResponses, contact_recording
@@ -41,6 +43,38 @@ def test_the_surface_is_the_cylinder(leg: SkinBody) -> None:
     np.testing.assert_allclose(np.hypot(*middle.positions[:, :2].T), RADIUS_M, atol=1e-3)
     assert ((middle.normals * LEG.normals).sum(axis=1) > np.cos(np.radians(4.0))).all()
     np.testing.assert_allclose(middle.stretch, 1.0, atol=0.03)
+
+
+def test_points_of_a_disc_cover_it_evenly() -> None:
+    """Their centre and second moments are those of the disc, and none lies outside."""
+    points = _disc(0.03)
+    assert np.hypot(*points.T).max() < 0.03
+    np.testing.assert_allclose(points.mean(axis=0), 0.0, atol=1e-12)
+    np.testing.assert_allclose(points.T @ points / len(points), 0.03**2 / 4.0 * np.eye(2), atol=0.01 * 0.03**2 / 4.0)
+
+
+def test_a_palm_bends_as_a_cylinder_does() -> None:
+    """Across by the circle of its curvature, to second order; bulges are as deep as stated; beside it is nothing."""
+    curvature, across = 12.0, np.linspace(-0.01, 0.01, 9)
+    palm = Palm(half_lengths_m=(0.05, 0.03), bend_per_m=curvature, bulges=np.zeros((0, 4)))
+    circle = (np.sqrt(1.0 - (curvature * across) ** 2) - 1.0) / curvature
+    np.testing.assert_allclose(palm.height(np.full(9, 0.01), across), circle, atol=0.01 * np.abs(circle).max())
+    bulged = Palm(half_lengths_m=(0.05, 0.03), bend_per_m=curvature, bulges=np.array([[0.01, 0.005, 0.002, 0.004]]))
+    at_bulge = np.array([0.01, 0.014]), np.array([0.005, 0.005])
+    np.testing.assert_allclose(palm.height(*at_bulge) - bulged.height(*at_bulge), 0.002 * np.exp([0.0, -0.5]))
+    assert np.isinf(palm.height(np.array([0.051, 0.0]), np.array([0.0, 0.031]))).all()
+
+
+def test_a_cloth_strip_presses_on_its_area() -> None:
+    """Its pressure over all that it reaches comes to width times length, since it falls off evenly at its sides."""
+    strip = ClothStrip(width_m=0.02, arc_m=0.06, hem_m=0.004)
+    step = 1e-4
+    place = np.arange(-strip.reach_m, strip.reach_m, step) + 0.5 * step
+    along, across = np.meshgrid(place, place)
+    pressure = strip.pressure(along, across)
+    np.testing.assert_allclose(pressure.sum() * step**2, 0.02 * 0.06, rtol=1e-3)
+    assert pressure.max() == 1.0
+    np.testing.assert_array_equal(pressure[np.abs(along) > 0.012], 0.0)
 
 
 def test_a_patch_that_folds_back_has_no_such_surface() -> None:

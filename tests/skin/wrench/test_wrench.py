@@ -156,6 +156,17 @@ def test_the_thesis_counts_holes_and_no_edge() -> None:
     assert whole.areas.sum() < SkinPatch.of(layout).operator().areas.sum()
 
 
+def test_the_thesis_presses_each_taxel_at_its_place() -> None:
+    """On a plane patch drawn as it is, away from its edge: within 3 % of the pitch, since a lattice has many meshes."""
+    layout = plane_layout()
+    plane = layout.positions[:, :2]
+    weights = SkinPatch.of(layout, WrenchMethod.THESIS, plane=plane).operator().weights
+    pressed_at = np.stack([-weights[4], weights[3]], axis=1) / weights[2, :, None]
+    inner = np.linalg.norm(plane - plane.mean(axis=0), axis=1) < 0.02
+    assert inner.sum() > 20
+    np.testing.assert_allclose(pressed_at[inner], plane[inner], atol=0.03 * 0.0065)
+
+
 @pytest.mark.parametrize("method", ON_SURFACE)
 def test_a_smooth_field_is_told_to_a_thousandth(method: WrenchMethod) -> None:
     """A hill of pressure over thirty taxels of a plane lattice; its integral is known."""

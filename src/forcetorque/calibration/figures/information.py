@@ -18,6 +18,7 @@ from forcetorque.results.figures import (
     GRID,
     MUTED,
     THIN_REFERENCE_LINE,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -86,6 +87,9 @@ def learnt_figure(learnt: Mapping[str, Sequence[InformationGain]]) -> Figure:
                 _name_directions(panel, WRENCH_COMPONENTS[loads])
             share.set_ylabel(_LOADS[half])
         grid[2 * place][0].set_title(shown_name(name), loc="left")
+    counts = [sum(row.uncertainty_reduction >= LITTLE_LEARNT for row in rows) for rows in learnt.values()]
+    names = [f"{count} of 6 by {shown_name(name)}" for count, name in zip(counts, learnt, strict=True)]
+    headline(figure, f"Directions whose uncertainty fell by half or more: {', '.join(names)}")
     legend_below(
         figure,
         [

@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
-from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk, forget_pages
+from forcetorque.base.rows_on_disk import forget_pages, rows_for
 from forcetorque.calibration.generative.design import Design
 from forcetorque.experiment.calibration.moments import symmetric_pseudo_inverse
 
@@ -106,7 +106,7 @@ class _Stacked:
             np.maximum(self._size, np.abs(block).max(axis=0, initial=0.0), out=self._size)
         self._size[self._size == 0.0] = 1.0
         count = len(design.member) * self._total
-        scaled = RowsInMemory(count) if 8 * count <= IN_MEMORY else RowsOnDisk()
+        (scaled,) = rows_for(count, [((), np.float64)])
         for means in design.blocks:
             scaled.append((self._block(means) / self._size).ravel(order="F"))
         self._scaled = scaled.mapped()

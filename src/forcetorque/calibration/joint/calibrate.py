@@ -24,7 +24,7 @@ from forcetorque.experiment.calibration.model_error import ModelTolerance, TermK
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.long_recording import is_long
+from forcetorque.experiment.long_recording import first_segment, segment_experiments
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.recording.recording import Use
@@ -161,6 +161,7 @@ def _intervals(
         run for run in campaign.runs if any(one.use is Use.CALIBRATION for one in run.experiment.recording.intervals)
     ]
     for run in runs or campaign.runs[:1]:  # the first says itself what it lacks
+        segments = segment_experiments(run.experiment)
         for interval in run.experiment.intervals(Use.CALIBRATION):
             label = campaign.label(run, interval.label)
             progress(f"reading {label}")
@@ -173,6 +174,7 @@ def _intervals(
                         label=label,
                         recording=campaign.recording(run),
                         session=campaign.session(run, interval.label),
+                        segments=segments,
                     )
             except EstimationError as error:
                 outcome = error
@@ -288,11 +290,16 @@ def calibrate_jointly(
 
 
 def _require_plausible(campaign: Campaign) -> None:
-    """Refuse what the fit of this sensor alone refuses, where nothing touches the robot beyond it."""
-    if any(is_long(run) for run in campaign.runs):
-        return  # its samples are not held at once
+    """Refuse what the fit of this sensor alone refuses, where nothing touches the robot beyond it.
+
+    Of a long recording the first segment with calibration data is looked at.
+
+    Raises:
+        FitError: What that fit says.
+    """
     try:
-        data = campaign.data_sets(Use.CALIBRATION)
+        first = Campaign([first_segment(run, Use.CALIBRATION) for run in campaign.runs])
+        data = first.data_sets(Use.CALIBRATION)
     except ForceTorqueError:
         return  # the load beyond it is not known
     try:

@@ -5,12 +5,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, names, require_shape
+from forcetorque.base.arrays import (
+    ArrayRecord,
+    FloatArray,
+    IntArray,
+    array,
+    check_arrays,
+    mapping,
+    names,
+    require_shape,
+)
 from forcetorque.base.errors import ShapeError
+from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree
 
@@ -47,6 +57,23 @@ class Stretch(ArrayRecord):
     def __len__(self) -> int:
         return len(self.time_s)
 
+    def samples(self, rows: slice | IntArray) -> Stretch:
+        """Look at some of the samples.
+
+        Args:
+            rows: Range of samples, without a step, or their numbers.
+
+        Returns:
+            The same memory for a range.
+        """
+        return replace(
+            self,
+            time_s=self.time_s[rows],
+            joints=self.joints.samples(rows),
+            root=self.root.samples(rows),
+            readings={name: values[rows] for name, values in self.readings.items()},
+        )
+
     def pieces(self, length_s: float) -> Iterator[Stretch]:
         """Cut the stretch.
 
@@ -64,13 +91,65 @@ class Stretch(ArrayRecord):
         for first, last in zip([0, *edges], [*edges, len(self)], strict=True):
             block = slice(int(first), int(last))
             if block.start < block.stop:
-                yield replace(
-                    self,
-                    time_s=self.time_s[block],
-                    joints=self.joints.samples(block),
-                    root=self.root.samples(block),
-                    readings={name: values[block] for name, values in self.readings.items()},
-                )
+                yield self.samples(block)
+                forget_pages(_columns(self).values())
+
+
+_MOTION: Final = ("position", "velocity", "acceleration")
+_OF_ROOT: Final = ("proper_acceleration", "angular_velocity", "angular_acceleration")
+
+
+def _columns(stretch: Stretch) -> dict[tuple[str, str], FloatArray]:
+    """Arrays of a stretch with a row per sample, by what has them and their names."""
+    arrays = {("time", ""): stretch.time_s}
+    arrays |= {("joints", name): getattr(stretch.joints, name) for name in _MOTION}
+    arrays |= {("root", name): getattr(stretch.root, name) for name in _OF_ROOT}
+    arrays |= {("readings", name): values for name, values in stretch.readings.items()}
+    return {key: values for key, values in arrays.items() if key[0] == "time" or values.ndim == 2}
+
+
+class StretchRows:
+    """A stretch whose parts come one after the other, in temporary files where it is long."""
+
+    def __init__(self, stretch: Stretch, beside: Mapping[str, FloatArray]) -> None:
+        """Begin.
+
+        Args:
+            stretch: The first part; others are of the same joints and sensors.
+            beside: What else was logged at its instants, by name; shape (n, c) each.
+        """
+        self._first = stretch.samples(np.arange(0))  # a copy, without the memory of the part
+        self._rows: dict[tuple[str, str], RowsOnDisk] = {}
+        self.append(stretch, beside)
+
+    def append(self, stretch: Stretch, beside: Mapping[str, FloatArray]) -> None:
+        """Add the next part.
+
+        Args:
+            stretch: The part.
+            beside: As of the first.
+        """
+        columns = {**_columns(stretch), **{("beside", name): values for name, values in beside.items()}}
+        for key, values in columns.items():
+            self._rows.setdefault(key, RowsOnDisk(values.shape[1:])).append(values)
+
+    def mapped(self) -> tuple[Stretch, dict[str, FloatArray]]:
+        """Put the parts together.
+
+        Returns:
+            The stretch, and what else was logged at its instants.
+        """
+        groups: dict[str, dict[str, Any]] = {}
+        for (group, name), rows in self._rows.items():
+            groups.setdefault(group, {})[name] = rows.mapped()
+        stretch = replace(
+            self._first,
+            time_s=groups["time"][""],
+            joints=replace(self._first.joints, **groups["joints"]),
+            root=replace(self._first.root, **groups.get("root", {})),
+            readings=groups.get("readings", {}),
+        )
+        return stretch, groups.get("beside", {})
 
 
 NODES: Final = 3

@@ -71,7 +71,7 @@ def residuals_by(
     """
     changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(LOADS)).ravel() for name in windows.sensors]
     left = np.concatenate([block.changes @ np.concatenate(changes) - block.right for block in windows.blocks()])
-    of_offsets = windows.offsets
+    of_offsets = np.concatenate([block.offsets for block in windows.blocks()])
     if offsets is None:
         columns = of_offsets.reshape(-1, of_offsets.shape[2])
         added = -np.linalg.lstsq(columns, left.ravel(), rcond=None)[0]
@@ -178,9 +178,12 @@ class PartResidual:
         """
         count = len(windows.sensors)
         carried = np.full((len(windows), count, LOADS), np.nan)
-        if windows.rows.all():
-            transmission = windows.offsets.reshape(-1, LOADS, count, LOADS).transpose(0, 2, 1, 3)
-            carried = np.linalg.solve(transmission, np.repeat(after[:, None, :, None], count, axis=1))[..., 0]
+        start = 0
+        for block in windows.blocks() if windows.rows.all() else ():
+            own = slice(start, start + len(block))
+            transmission = block.offsets.reshape(-1, LOADS, count, LOADS).transpose(0, 2, 1, 3)
+            carried[own] = np.linalg.solve(transmission, np.repeat(after[own, None, :, None], count, axis=1))[..., 0]
+            start = own.stop
         stretch = windows.stretch
         return cls(
             part=windows.part,

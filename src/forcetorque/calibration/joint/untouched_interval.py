@@ -5,18 +5,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.calibration.joint.nodes import Stretch
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, RecordingError
+from forcetorque.base.rows_on_disk import row_blocks
+from forcetorque.calibration.joint.nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
 from forcetorque.calibration.joint.windows import part_windows, window_means
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.long_recording import forget_recording, segment_experiments
 from forcetorque.experiment.sample_quality import unusable_in
 from forcetorque.experiment.sensor_reading import readings_at
 from forcetorque.recording.alignment import require_overlap, seconds_since
@@ -113,16 +115,20 @@ class RawWindows:
         Returns:
             The same over its windows.
         """
-        whole = np.isfinite(raw).all(axis=1)
-        nothing = np.full(raw.shape[1], np.nan)
+        samples, minimum, maximum = 0, np.full(raw.shape[1], np.nan), np.full(raw.shape[1], np.nan)
+        for (block,) in row_blocks(raw):
+            whole = block[np.isfinite(block).all(axis=1)]
+            if len(whole):
+                samples += len(whole)
+                minimum, maximum = np.fmin(minimum, whole.min(axis=0)), np.fmax(maximum, whole.max(axis=0))
         times, means = window_means(stretch, raw)
         return cls(
             time_s=times,
             means=means,
-            minimum=raw[whole].min(axis=0) if whole.any() else nothing,
-            maximum=raw[whole].max(axis=0) if whole.any() else nothing,
-            samples=int(np.count_nonzero(whole)),
-            missing=int(np.count_nonzero(~whole)),
+            minimum=minimum,
+            maximum=maximum,
+            samples=samples,
+            missing=len(raw) - samples,
             unusable=unusable,
         )
 
@@ -147,6 +153,7 @@ def joint_interval(
     label: str | None = None,
     recording: str | None = None,
     session: str | None = None,
+    segments: Sequence[Experiment] = (),
 ) -> JointInterval:
     """Take what an interval says of several sensors at once.
 
@@ -157,6 +164,8 @@ def joint_interval(
         label: Name of the interval among those of other recordings; its label if None.
         recording: Name of the recording among others; that of the experiment if None.
         session: Session that the interval is of, among those of other recordings; by its file if None.
+        segments: The experiment in the segments of a long recording, which are read one after the other; samples are
+            then in temporary files.
 
     Returns:
         Readings by the prior matrices, at the instants of the first sensor, and the motion of the robot. Parts whose
@@ -164,7 +173,67 @@ def joint_interval(
 
     Raises:
         ExperimentError: If the interval has no support, or of no untouched part all joints are in the log.
+        RecordingError: If no sample of the interval can be used.
     """
+    parts = _parts(experiment, interval, sensors, segments)
+    untouched, raw, counts = next(parts)
+    unusable = {name: [own] for name, own in counts.items()}
+    if segments:
+        rows = StretchRows(untouched.stretch, raw)
+        untouched = replace(untouched, stretch=untouched.stretch.samples(np.arange(0)))
+        for part, raw, counts in parts:
+            rows.append(part.stretch, raw)
+            for name, own in counts.items():
+                unusable[name].append(own)
+            del part, raw
+        stretch, raw = rows.mapped()
+        untouched = replace(untouched, stretch=stretch)
+    stretch = replace(
+        untouched.stretch,
+        label=interval.label if label is None else label,
+        recording=experiment.session_names(None)[0] if recording is None else recording,
+        session=experiment.session_names(interval.label)[0] if session is None else session,
+    )
+    return JointInterval(
+        interval=interval,
+        untouched=replace(untouched, stretch=stretch),
+        raw={
+            name: RawWindows.of(stretch, values, UnusableCounts.total(unusable[name])) for name, values in raw.items()
+        },
+    )
+
+
+def _parts(
+    experiment: Experiment, interval: Interval, sensors: Sequence[str], segments: Sequence[Experiment]
+) -> Iterator[_LoggedPart]:
+    """An interval as a whole, or its parts in segments, which are not to be kept; at least one."""
+    if not segments:
+        yield _part(experiment, interval, sensors)
+        return
+    error, seen = RecordingError(f"interval {interval.label!r}: expected samples, got none"), False
+    for segment in segments:
+        for part in segment.recording.intervals:
+            if (part.label, part.use) == (interval.label, interval.use):
+                try:
+                    logged = [_part(segment, part, sensors)]
+                except RecordingError as lost:  # the log has a gap there
+                    error = lost
+                else:
+                    seen = True
+                    yield logged.pop()
+        forget_recording(experiment)
+    if not seen:
+        raise error
+
+
+class _LoggedPart(NamedTuple):
+    untouched: UntouchedStretch
+    raw: dict[str, FloatArray]
+    """Raw readings at the instants of the stretch, by sensor; shape (n, c) each; counts; NaN in gaps."""
+    unusable: dict[str, UnusableCounts]
+
+
+def _part(experiment: Experiment, interval: Interval, sensors: Sequence[str]) -> _LoggedPart:
     support = interval.support
     if support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
@@ -197,9 +266,9 @@ def joint_interval(
     priors = {sensor.name: required_prior(sensor) for sensor in used}
     raw = {sensor.name: readings_at(experiment, sensor, (), samples.stamp_ns).raw for sensor in used}
     stretch = Stretch(
-        label=interval.label if label is None else label,
-        recording=experiment.session_names(None)[0] if recording is None else recording,
-        session=experiment.session_names(interval.label)[0] if session is None else session,
+        label=interval.label,
+        recording=experiment.name,
+        session=interval.label,
         time_s=seconds_since(samples.stamp_ns, experiment.recording.start_ns),
         tree=tree,
         joints=joints,
@@ -207,15 +276,12 @@ def joint_interval(
         readings={name: raw[name] @ prior.T for name, prior in priors.items()},
         touched=touched,
     )
-    return JointInterval(
-        interval=interval,
+    return _LoggedPart(
         untouched=UntouchedStretch(
             stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
         ),
-        raw={
-            name: RawWindows.of(stretch, values, unusable_in(experiment, experiment.sensor(name), interval))
-            for name, values in raw.items()
-        },
+        raw=raw,
+        unusable={sensor.name: unusable_in(experiment, sensor, interval) for sensor in used},
     )
 
 
@@ -255,15 +321,21 @@ def part_residuals(experiment: Experiment, calibrations: Mapping[str, Calibratio
         for sensor in experiment.sensors
         if sensor.name in calibrations and sensor.prior is not None
     }
+    if not used:
+        return []
     intervals = [interval for interval in experiment.recording.intervals if interval.use is use]
-    return [residual for interval in intervals if used for residual in _residuals(experiment, interval, used)]
+    segments = segment_experiments(experiment)
+    return [residual for interval in intervals for residual in _residuals(experiment, interval, used, segments)]
 
 
 def _residuals(
-    experiment: Experiment, interval: Interval, calibrations: Mapping[str, Calibration]
+    experiment: Experiment,
+    interval: Interval,
+    calibrations: Mapping[str, Calibration],
+    segments: Sequence[Experiment],
 ) -> Iterator[PartResidual]:
     try:
-        one = joint_interval(experiment, interval, list(calibrations)).untouched
+        one = joint_interval(experiment, interval, list(calibrations), segments=segments).untouched
     except ForceTorqueError:  # no support, or something touches every part: then there is nothing to add up
         return
     sessions = experiment.session_names(interval.label)

@@ -17,6 +17,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages, rows_where
 from forcetorque.calibration.joint.model_error_columns import body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
@@ -116,6 +117,7 @@ class PartWindows:
         """
         for start in range(0, len(self), _BLOCK):
             yield self.kept(slice(start, start + _BLOCK))
+            forget_pages([getattr(self, name) for name in _BY_WINDOW])
 
     def kept(self, marks: BoolArray | slice) -> PartWindows:
         """Keep some of the windows.
@@ -126,8 +128,9 @@ class PartWindows:
         Returns:
             The others left out.
         """
-        values = {name: getattr(self, name)[marks] for name in _BY_WINDOW}
-        return replace(self, **values)
+        arrays = [getattr(self, name) for name in _BY_WINDOW]
+        kept = [values[marks] for values in arrays] if isinstance(marks, slice) else rows_where(marks, arrays)
+        return replace(self, **dict(zip(_BY_WINDOW, kept, strict=True)))
 
 
 _BY_WINDOW = ("time_s", "counts", "transmission", "readings", "expected", "errors", "right")
@@ -158,10 +161,22 @@ def part_windows(
     Yields:
         The windows of every part, as long as there are any.
     """
-    chosen = islice(stretch.pieces(PIECE_S), 0, None, every)
-    pieces = [list(_piece_windows(piece, parts, weighed, terms, about)) for piece in chosen]
-    for of_part in zip(*pieces, strict=True):
-        yield _joined(of_part, stretch)
+    first: list[PartWindows] = []
+    rows: list[dict[str, RowsOnDisk]] = []
+    for piece in islice(stretch.pieces(PIECE_S), 0, None, every):
+        of_parts = list(_piece_windows(piece, parts, weighed, terms, about))
+        if not first:
+            first = [one.kept(slice(0, 0)) for one in of_parts]
+            rows = [
+                {name: RowsOnDisk(getattr(one, name).shape[1:], getattr(one, name).dtype) for name in _BY_WINDOW}
+                for one in first
+            ]
+        for one, own in zip(of_parts, rows, strict=True):
+            for name, values in own.items():
+                values.append(getattr(one, name))
+    for one, own in zip(first, rows, strict=True):
+        joined: dict[str, Any] = {name: values.mapped() for name, values in own.items()}
+        yield replace(one, stretch=stretch, **joined)
 
 
 def window_means(stretch: Stretch, values: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -180,13 +195,8 @@ def window_means(stretch: Stretch, values: FloatArray) -> tuple[FloatArray, Floa
         times.append(windows.time_s)
         means.append(windows.means(values[start : start + len(piece)]))
         start += len(piece)
+        forget_pages([values])
     return np.concatenate(times), np.concatenate(means)
-
-
-def _joined(pieces: Sequence[PartWindows], stretch: Stretch) -> PartWindows:
-    """Put the windows of one part that follow each other together."""
-    values: dict[str, Any] = {name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in _BY_WINDOW}
-    return replace(pieces[0], stretch=stretch, **values)
 
 
 def _piece_windows(

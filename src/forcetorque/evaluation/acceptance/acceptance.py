@@ -21,15 +21,17 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, with_first_column
 
 _OF_ERRORS = {"evaluate", "improvement", "validate"}
 """Tables of an acceptance file that limit errors, so that it matters whether a calibration may be used."""
 
 
-class Acceptance(Result):
+class Acceptance(DrawnResult):
     """Which criteria sensors meet, and everything that was measured of them without one."""
+
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.acceptance:acceptance_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.answers:acceptance_answers"
 

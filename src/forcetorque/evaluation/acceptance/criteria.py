@@ -27,7 +27,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.campaign import Campaign
-from forcetorque.experiment.free_sub_model import OtherSensors
+from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.raw_counts import IntervalQuality
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
@@ -312,9 +312,8 @@ def _ratio(new: float, prior: float) -> float:
 def _contact_errors(subject: Subject, stated: limits.Validate) -> ContactForceErrors:
     """Contact wrench of what is evaluated, with the offset that is asked for, where nothing touches."""
     candidates = {} if subject.calibration is None else dict([subject.calibration])
-    forces = contact_forces(
-        subject.campaign, candidates, others=subject.others, other_sensors=OtherSensors(stated.other_sensors)
-    )
+    choice = SubModelChoice(others=subject.others, other_sensors=OtherSensors(stated.other_sensors))
+    forces = contact_forces(subject.campaign, candidates, choice)
     name = next(iter(candidates), PRIOR)
     # a prior that no data gave an offset is evaluated with what it has, none, where its own is asked for
     from_start = Offset(stated.offset) is Offset.FIRST_SECOND

@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.evaluation.matrix_checks import (
     FeaturePosition,
     MatrixChecks,
@@ -23,6 +24,7 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.raw_counts import IntervalQuality, has_counts, interval_qualities
+from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use
@@ -191,13 +193,14 @@ def _uses(intervals: Sequence[Interval]) -> list[Use]:
 def _offsets(run: SensorRun, correction: Correction, use: Use) -> Iterator[IntervalOffset]:
     temperature = _temperature(run)
     known = () if temperature is None else (temperature.linear.name,)
-    for data in run.samples(use, variables={*correction.variables, *known}):
+    for data in samples_of_use(run, use, {*correction.variables, *known}):
+        blocks = zip(data.readings.blocks(), in_blocks(data.samples.reference), strict=True)
         with stated_in(f"interval {data.interval.label!r}"):
-            wrench = data.readings.wrench(correction) - correction.model.offset
+            lacking = sum((reference - readings.wrench(correction)).sum(axis=0) for readings, (reference,) in blocks)
         yield IntervalOffset(
             label=data.interval.label,
-            samples=len(wrench),
-            offset=(data.samples.reference - wrench).mean(axis=0),
+            samples=len(data.samples),
+            offset=lacking / len(data.samples) + correction.model.offset,
             temperature_degC=float(data.readings.variables[known[0]].mean()) if known else None,
         )
 

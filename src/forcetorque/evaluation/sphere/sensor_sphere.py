@@ -3,14 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
-from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, ShapeError, UnitError, known_names
+from forcetorque.base.errors import (
+    ExperimentError,
+    FitError,
+    ForceTorqueError,
+    RecordingError,
+    ShapeError,
+    UnitError,
+    known_names,
+)
 from forcetorque.evaluation.sphere.affine_fit import MappedFit, MomentRow, fit_mapped, fit_moment
 from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud, share_of_directions
 from forcetorque.evaluation.sphere.fit_results import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
@@ -20,6 +29,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.long_recording import is_long, segment_runs
 from forcetorque.experiment.sensor_reading import Correction, Readings
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use
@@ -255,6 +265,8 @@ class SensorSphere:
     """Labels of the intervals whose samples were taken together."""
     fitted_on: tuple[str, ...]
     """Those of them that the calibration was fitted on: it is then evaluated too kindly."""
+    every: int = 1
+    """Of how many samples one was taken; 1 unless the recording is long."""
     no_model: str | None
     """Why the model gives no reference; None where it does."""
     force: FloatArray
@@ -263,6 +275,18 @@ class SensorSphere:
     """What it should have read; shape (n, 3); N."""
     analysis: SphereAnalysis
     """The analysis."""
+
+    def doubts(self) -> Iterator[str]:
+        """Say what the verdict is to be read with.
+
+        Yields:
+            Sentences.
+        """
+        if self.fitted_on:
+            labels = ", ".join(map(repr, self.fitted_on))
+            yield f"{self.calibration} was fitted on {labels}, so the verdict on it flatters"
+        if self.every > 1:
+            yield f"{self.sensor}: one of {self.every} samples draws the sphere, as the recording is long"
 
     @property
     def no_fit_with_model(self) -> str | None:
@@ -329,7 +353,7 @@ def sensor_spheres(
         corrections = _corrections(run, calibrations)
         reason = _no_reference(run, intervals)
         needed = {variable for _, correction, _ in corrections for variable in correction.variables}
-        spans, reference = _collected(run, intervals, needed, with_model=reason is None)
+        spans, reference, every = _collected(run, intervals, needed, with_model=reason is None)
         mass = _one_mass(run, intervals)
     spheres = []
     for name, correction, calibration in corrections:
@@ -342,6 +366,7 @@ def sensor_spheres(
                 serial=run.sensor.serial,
                 calibration=name,
                 intervals=tuple(interval.label for interval in intervals),
+                every=every,
                 fitted_on=_fitted_on(run, calibration, intervals),
                 no_model=reason,
                 force=wrench[:, :3],
@@ -401,15 +426,41 @@ def _question(run: SensorRun, interval: Interval) -> Question:
     return Question(tree=tree, expected=(run.sensor.name,), equations=())
 
 
+_MOST: Final = 360_000
+"""Samples of a long recording that draw a sphere, evenly taken: an hour at 100 Hz."""
+
+
 def _collected(
     run: SensorRun, intervals: Sequence[Interval], variables: Collection[str], *, with_model: bool
-) -> tuple[list[tuple[Interval, Readings]], FloatArray | None]:
-    """Readings of every interval, and references one after the other."""
+) -> tuple[list[tuple[Interval, Readings]], FloatArray | None, int]:
+    """Readings of every interval, references one after the other, and of how many samples one is taken."""
+    if not is_long(run):
+        spans, references = _over(run, intervals, variables, with_model=with_model)
+        return spans, np.concatenate(references) if references else None, 1
+    stamps, labels = run.stream.stamp_ns, {interval.label for interval in intervals}
+    every = -(-sum(int(np.count_nonzero(interval.holds(stamps))) for interval in intervals) // _MOST)
+    taken: list[tuple[Interval, Readings]] = []
+    expected: list[FloatArray] = []
+    for part in segment_runs(run):
+        own = [one for one in part.experiment.recording.intervals if one.label in labels and one.use is not Use.IGNORE]
+        for interval in own:
+            with suppress(RecordingError):  # the log has a gap there
+                spans, references = _over(part, [interval], variables, with_model=with_model)
+                taken += [(one, readings.at(slice(None, None, every))) for one, readings in spans]
+                expected += [reference[::every].copy() for reference in references]
+        del part
+    if not taken:
+        raise RecordingError(f"interval {intervals[0].label!r}: expected samples, got none")
+    return taken, np.concatenate(expected) if expected else None, every
+
+
+def _over(
+    run: SensorRun, intervals: Sequence[Interval], variables: Collection[str], *, with_model: bool
+) -> tuple[list[tuple[Interval, Readings]], list[FloatArray]]:
     if not with_model:
-        return [(interval, run.interval_readings(interval, variables=variables)) for interval in intervals], None
+        return [(interval, run.interval_readings(interval, variables=variables)) for interval in intervals], []
     samples = [run.interval_samples(interval, variables=variables) for interval in intervals]
-    reference = np.concatenate([one.samples.reference for one in samples])
-    return [(one.interval, one.readings) for one in samples], reference
+    return [(one.interval, one.readings) for one in samples], [one.samples.reference for one in samples]
 
 
 def _analysed(

@@ -234,12 +234,7 @@ def spheres(
         rows=tuple(SphereRow.of(analysis) for analysis in analyses),
         failures=(),
         analyses=analyses,
-        warnings=tuple(
-            f"{analysis.calibration} was fitted on {', '.join(map(repr, analysis.fitted_on))}, so the verdict on it "
-            "flatters"
-            for analysis in analyses
-            if analysis.fitted_on
-        ),
+        warnings=tuple(dict.fromkeys(words for analysis in analyses for words in analysis.doubts())),
     )
 
 

@@ -14,8 +14,8 @@ from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, ContactForces
-    from forcetorque.evaluation.validation.validation import JointTorqueErrors, JointTorques, Validation
+    from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors
+    from forcetorque.evaluation.validation.validation import JointTorqueErrors, Validation
 
 
 def validation_answers(validation: Validation) -> Iterator[Answer]:
@@ -27,27 +27,10 @@ def validation_answers(validation: Validation) -> Iterator[Answer]:
     Yields:
         One answer each.
     """
-    yield from _by_sensor(validation.contact_forces, validation.best, validation.joint_torques)
-
-
-def contact_answers(contacts: ContactForces) -> Iterator[Answer]:
-    """Give the answer for every sensor, where contact forces alone are evaluated.
-
-    Args:
-        contacts: Contact forces where nothing touches.
-
-    Yields:
-        One answer each.
-    """
-    yield from _by_sensor(contacts.verdicts, contacts.best, ())
-
-
-def _by_sensor(
-    forces: Sequence[ContactForceErrors], best: Sequence[BestCalibration], torques: Sequence[JointTorqueErrors]
-) -> Iterator[Answer]:
-    """The answer for every sensor: of its own offset where its candidates have one."""
-    for sensor in dict.fromkeys(row.sensor for row in best):
-        of_sensor = [row for row in best if row.sensor == sensor]
+    forces, torques = validation.contact_forces, validation.joint_torques
+    for sensor in dict.fromkeys(row.sensor for row in validation.best):
+        of_sensor = [row for row in validation.best if row.sensor == sensor]
+        # of its own offset where its candidates have one
         choice = next((row for row in of_sensor if row.offset is Offset.FITTED), of_sensor[0])
         rows = [row for row in forces if (row.sensor, row.offset) == (sensor, choice.offset)]
         own = [row for row in torques if (row.sensor, row.offset) == (sensor, choice.offset)]
@@ -98,24 +81,6 @@ def _is_prior(candidate: str) -> bool:
 
 def _force(row: ContactForceErrors) -> str:
     return within(row.force_mean_N, row.force_mean_half_width_95_N, "N")
-
-
-def torque_answers(joint_torques: JointTorques) -> Iterator[Answer]:
-    """Give the answer for every sensor and candidate, where joint torques alone are evaluated.
-
-    Yields:
-        One answer each.
-    """
-    torques = joint_torques.verdicts
-    names = short_names([row.calibration for row in torques])
-    for sensor, candidate, offset in dict.fromkeys((row.sensor, row.calibration, row.offset) for row in torques):
-        rows = [row for row in torques if (row.sensor, row.calibration, row.offset) == (sensor, candidate, offset)]
-        worst = max(rows, key=lambda row: row.rmse)
-        yield Answer(
-            subject=f"{sensor} ({worst.serial}), {names[candidate]}, {offset} offset",
-            verdict=f"torque error of {worst.joint} {_torque(worst)}",
-            why=(f"largest of {len(rows)} joints, root mean square of {worst.samples} samples",),
-        )
 
 
 def _of_torques(torques: Sequence[JointTorqueErrors], candidate: str, names: Mapping[str, str]) -> Iterator[str]:

@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, ClassVar, Literal
+from dataclasses import dataclass
+from typing import Annotated, Literal, Self
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.paired_comparison import PairedErrors, compare_errors
+from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
     ErrorComparison,
@@ -18,15 +21,13 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     validation_excitation,
 )
 from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import errors_from_zero
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
+from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
 from forcetorque.results.table import (
     Row,
     Shown,
@@ -108,8 +109,8 @@ def best_candidate(
     Returns:
         The candidate, and the test of it against every other.
     """
-    sizes = {key: np.abs(wrench[~np.isnan(wrench).any(axis=1)]) for key, wrench in pooled.wrenches.items()}
-    norms = {key: float(np.linalg.norm(sizes[key][:, :3], axis=1).mean()) for key in candidates}
+    sizes = {key: _Size.of(pooled.wrenches[key]) for key in candidates}
+    norms = {key: size.norm for key, size in sizes.items()}
     least = min(candidates, key=norms.__getitem__)
     names = {key: pooled.candidates[key[0]].name for key in candidates}
     comparisons = []
@@ -124,7 +125,7 @@ def best_candidate(
                 offset=offset,
                 quantity="force",
                 unit="N",
-                samples=len(sizes[least]),
+                samples=sizes[least].samples,
                 mean=norms[least],
                 other=names[key],
                 other_mean=norms[key],
@@ -135,7 +136,7 @@ def best_candidate(
                 conclusion=ratio.conclusion,
             )
         )
-    by_axis = np.argmin([sizes[key].mean(axis=0) for key in candidates], axis=0)
+    by_axis = np.argmin([size.by_axis for size in sizes.values()], axis=0)
     return BestCalibration(
         sensor=sensor,
         offset=offset,
@@ -146,12 +147,32 @@ def best_candidate(
     )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Size:
+    """How large contact wrenches are, over the samples without a gap."""
+
+    samples: int
+    norm: float
+    """Mean norm of the force; N."""
+    by_axis: FloatArray
+    """Mean absolute value; shape (6,); N, N m."""
+
+    @classmethod
+    def of(cls, wrenches: FloatArray) -> Self:
+        count, norm, by_axis = 0, 0.0, np.zeros(6)
+        for (block,) in in_blocks(wrenches):
+            whole = block[~np.isnan(block).any(axis=1)]
+            count += len(whole)
+            norm, by_axis = norm + np.linalg.norm(whole[:, :3], axis=1).sum(), by_axis + np.abs(whole).sum(axis=0)
+        return cls(samples=count, norm=float(norm) / count, by_axis=by_axis / count)
+
+
 def _pairs(
     recordings: Sequence[ContactWrenches], first: tuple[int, Offset], second: tuple[int, Offset]
 ) -> list[PairedErrors]:
     """Contact wrenches of two candidates where nothing touches: what should be zero is the error."""
     return [
-        PairedErrors.of(one.wrenches[first], one.wrenches[second], np.zeros_like(one.wrenches[first]))
+        PairedErrors.of(one.wrenches[first], one.wrenches[second], np.broadcast_to(0.0, one.wrenches[first].shape))
         for one in recordings
         if first in one.wrenches
     ]
@@ -211,10 +232,9 @@ class ContactForceErrors(Row):
     """The same of the moment."""
 
 
-class ContactForces(Result):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactForces:
     """Contact wrenches of a sub-model that nothing touches, by all candidates of a sensor."""
-
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:contact_answers"
 
     verdicts: tuple[ContactForceErrors, ...]
     """One per calibration and offset."""
@@ -222,14 +242,6 @@ class ContactForces(Result):
     """One per offset."""
     left_out: tuple[str, ...]
     """What could not be evaluated of the intervals, in words."""
-
-    def blocks(self) -> Iterator[Table | str]:
-        """Give a table per sensor, and who is best.
-
-        Yields:
-            Tables and sentences.
-        """
-        yield from contact_force_blocks(self.verdicts, self.best)
 
 
 class RecordingContactForces(ContactForceErrors):
@@ -239,15 +251,10 @@ class RecordingContactForces(ContactForceErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-@with_recording_notes
 def contact_forces(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
-    *,
-    others: Mapping[str, Calibration] | None = None,
-    other_sensors: OtherSensors = OtherSensors.MODEL,
-    sub_model: str | None = None,
-    contact: str | None = None,
+    choice: SubModelChoice = BEYOND_SENSOR,
 ) -> ContactForces:
     """Evaluate calibrations of a sensor by the contact wrench of a sub-model that nothing touches.
 
@@ -255,10 +262,7 @@ def contact_forces(
         runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
         calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
             where there is none.
-        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
+        choice: Which sub-model nothing touches, and what the other sensors read.
 
     Returns:
         For every candidate the errors with its own offset and with one from each interval's first second, and the
@@ -268,7 +272,6 @@ def contact_forces(
         ExperimentError: If there is nothing to evaluate, or an interval has no support.
     """
     campaign = Campaign.of(runs)
-    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
     recordings = choice.in_campaign(campaign, lambda free: contact_wrenches(free, calibrations))
     return contact_forces_of(campaign.sensor, recordings)
 
@@ -294,7 +297,6 @@ def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, Contact
         verdicts=verdicts,
         best=tuple(_best(sensor, contacts, list(recordings.values()))),
         left_out=contacts.left_out,
-        warnings=tuple(f"left out: {words}" for words in contacts.left_out),
     )
 
 
@@ -367,7 +369,11 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
 
 def _judgeable(contacts: ContactWrenches) -> list[tuple[int, Offset]]:
     """Keys of the wrenches that have a sample without a gap."""
-    return [key for key, wrenches in contacts.wrenches.items() if not np.isnan(wrenches).any(axis=1).all()]
+    return [
+        key
+        for key, wrenches in contacts.wrenches.items()
+        if not all(np.isnan(block).any(axis=1).all() for (block,) in in_blocks(wrenches))
+    ]
 
 
 def _best(

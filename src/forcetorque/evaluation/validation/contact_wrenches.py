@@ -13,14 +13,15 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, requi
 from forcetorque.base.errors import EstimationError, ShapeError, known_names
 from forcetorque.base.noise.means import joined_times
 from forcetorque.base.pose import invert_pose
+from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import ContactForceValidation, FreeSubModel
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.validation_offset import Offset, gap_words, nothing_left
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, EvaluatedGaps, Offset, nothing_left
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.recording.recording import Interval, Use
+from forcetorque.recording.recording import Interval
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -203,41 +204,71 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     Raises:
         ExperimentError: If there is no interval to evaluate, or one has no support.
     """
-    run = free.run
-    candidates = run.candidates(calibrations)
-    wrenches: dict[tuple[int, Offset], list[FloatArray]] = {}
-    times: dict[tuple[int, Offset], list[FloatArray]] = {}
-    expected: list[FloatArray] = []
-    left_out: dict[str, None] = {}
-    name = ""
-    for interval in run.intervals(Use.VALIDATION):
-        with stated_in(f"interval {interval.label!r}"):
-            sub_model = free.seen_from_support(interval)
-            name = sub_model.part.name
-            instants = run.instants(interval)
-            short = nothing_left(instants, interval)
-            if short is not None:
-                left_out[short] = None
-                continue
-            over, without = _over(free, interval, sub_model, candidates)
-        expected.append(instants.judged(without))
-        for index, wrench in enumerate(over):
-            judged = instants.judged_with_both(wrench)
-            words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
-            left_out |= {} if words is None else {words: None}
-            for offset, errors in judged.items():
-                times.setdefault((index, offset), []).append(
-                    seconds_since(instants.judged_ns, run.experiment.recording.start_ns)
-                )
-                wrenches.setdefault((index, offset), []).append(errors)
-    return ContactWrenches(
-        sub_model=name,
-        candidates=candidates,
-        wrenches={key: np.concatenate(pieces) for key, pieces in wrenches.items()},
-        time_s={key: np.concatenate(pieces) for key, pieces in times.items()},
-        expected=np.concatenate(expected) if expected else np.empty((0, 6)),
-        left_out=tuple(left_out),
-    )
+    rows = ContactRows(free.whole.candidates(calibrations))
+    for part in free.segments():
+        rows.add(part)
+        del part
+    return rows.wrenches()
+
+
+class ContactRows:
+    """Contact wrenches of a recording whose segments come one after the other, in temporary files if there are many."""
+
+    def __init__(self, candidates: tuple[CalibrationUnderTest, ...]) -> None:
+        """Begin.
+
+        Args:
+            candidates: By what the sensor is read.
+        """
+        self._candidates, self._sub_model = candidates, ""
+        keys = [(index, offset) for index in range(len(candidates)) for offset in KNOWN_BEFORE]
+        self._rows = {key: RowsOnDisk((6,)) for key in keys}
+        self._time, self._expected = RowsOnDisk(), RowsOnDisk((6,))
+        self._left_out: dict[str, None] = {}
+        self._gaps = EvaluatedGaps()
+
+    def add(self, free: FreeSubModel) -> None:
+        """Evaluate the next segment.
+
+        Args:
+            free: The sub-model in the segment.
+
+        Raises:
+            ExperimentError: If an interval has no support.
+        """
+        for interval, instants in free.instants():
+            with stated_in(f"interval {interval.label!r}"):
+                sub_model = free.seen_from_support(interval)
+                self._sub_model = sub_model.part.name
+                short = nothing_left(instants, interval)
+                if short is not None:
+                    self._left_out[short] = None
+                    continue
+                over, without = _over(free, interval, sub_model, self._candidates)
+            self._expected.append(instants.judged(without))
+            self._time.append(seconds_since(instants.judged_ns, free.run.experiment.recording.start_ns))
+            for index, wrench in enumerate(over):
+                judged = instants.judged_with_both(wrench, ("contact", index))
+                self._gaps.add(f"contact force by {self._candidates[index].name}", interval, judged)
+                for offset, errors in judged.items():
+                    self._rows[index, offset].append(errors)
+
+    def wrenches(self) -> ContactWrenches:
+        """Put them together.
+
+        Returns:
+            The wrenches of all segments.
+        """
+        time_s = self._time.mapped()
+        found = len(time_s) > 0
+        return ContactWrenches(
+            sub_model=self._sub_model,
+            candidates=self._candidates,
+            wrenches={key: rows.mapped() for key, rows in self._rows.items() if found},
+            time_s={key: time_s for key in self._rows if found},
+            expected=self._expected.mapped(),
+            left_out=(*self._left_out, *dict.fromkeys(self._gaps.words())),
+        )
 
 
 def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenches:
@@ -261,9 +292,9 @@ def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenche
     return ContactWrenches(
         sub_model=first.sub_model,
         candidates=first.candidates,
-        wrenches={key: np.concatenate(several) for key, several in pieces.items()},
+        wrenches={key: concatenated(several) for key, several in pieces.items()},
         time_s={key: joined_times(several) for key, several in times.items()},
-        expected=np.concatenate([contacts.expected for contacts in recordings.values()]),
+        expected=concatenated([contacts.expected for contacts in recordings.values()]),
         left_out=tuple(f"{name}: {words}" for name, contacts in recordings.items() for words in contacts.left_out),
     )
 

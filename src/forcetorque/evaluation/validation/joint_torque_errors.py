@@ -18,9 +18,15 @@ from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, gap_words, nothing_left
+from forcetorque.experiment.validation_offset import (
+    KNOWN_BEFORE,
+    EvaluatedGaps,
+    EvaluatedInstants,
+    Offset,
+    nothing_left,
+)
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
-from forcetorque.recording.recording import Interval, Use
+from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 from forcetorque.robot.dynamics import body_poses
@@ -315,27 +321,61 @@ def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibrat
     Raises:
         ExperimentError: If an interval has no support.
     """
-    run = free.run
-    candidates = run.candidates(calibrations)
-    pieces: dict[TorqueKey, list[TorqueSamples]] = {}
-    left_out: dict[str, None] = {}
-    for interval in run.intervals(Use.VALIDATION):
-        with stated_in(f"interval {interval.label!r}"):
-            scheme = torque_scheme(free, interval)
-            left_out |= dict.fromkeys(scheme.left_out)
-            short = nothing_left(run.instants(interval), interval)
-            if short is not None:
-                left_out[short] = None
-            elif scheme.joints:
-                over = dict(_over(free, interval, scheme, candidates))
-                left_out |= dict.fromkeys(_gaps(interval, candidates, over))
-                for key, samples in over.items():
-                    pieces.setdefault(key, []).append(samples)
-    return TorqueErrorSamples(
-        candidates=candidates,
-        samples={key: _joined(samples) for key, samples in pieces.items()},
-        left_out=tuple(left_out),
-    )
+    rows = TorqueRows(free.whole.candidates(calibrations))
+    for part in free.segments():
+        rows.add(part)
+        del part
+    return rows.samples()
+
+
+class TorqueRows:
+    """Errors of joint torques of a recording whose segments come one after the other."""
+
+    def __init__(self, candidates: tuple[CalibrationUnderTest, ...]) -> None:
+        """Begin.
+
+        Args:
+            candidates: By what the sensor is read.
+        """
+        self._candidates = candidates
+        self._pieces: dict[TorqueKey, list[TorqueSamples]] = {}
+        self._left_out: dict[str, None] = {}
+        self._gaps = EvaluatedGaps()
+
+    def add(self, free: FreeSubModel) -> None:
+        """Evaluate the next segment.
+
+        Args:
+            free: The sub-model in the segment.
+
+        Raises:
+            ExperimentError: If an interval has no support.
+        """
+        for interval, instants in free.instants():
+            with stated_in(f"interval {interval.label!r}"):
+                scheme = torque_scheme(free, interval)
+                self._left_out |= dict.fromkeys(scheme.left_out)
+                short = nothing_left(instants, interval)
+                if short is not None:
+                    self._left_out[short] = None
+                elif scheme.joints:
+                    over = dict(_over(free, interval, instants, scheme, self._candidates))
+                    for key, samples in over.items():
+                        self._pieces.setdefault(key, []).append(samples)
+                    for what, judged in _judged(self._candidates, over):
+                        self._gaps.add(what, interval, judged)
+
+    def samples(self) -> TorqueErrorSamples:
+        """Put them together.
+
+        Returns:
+            The errors of all segments.
+        """
+        return TorqueErrorSamples(
+            candidates=self._candidates,
+            samples=_joined(self._pieces, np.concatenate),
+            left_out=(*self._left_out, *dict.fromkeys(self._gaps.words())),
+        )
 
 
 def pooled_torque_errors(recordings: Mapping[str, TorqueErrorSamples]) -> TorqueErrorSamples:
@@ -356,27 +396,41 @@ def pooled_torque_errors(recordings: Mapping[str, TorqueErrorSamples]) -> Torque
             pieces.setdefault(key, []).append(samples)
     return TorqueErrorSamples(
         candidates=first.candidates,
-        samples={key: _joined(samples, instants=joined_times) for key, samples in pieces.items()},
+        samples=_joined(pieces, joined_times),
         left_out=tuple(f"{name}: {words}" for name, torques in recordings.items() for words in torques.left_out),
     )
 
 
 def _joined(
-    pieces: Sequence[TorqueSamples], *, instants: Callable[[Sequence[FloatArray]], FloatArray] = np.concatenate
-) -> TorqueSamples:
-    return TorqueSamples(
-        from_model=np.concatenate([samples.from_model for samples in pieces]),
-        from_logged=np.concatenate([samples.from_logged for samples in pieces]),
-        time_s=instants([samples.time_s for samples in pieces]),
-        logged_time_s=instants([samples.logged_time_s for samples in pieces]),
-    )
+    pieces: Mapping[TorqueKey, Sequence[TorqueSamples]], instants: Callable[[Sequence[FloatArray]], FloatArray]
+) -> dict[TorqueKey, TorqueSamples]:
+    """Put errors that follow each other together; torques of the same instants share them."""
+    known: dict[tuple[int, ...], FloatArray] = {}
+
+    def joined(times: Sequence[FloatArray]) -> FloatArray:
+        key = tuple(map(id, times))
+        return known[key] if key in known else known.setdefault(key, instants(times))
+
+    return {
+        key: TorqueSamples(
+            from_model=np.concatenate([one.from_model for one in own]),
+            from_logged=np.concatenate([one.from_logged for one in own]),
+            time_s=joined([one.time_s for one in own]),
+            logged_time_s=joined([one.logged_time_s for one in own]),
+        )
+        for key, own in pieces.items()
+    }
 
 
 def _over(
-    free: FreeSubModel, interval: Interval, scheme: TorqueScheme, candidates: Sequence[CalibrationUnderTest]
+    free: FreeSubModel,
+    interval: Interval,
+    instants: EvaluatedInstants,
+    scheme: TorqueScheme,
+    candidates: Sequence[CalibrationUnderTest],
 ) -> Iterator[tuple[TorqueKey, TorqueSamples]]:
     """Errors of every calibration, offset and joint over one interval, after its first second."""
-    run, instants, sensor = free.run, free.run.instants(interval), free.run.sensor.name
+    run, sensor = free.run, free.run.sensor.name
     model, maps = _model(run, interval, scheme)
     own = [run.measured(interval, candidate.correction) - model.expected_of(sensor) for candidate in candidates]
     measured = free.measured(scheme.sensors[1:], interval)
@@ -386,9 +440,10 @@ def _over(
     for offset in KNOWN_BEFORE:
         by_others = np.zeros((len(instants.at_ns), len(scheme.joints)))
         for name, error in others.items():
-            by_others += _borne(scheme, maps[name], instants.with_offset(error, offset))
+            by_others += _borne(scheme, maps[name], instants.with_offset(error, offset, ("torque", name)))
         for candidate, error in enumerate(own):
-            borne = by_others + _borne(scheme, maps[sensor], instants.with_offset(error, offset))
+            known = instants.with_offset(error, offset, ("torque", candidate))
+            borne = by_others + _borne(scheme, maps[sensor], known)
             for joint, torque in zip(scheme.joints, borne.T, strict=True):
                 off = torque + model.torque(joint) - logged[joint] if joint in logged else None
                 yield (
@@ -402,17 +457,15 @@ def _over(
                 )
 
 
-def _gaps(
-    interval: Interval, candidates: Sequence[CalibrationUnderTest], over: Mapping[TorqueKey, TorqueSamples]
-) -> Iterator[str]:
-    """Torques that gaps leave out in one interval, in words."""
+def _judged(
+    candidates: Sequence[CalibrationUnderTest], over: Mapping[TorqueKey, TorqueSamples]
+) -> Iterator[tuple[str, dict[Offset, FloatArray]]]:
+    """Every torque by every candidate, in words, and its errors with either offset."""
     by_offset: dict[tuple[str, int], dict[Offset, FloatArray]] = {}
     for key, samples in over.items():
         by_offset.setdefault((key.joint, key.candidate), {})[key.offset] = samples.from_model
     for (joint, candidate), judged in by_offset.items():
-        words = gap_words(f"torque of {joint} by {candidates[candidate].name}", interval, judged)
-        if words is not None:
-            yield words
+        yield f"torque of {joint} by {candidates[candidate].name}", judged
 
 
 def _model(run: SensorRun, interval: Interval, scheme: TorqueScheme) -> tuple[Estimates, dict[str, TorqueMap]]:

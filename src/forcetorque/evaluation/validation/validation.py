@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -20,23 +21,23 @@ from forcetorque.evaluation.validation.contact_forces import (
     contact_force_rows,
     contact_forces_of,
 )
-from forcetorque.evaluation.validation.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.evaluation.validation.contact_wrenches import ContactRows, ContactWrenches
 from forcetorque.evaluation.validation.joint_torque_errors import (
     TorqueErrors,
     TorqueErrorSamples,
+    TorqueRows,
     pooled_torque_errors,
     torque_error_samples,
     torque_errors,
 )
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors, SubModelChoice
+from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, FreeSubModel, SubModelChoice
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Shown, Table, table_of
 from forcetorque.robot.model import JointType
 
@@ -70,52 +71,32 @@ class RecordingJointTorques(JointTorqueErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-class JointTorques(Result):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointTorques:
     """Joint torques that depend on one sensor, by all its candidates."""
-
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:torque_answers"
 
     verdicts: tuple[JointTorqueErrors, ...]
     """One per calibration, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
 
-    def blocks(self) -> Iterator[Table | str]:
-        """Give a table per sensor.
 
-        Yields:
-            Tables, or a sentence where there is nothing to show.
-        """
-        for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
-            yield joint_torque_table([row for row in self.verdicts if row.sensor == sensor])
-        if not self.verdicts:
-            yield "no joint torque is estimated from the sensor"
-
-
-@with_recording_notes
 def joint_torques(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
-    *,
-    others: Mapping[str, Calibration] | None = None,
-    other_sensors: OtherSensors = OtherSensors.MODEL,
-    sub_model: str | None = None,
-    contact: str | None = None,
+    choice: SubModelChoice = BEYOND_SENSOR,
 ) -> JointTorques:
     """Evaluate calibrations of a sensor by the joint torques that are estimated from it.
 
     The contacts are those of `estimate_experiment`: the support, and a full wrench at the sensor at the base of every
-    other sub-model; `contact` moves that of the free one. The model's torques are those of the support as the only
+    other sub-model; `choice` may move that of the free one. The model's torques are those of the support as the only
     contact.
 
     Args:
         runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are used.
         calibrations: Calibrations of that sensor by name; their priors are evaluated too, or that of the experiment
             where there is none.
-        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The free sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link of the free sub-model that takes up its contact wrench; None for that at its base.
+        choice: Which sub-model nothing touches, and what the other sensors read.
 
     Returns:
         For every candidate, with its own offset and with one from each interval's first second, the errors per joint.
@@ -124,7 +105,6 @@ def joint_torques(
         ExperimentError: If an interval has no support.
     """
     campaign = Campaign.of(runs)
-    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
     recordings = choice.in_campaign(campaign, lambda free: torque_error_samples(free, calibrations))
     return joint_torques_of(campaign, pooled_torque_errors(recordings))
 
@@ -139,11 +119,7 @@ def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTo
     Returns:
         The same as `joint_torques`.
     """
-    return JointTorques(
-        verdicts=tuple(_rows(campaign, torques)),
-        left_out=torques.left_out,
-        warnings=tuple(f"left out: {words}" for words in torques.left_out),
-    )
+    return JointTorques(verdicts=tuple(_rows(campaign, torques)), left_out=torques.left_out)
 
 
 def joint_torque_table(rows: Sequence[JointTorqueErrors]) -> Table:
@@ -196,8 +172,10 @@ def _rows(campaign: Campaign, torques: TorqueErrorSamples) -> Iterator[JointTorq
         )
 
 
-class Validation(Result):
+class Validation(DrawnResult):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
+
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.contact_forces:validation_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:validation_answers"
 
@@ -316,7 +294,13 @@ def _torques_and_contacts(
     free: FreeSubModel, calibrations: Mapping[str, Calibration]
 ) -> tuple[TorqueErrorSamples, ContactWrenches]:
     """Torques first: they need the motion of more joints, in which that of the contact force is found."""
-    return torque_error_samples(free, calibrations), contact_wrenches(free, calibrations)
+    candidates = free.whole.candidates(calibrations)
+    torques, contacts = TorqueRows(candidates), ContactRows(candidates)
+    for part in free.segments():
+        torques.add(part)
+        contacts.add(part)
+        del part
+    return torques.samples(), contacts.wrenches()
 
 
 def _validity(

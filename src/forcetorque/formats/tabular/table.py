@@ -16,7 +16,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk
+from forcetorque.base.rows_on_disk import rows_for
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.signals import even_stamps, specified_quantity, units_in_si
 from forcetorque.formats.tabular.numbers import column_floats, column_stamps
@@ -146,9 +146,7 @@ def _numbers(
         raise FormatError(f"{rows.name}: expected rows, got none")
     widths = [len(signal.columns) for signal in layout.signals]
     given = None if isinstance(layout.stamp, StampColumn) else _stamps_without_column(rows, layout)
-    is_long = 8 * rows.count * (1 + sum(widths)) > IN_MEMORY
-    stamps = RowsOnDisk(dtype=np.int64) if is_long else RowsInMemory(rows.count, dtype=np.int64)
-    numbers = [RowsOnDisk((width,)) if is_long else RowsInMemory(rows.count, (width,)) for width in widths]
+    stamps, *numbers = rows_for(rows.count, [((), np.int64), *(((width,), np.float64) for width in widths)])
     start = 0
     for batch in rows.batches:
         end = start + len(batch)

@@ -21,7 +21,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file, require_unpacked
-from forcetorque.base.rows_on_disk import IN_MEMORY, RowsInMemory, RowsOnDisk, rows_where
+from forcetorque.base.rows_on_disk import rows_for, rows_where
 from forcetorque.formats.kept_parts import kept
 from forcetorque.formats.logged_wrist import first_of_repeats
 from forcetorque.formats.tabular.table import read_numbers
@@ -180,11 +180,8 @@ def _binary(path: Path, heading: Heading) -> tuple[IntArray, list[FloatArray], i
     if count < 1:
         raise FormatError(f"{path}: expected rows of {row.itemsize} bytes, got {max(size, 0)} bytes; copy it again")
     widths = [LENGTHS[field] for field in heading.fields]
-    length = 8 * count * (1 + sum(widths))
-    require_unpacked(path, length)
-    is_long = length > IN_MEMORY
-    stamps = RowsOnDisk(dtype=np.int64) if is_long else RowsInMemory(count, dtype=np.int64)
-    numbers = [RowsOnDisk((width,)) if is_long else RowsInMemory(count, (width,)) for width in widths]
+    require_unpacked(path, 8 * count * (1 + sum(widths)))
+    stamps, *numbers = rows_for(count, [((), np.int64), *(((width,), np.float64) for width in widths)])
     with path.open("rb") as file:
         file.seek(heading.size)
         for start in range(0, count, _BLOCK_ROWS):

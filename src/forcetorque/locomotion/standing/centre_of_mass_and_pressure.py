@@ -158,6 +158,10 @@ class Sole(ArrayRecord):
     outline: FloatArray | None = field(default=None, metadata=array(None, 2))
     """Corners of the sole along x and y from its origin; shape (k, 2); m; None where its extent is unknown.
     The ground presses, so the centre of pressure lies in the smallest convex shape around them."""
+    friction: float | None = None
+    """Force along the ground over the normal force up to which the sole holds; None where it is not stated."""
+    torsional_friction_m: float | None = None
+    """Torsion about the normal over the normal force up to which it holds; m; None where it is not stated."""
     edges: FloatArray = field(init=False)
     """Outward unit normals of that shape and their offsets, `normal . point + offset` being positive outside; shape
     (e, 3); 1, 1, m."""
@@ -166,6 +170,15 @@ class Sole(ArrayRecord):
         check_arrays(self)
         edges = np.empty((0, 3)) if self.outline is None else _convex_edges(self.frame, self.outline)
         object.__setattr__(self, "edges", read_only(edges, name="edges", shape=(None, 3)))
+        for name in ("friction", "torsional_friction_m"):
+            value = getattr(self, name)
+            if value is not None and not 0.0 < value < np.inf:
+                raise EstimationError(f"sole {self.frame!r}: {name}: expected a number above 0, got {value:g}")
+
+    @property
+    def has_friction(self) -> bool:
+        """Whether a friction is stated."""
+        return self.friction is not None or self.torsional_friction_m is not None
 
     @property
     def contact(self) -> Contact:

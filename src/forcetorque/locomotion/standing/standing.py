@@ -32,6 +32,7 @@ from forcetorque.locomotion.standing.result import (
     phase_rows,
     robot_row,
 )
+from forcetorque.locomotion.standing.sole_limits import SoleEventRow, sole_events
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, require_support
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, table_of
@@ -78,6 +79,8 @@ class Balance(DrawnResult):
     """One per interval, where wrenches were measured."""
     pendulum: tuple[PendulumRow, ...]
     """One per interval in which (5.22) was requested and holds."""
+    events: tuple[SoleEventRow, ...] = ()
+    """Times in which what is measured on a sole is beyond what the ground can do, or friction may not hold."""
     refused: tuple[str, ...]
     """What cannot be determined, as text."""
     intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
@@ -107,6 +110,8 @@ class Balance(DrawnResult):
                 self.feet,
                 "centre of pressure of each foot, on its sole; x, y: means; ± half a 95 % interval of one point",
             )
+        if self.events:
+            yield table_of(self.events, "what the ground cannot do to a sole, and slips; ±: half a 95 % interval")
         if self.robot:
             yield table_of(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
         if self.pendulum:
@@ -243,6 +248,9 @@ def _summed_up(
             for interval, robot in robots
             if robot.com_acceleration is not None
         ),
+        events=()
+        if by_motion
+        else tuple(event for interval in intervals for event in sole_events(interval, release_N=thresholds.release_N)),
         refused=refused,
         intervals=intervals,
         by_motion=by_motion,

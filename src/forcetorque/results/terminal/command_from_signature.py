@@ -129,7 +129,7 @@ class _Analysis:
         for saved in self.offered.saved:
             yield _option(_name(saved), Path, Option(saved.help), saved.flags, required=saved.required)
         if self.offered.figure is not None:
-            yield _option("figure", Path, Option(f"PNG of {self.offered.figure}."), ("--figure",))
+            yield _option("figure", Path, Option(f"PNG, SVG or PDF of {self.offered.figure}."), ("--figure",))
         if self.offered.saved:
             yield _typed("force", ForceOption, False)
 

@@ -355,7 +355,7 @@ def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
     """Say what is wrong with the figure before hours are spent on what it is to show.
 
     Args:
-        figure: PNG file to draw; None for none.
+        figure: File to draw, PNG, SVG or PDF; None for none.
         force: As of `declare_outputs`.
 
     Raises:
@@ -363,10 +363,10 @@ def refuse_figure(figure: Path | None, *, force: bool | None = None) -> None:
     """
     if figure is None:
         return
-    from forcetorque.results.figures import new_figure
+    from forcetorque.results.figures import FIGURE_ENDINGS, new_figure
 
-    if figure.suffix.lower() != ".png":
-        refuse_ending("--figure", figure, (".png",))
+    if figure.suffix.lower() not in FIGURE_ENDINGS:
+        refuse_ending("--figure", figure, FIGURE_ENDINGS)
     if not figure.parent.is_dir():
         raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
     declare_outputs(figure, force=force)
@@ -378,19 +378,19 @@ def drawn_to(result: _Drawn, file: Path) -> _Drawn:
 
     Args:
         result: The result.
-        file: PNG to write or to replace.
+        file: PNG, SVG or PDF to write or to replace.
 
     Returns:
         The result, which names the file if it was drawn.
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.input_files import stated_in
-    from forcetorque.results.figures import png_bytes
+    from forcetorque.results.figures import figure_bytes
 
     try:
         with stated_in(f"--figure {file}"):
             figure = result.figure()
-        write_bytes_atomically(file, png_bytes(figure))
+        write_bytes_atomically(file, figure_bytes(figure, file.suffix.lower()))
     except (ForceTorqueError, OSError) as error:
         return result.without_figure(file, error)
     return result.model_copy(update={"figure_file": str(file)})

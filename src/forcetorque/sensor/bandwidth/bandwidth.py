@@ -30,6 +30,7 @@ from forcetorque.sensor.bandwidth.driven import (
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind, component_index, excited_records
 from forcetorque.sensor.bandwidth.frequency_response import FrequencyResponse, ResponseCurve
 from forcetorque.sensor.bandwidth.second_order import MISFIT, InverseFilter, SecondOrder, inverse_filter
+from forcetorque.sensor.transfer.static_curves import POINT_S, StaticCurve, static_curves
 
 LEAST_VIBRATION = 0.02
 """Share of a vibration that may be left at the end of a segment."""
@@ -74,6 +75,8 @@ class Response(DrawnResult):
     """Filter that undoes the response; null where it is not determined well enough."""
     refused: tuple[str, ...]
     """What is not determined, and why."""
+    static_curves: tuple[StaticCurve, ...] = ()
+    """Static transfer curve of every channel; of known loads that change slowly."""
     decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
     """Decays and their fits, for the figure."""
 
@@ -83,6 +86,11 @@ class Response(DrawnResult):
         Yields:
             Tables and sentences.
         """
+        if self.static_curves:
+            yield table_of(
+                self.static_curves, f"{self.sensor} ({self.serial}): every channel to the load that it answers to"
+            )
+            return
         what = f"{self.sensor} ({self.serial}), {self.wrench_source}: {self.excitation}, {self.signal}"
         if self.events:
             yield table_of(self.events, f"{what}: {len(self.events)} events")
@@ -105,12 +113,13 @@ class Response(DrawnResult):
         )
 
     def records(self) -> list[dict[str, object]]:
-        """Give the numbers as flat lines.
+        """Give the numbers, of static curves the channels, as flat lines.
 
         Returns:
-            One line per number.
+            One line per number or channel.
         """
-        return [{"sensor": self.sensor, "serial": self.serial, **row.flat()} for row in self.numbers]
+        rows = self.static_curves or self.numbers
+        return [{"sensor": self.sensor, "serial": self.serial, **row.flat()} for row in rows]
 
     def corrected(self, reading: FloatArray) -> FloatArray:
         """Undo the response in a reading: `run.response("impact", force="hammer").corrected(stream)`.
@@ -141,11 +150,11 @@ def response(
     cut_off_hz: float | None = None,
     intervals: Collection[str] = (),
 ) -> Response:
-    """Compute the response of a sensor to fast forces.
+    """Compute the response of a sensor to fast forces, or its static curves.
 
     Args:
         runs: The sensor, in one or several recordings.
-        excitation: What was done to it: impact, release or pendulum.
+        excitation: What was done to it: impact, release, pendulum, or static for known loads that change slowly.
         calibration: Reads the sensor, alone or by its name; its prior or the logged wrench if None.
         component: Component of the wrench; if None that in which most impacts stand out most, or the force
             along the step of a release.
@@ -166,6 +175,10 @@ def response(
     place = None if component is None else component_index(component)
     _refuse_lacking(kind, place, component, force, mass_kg)
     correction = run.read_by(*one_named(calibration))
+    if kind is ExcitationKind.STATIC:
+        if calibration is not None or cut_off_hz is not None:
+            raise ExperimentError("static: channels are taken as logged; leave out --calibration and --cut-off-hz")
+        return _static(several, intervals)
     records = excited_records(several, correction, intervals=intervals, force=force)
     weight = None if mass_kg is None or kind is not ExcitationKind.RELEASE else mass_kg * STANDARD_GRAVITY
     decays = None if kind is ExcitationKind.PENDULUM else free_decays(records, kind, place, weight_N=weight)
@@ -210,6 +223,27 @@ def response(
     return result.model_copy(update={"warnings": tuple(_warnings(result, fit, transfer, decays))})
 
 
+def _static(runs: Sequence[SensorRun], intervals: Collection[str]) -> Response:
+    curves = static_curves(runs, intervals)
+    run = runs[0]
+    return Response(
+        sensor=run.sensor.name,
+        serial=run.sensor.serial,
+        wrench_source="as logged",
+        excitation=ExcitationKind.STATIC,
+        signal=run.sensor.quantity,
+        force=None,
+        rate_hz=1.0 / POINT_S,
+        samples=max((curve.points for curve in curves), default=0),
+        events=(),
+        numbers=(),
+        curve=None,
+        inverse=None,
+        static_curves=curves,
+        refused=() if curves else ("no channel moves with the load",),
+    )
+
+
 def _excitation(name: ExcitationKind | str) -> ExcitationKind:
     if name not in tuple(ExcitationKind):
         raise ExperimentError(f"no excitation {name!r}; {known_names(str(name), ExcitationKind)}")
@@ -219,6 +253,11 @@ def _excitation(name: ExcitationKind | str) -> ExcitationKind:
 def _refuse_lacking(
     kind: ExcitationKind, component: int | None, component_name: str | None, force: str | None, mass_kg: float | None
 ) -> None:
+    if kind is ExcitationKind.STATIC and any(one is not None for one in (component, force, mass_kg)):
+        raise ExperimentError(
+            "static: the load is that which the experiment states, of every channel; leave out --component, --force "
+            "and --mass-kg"
+        )
     if mass_kg is not None and not mass_kg > 0.0:
         raise ExperimentError(f"mass: expected more than 0 kg, got {mass_kg:g}")
     if kind is ExcitationKind.PENDULUM and (force is None or component is None):

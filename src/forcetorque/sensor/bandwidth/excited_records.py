@@ -308,3 +308,5 @@ class ExcitationKind(StrEnum):
     """A weight that hung on it was let go."""
     PENDULUM = "pendulum"
     """A known mass swings on it."""
+    STATIC = "static"
+    """Known loads changed slowly."""

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.results.figures import (
     LIMIT_LINE,
     ROW_INCHES,
+    headline,
     in_figure_style,
     look,
     new_figure,
@@ -67,4 +68,7 @@ def choice_figure(choice: SensorChoice) -> Figure:
     readings.set_title(f"{shown_name(choice.largest)} from 10 s on, 0.1 degC warmer from 60 to 120 s, simulated")
     if choice.curves:
         readings.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    holding = sum(row.holds is Holds.HELD for row in choice.sensors)
+    spare = f"{100.0 * choice.margin:.0f} % to spare"
+    headline(figure, f"{holding} of {len(choice.sensors)} ranges hold the loads, all axes together, with {spare}")
     return figure

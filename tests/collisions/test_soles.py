@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts that are expected, on soles: what these cannot bear is an event of the sensor above them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.collisions.soles import events_on_soles
+from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.locomotion.section import SOLES as SECTION
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
+from forcetorque.recording.recording import Interval, Use
+from tests.locomotion.standing_robot import Standing, switching
+
+FOOT, LASTS_S = "r_foot_ft", 0.4
+OUTLINE_M = np.array([[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15]])
+
+
+@pytest.fixture(scope="module")
+def standing(tmp_path_factory: pytest.TempPathFactory) -> Standing:
+    """The biped that hangs, stands on both feet and on one; its robot is exactly known.
+
+    It stands as if it were bolted to the ground, so that its soles are made as large as its points go.
+    """
+    standing = switching(tmp_path_factory.mktemp("standing") / "out")
+    soles = tuple(
+        replace(one, sole=Sole(frame=one.sole.frame, outline=OUTLINE_M)) for one in standing.experiment.section(SECTION)
+    )
+    return replace(standing, experiment=replace(standing.experiment, sections={SECTION.key: soles}))
+
+
+def _on_right(experiment: Experiment) -> Interval:
+    """The first interval in which the right foot alone bears the robot."""
+    return next(
+        one for one in experiment.recording.intervals if one.support is not None and one.support.frame == "r_sole"
+    )
+
+
+def _with(standing: Standing, wrench: FloatArray) -> SensorRun:
+    """The log with a wrench on the sensor of the right foot for some time, in its frame and direction; shape (6,)."""
+    experiment = standing.experiment
+    recording, sensor = experiment.recording, next(one for one in experiment.sensors if one.name == FOOT)
+    stream, interval = recording.stream(sensor.stream), _on_right(experiment)
+    first_ns = (interval.start_ns + interval.end_ns) // 2
+    inside = (stream.stamp_ns >= first_ns) & (stream.stamp_ns < first_ns + round(1e9 * LASTS_S))
+    assert inside.sum() > 5
+    signal, counts = stream.signal("raw"), np.linalg.solve(standing.corrections[FOOT].model.matrix, wrench)
+    values = signal.values + inside[:, None] * counts
+    changed = replace(stream, signals={**stream.signals, "raw": replace(signal, values=values)})
+    streams = {**recording.streams, sensor.stream: changed}
+    return SensorRun(replace(experiment, recording=replace(recording, streams=streams)), FOOT)
+
+
+@pytest.mark.parametrize(
+    ("wrench", "kinds"),
+    [
+        ((0.0, 0.0, 0.0, 0.0, 0.0, 0.0), []),
+        ((0.0, 0.0, 0.0, 0.0, 10.0, 0.0), []),  # 31 mm
+        ((0.0, 0.0, 0.0, 0.0, 100.0, 0.0), ["outside"]),  # 314 mm
+    ],
+)
+def test_a_moment_that_a_sole_cannot_bear_is_an_event(
+    standing: Standing, wrench: tuple[float, ...], kinds: list[str]
+) -> None:
+    """A point outside the outline, at its time; inside it, and without any, there is none."""
+    run = _with(standing, np.array(wrench))
+    events, untested = events_on_soles(run, None, ())
+    assert untested == ()
+    assert [(event.kind, event.sole) for event in events] == [(kind, "r_sole") for kind in kinds]
+    for event in events:
+        assert event.end_s - event.start_s == pytest.approx(LASTS_S, abs=0.1)
+        assert event.beyond_mm is not None
+        assert event.beyond_mm > 50.0
+
+
+def test_a_sole_belongs_to_the_sensor_next_to_it(standing: Standing) -> None:
+    """A hip has another sensor between itself and the sole; without an outline or a friction nothing is tested."""
+    assert events_on_soles(SensorRun(standing.experiment, "r_leg_ft"), None, ()) == ((), ())
+    bare = tuple(replace(one, sole=replace(one.sole, outline=None)) for one in standing.experiment.section(SECTION))
+    experiment = replace(standing.experiment, sections={SECTION.key: bare})
+    assert events_on_soles(SensorRun(experiment, FOOT), None, ()) == ((), ())
+
+
+def test_a_sole_that_cannot_be_tested_is_named(standing: Standing) -> None:
+    """Where no interval gives the offset, the reason is stated."""
+    validated = replace(_on_right(standing.experiment), use=Use.VALIDATION)
+    recording = standing.experiment.recording.with_intervals([validated])
+    run = SensorRun(replace(standing.experiment, recording=recording), FOOT)
+    events, (reason,) = events_on_soles(run, None, ())
+    assert events == ()
+    assert reason.startswith("r_foot_ft: no test of what presses on r_sole: ")
