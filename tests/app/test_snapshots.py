@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 from forcetorque.app.command_line import commands, whole_program
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_standing
@@ -233,8 +234,11 @@ def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a command show its result once for every width, with warnings, and its details."""
     show = output.show_table
 
-    def at_every_width(result: Result, *, details: bool, experiments: Sequence[Path]) -> None:
+    def at_every_width(
+        result: Result, *, details: bool, experiments: Sequence[Path], refusals: Sequence[ForceTorqueError]
+    ) -> None:
         assert not details
+        assert not refusals
         for width in WIDTHS:
             monkeypatch.setenv("COLUMNS", str(width))
             sys.stdout.write(f"===== {width} =====\n")
@@ -271,7 +275,7 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
         if file in WRITTEN:
             WRITTEN[file](arm)
     ended = run(*COMMANDS[name])
-    assert ended.code in (0, 1), ended.err
+    assert ended.code in (0, 1, 3), ended.err  # accepted, rejected, undecided
     shown = re.sub(
         r"\d", "0", re.sub(r"(?<======) (\d+) (?=details|=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
     )

@@ -65,7 +65,7 @@ def test_sensors_of_one_leg_do_not_carry_one_load(data_dir: Path, tmp_path: Path
     (tmp_path / "yoga.toml").write_text(text[: text.index("[[interval]]")] + INTERVAL)
     (tmp_path / "contest.toml").write_text(CONTEST)
     answer = contest(read_entries(tmp_path / "contest.toml"))
-    judged = {row.contestant: row.judged_N for row in answer.contestants}
+    judged = {row.contestant: row.validated_N for row in answer.contestants}
     assert 3.0 * judged["foot"] < judged["leg"] < 5.0 * judged["foot"]
     assert sum("they do not carry one load" in words for words in answer.warnings) == 2  # in N, in N m
     assert (answer.comparable, answer.winner) == (False, None)

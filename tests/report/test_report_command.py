@@ -74,7 +74,7 @@ def reported(intact: Path, run: Run, tmp_path_factory: pytest.TempPathFactory) -
     with chdir(folder):
         gains = run("bench", "gains", PARQUET, "--format", "json").result()
         Path("gains.json").write_text(json.dumps(gains | {"experiment": "<b>bold</b>"}), encoding="utf-8")
-        files = (PARQUET, "gains.json", "fitted.json", "limits.toml")
+        files = (PARQUET, "gains.json", "-c", "fitted.json", "limits.toml")
         printed = run("report", *files, "-o", "report.html", "-o", "report.pdf", "--format", "json")
     (folder / "printed.json").write_text(printed.out, encoding="utf-8")
     return folder

@@ -52,6 +52,19 @@ def test_the_worst_comes_first_with_its_reason_and_its_step() -> None:
     ]
 
 
+def test_lines_of_a_file_stand_below_the_step_as_they_are() -> None:
+    """They are copied, so that none is wrapped; the reason gives way to them."""
+    lines = ("[[load_case]]", 'name = "a name that is longer than the screen is wide"')
+    text = answer_text([replace(BAD, lines=lines)], 40, "walk.toml", most=6).splitlines()
+    assert text[1].endswith("…")
+    assert text[-4:] == [
+        "next: look for faults of the recording",
+        "  [[load_case]]",
+        '  name = "a name that is longer than the screen is wide"',
+        "  forcetorque inspect walk.toml",
+    ]
+
+
 def test_reasons_without_room_are_left_out() -> None:
     """The last one that has room ends in an ellipsis; verdict, files and command stay, and one line of why."""
     whole = answer_text([BAD, GOOD], 40, "walk.toml")

@@ -7,7 +7,8 @@ import logging
 
 import pytest
 
-from forcetorque.results.terminal.output import start_logging
+from forcetorque.base.errors import SensorError
+from forcetorque.results.terminal.output import refusal_lines, start_logging
 
 
 def test_matplotlib_does_not_report_its_cache(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -22,3 +23,15 @@ def test_matplotlib_does_not_report_its_cache(monkeypatch: pytest.MonkeyPatch) -
     assert not theirs.isEnabledFor(logging.WARNING)
     assert theirs.isEnabledFor(logging.ERROR)
     assert ours.isEnabledFor(logging.INFO)
+
+
+def test_a_reason_of_several_sensors_is_said_once() -> None:
+    """Each sensor is named; another reason of the same sensor is said in full."""
+    reason = "no stream holds the position of joint 'torso'; known: hip: knee"
+    refusals = [SensorError(f"walk.toml: sensor {name!r}: {reason}") for name in ("left", "right")]
+    refusals.append(SensorError("walk.toml: sensor 'right': it stands still"))
+    assert refusal_lines(refusals) == [
+        f"error: walk.toml: sensor 'left': {reason}",
+        "error: walk.toml: sensor 'right': the same",
+        "error: walk.toml: sensor 'right': it stands still",
+    ]

@@ -341,7 +341,7 @@ class SensorCalibrations(DrawnResult):
             yield from calibration_blocks(entry.calibration)
             if entry.information_gain:
                 yield table_of(
-                    entry.information_gain, "what the recordings taught: error that a unit load makes, one s.d."
+                    entry.information_gain, "information gained: error that a unit load makes, one standard deviation"
                 )
                 yield learnt_words(entry.information_gain)
             yield f"written to {entry.file}" if self.saved else f"not written yet: `save` writes {entry.file}"

@@ -79,7 +79,7 @@ def calibrate(
         Path | None,
         typer.Option(
             "--figure",
-            help="PNG, SVG or PDF of what the recordings taught: errors of every load, before and after; with "
+            help="PNG, SVG or PDF of the information gained: errors of every load, before and after; with "
             "--jointly what is left of the equation of every part.",
         ),
     ] = None,
@@ -156,12 +156,13 @@ def calibrate(
             refusals.append(error)
             _warn_of_doubts(campaign, log)
     if results:
-        refusals += _show(
+        refusals = _show(
             SensorCalibrations.together(results).save(force=force),
             figure,
             output_format,
             details=details,
             experiments=experiments,
+            refusals=refusals,
         )
         if write_urdf is not None:
             write_corrected_urdf(next(iter(contents.values())), files[0], write_urdf, force=force)
@@ -202,15 +203,16 @@ def _show(
     *,
     details: bool,
     experiments: Sequence[Path],
+    refusals: Sequence[ForceTorqueError],
 ) -> list[ForceTorqueError]:
-    """Draw and show what was fitted; what cannot be drawn is shown all the same, and the refusal comes back."""
-    refusals = []
+    """Draw and show what was fitted; what cannot be drawn is shown all the same, and the refusals come back."""
+    refusals = [*refusals]
     if figure is not None:
         try:
             calibrations = drawn_to(calibrations, figure)
         except ForceTorqueError as error:
             refusals.append(error)
-    show(calibrations, output_format, details=details, experiments=experiments)
+    show(calibrations, output_format, details=details, experiments=experiments, refusals=refusals)
     return refusals
 
 

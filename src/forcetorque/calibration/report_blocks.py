@@ -50,7 +50,7 @@ def learnt_blocks(sensor: Assessment) -> Iterator[Block]:
             picture=Picture(
                 lambda: learnt_figure({names[file]: rows for file, rows in sensor.information_gain.items()})
             ),
-            caption="What the recordings taught: by how much the uncertainty of a load along each direction became "
+            caption="Information gained: by how much the uncertainty of a load along each direction became "
             "narrower, and the error that it makes, one standard deviation, before and after. Before is the prior, "
             "after holds what the sensor does not repeat too.",
             description="Per load direction the share that was learnt, and predicted force and moment errors.",

@@ -187,7 +187,7 @@ def _matrix_table(calibration: Calibration) -> Table:
         rows=tuple(
             (
                 component,
-                *(number(1000.0 * value, 3) for value in calibration.matrix[k]),
+                *(f"{1000.0 * value:.4g}" for value in calibration.matrix[k]),
                 number(calibration.offset[k], 3),
                 number(None if spread is None else spread[k], 3),
                 number(calibration.residual_rms[k], 3),

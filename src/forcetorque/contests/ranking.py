@@ -47,9 +47,9 @@ class ContestantRow(Row):
     error_percent: Annotated[float, Shown("error", "% of the loads of all", digits=2)]
     """Root mean square error of force over the judged force and of moment over the judged moment of all contestants,
     together; %."""
-    judged_N: Annotated[float, Shown("judged", "N", digits=1)]
+    validated_N: Annotated[float, Shown("validated", "N", digits=1)]
     """Root mean square force about its mean that this contestant was judged by."""
-    judged_Nm: float
+    validated_Nm: float
     """The same of the moment; N m."""
     force_error_N: Annotated[float, Shown("force", "N", digits=3)]
     """Root mean square norm of the force error."""
@@ -156,8 +156,8 @@ def contestant_row(
         fitted_loads_kg=reader.fitted_loads_kg,
         rank=ranks[0],
         error_percent=100.0 * float(np.hypot(force / scale[0], moment / scale[1])),
-        judged_N=judged[0],
-        judged_Nm=judged[1],
+        validated_N=judged[0],
+        validated_Nm=judged[1],
         force_error_N=force,
         rank_force=ranks[1],
         moment_error_Nm=moment,
@@ -433,7 +433,7 @@ device of the thesis."""
 
 def _unlike(rows: Sequence[ContestantRow]) -> Iterator[str]:
     """How forces and moments that judge the contestants differ; nothing where they carry one load."""
-    for judged, unit, most_unlike in (("judged_N", "N", _ONE_LOAD), ("judged_Nm", "N m", _ONE_STACK)):
+    for judged, unit, most_unlike in (("validated_N", "N", _ONE_LOAD), ("validated_Nm", "N m", _ONE_STACK)):
         least, *_, most = sorted(rows, key=lambda row: float(getattr(row, judged)))
         low, high = getattr(least, judged), getattr(most, judged)
         if high > most_unlike * low:

@@ -254,7 +254,9 @@ def device_answer(design: DeviceDesign) -> Answer:
                 else (f"{first.motion} excites {first.rank} of 6 directions of {first.sensor}{missing}",)
             ),
         ),
-        step="calibrate with the simulated recordings" if calibrated else "name a folder for URDF and logs by --output",
+        step="calibrate with the simulated recordings"
+        if calibrated
+        else "write URDF and logs by the same command with --output FOLDER",
         command=typed("inspect", calibrated[0]) if calibrated else "",
         written=(design.folder, *design.figures),
         concern=Concern.BAD if failed else Concern.NONE,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, within
 from forcetorque.results.terminal.options import (
     CalibrationsOption,
@@ -212,7 +212,8 @@ def estimate_answers(summary: EstimateSummary) -> Iterator[Answer]:
                 else "NO CONTACT IS ESTIMATED"
             ),
             why=(*_forces(recording.contacts), *_undetermined(recording, ambiguous)),
-            step="name contacts with fewer unknowns by --contacts" if ambiguous else "",
+            step="name contacts with fewer unknowns by --contacts" if ambiguous else "look at it over time",
+            command="" if ambiguous else typed("view", FIRST_EXPERIMENT),
             written=(recording.file, recording.figure_file),
             concern=Concern.UNCERTAIN if ambiguous or recording.left_out or not contacts else Concern.NONE,
         )

@@ -85,36 +85,53 @@ def _of_uses(
     agree = len({use.decision for use in uses}) == 1
     decision = worst.decision.upper()
     reason = worst.reasons[0]
-    predicted = "; ".join(error.text for error in worst.errors)
     # what was measured speaks in the second line; other reasons, such as warnings, are said here
-    first = (
-        f"{worst.loads}: {predicted or worst.message}" if worst.load_case != RECORDED else predicted or worst.message
-    )
+    first = "; ".join(error.text for error in worst.errors) or reason.text
+    if worst.load_case != RECORDED:
+        first = f"{worst.loads}: {first}"
     beyond = () if worst.beyond_range is None else (worst.beyond_range,)
-    step, command = _step(worst)
+    step, command = next_step(worst)
     return Answer(
         subject=subject,
         verdict=decision if agree and worst.load_case != RECORDED else f"{decision} for {worst.load_case}",
-        why=(first, *beyond, *(() if _is_predicted(worst) else (reason.text,)), *_measured(row, compared)),
+        why=(first, *beyond, *(() if _is_said(worst) else (reason.text,)), *_measured(row, compared)),
         step=step,
+        lines=next_lines(worst),
         command=command,
         concern=CONCERN[worst.decision],
     )
 
 
-def _is_predicted(use: LoadCaseVerdict) -> bool:
-    """Whether the prediction is the reason, which the numbers state."""
-    return bool(use.errors) and use.reasons[0].text.startswith(use.errors[0].text)
+def _is_said(use: LoadCaseVerdict) -> bool:
+    """Whether the first line states the reason: it is all there is, or the predicted numbers."""
+    return not use.errors or use.reasons[0].text.startswith(use.errors[0].text)
+
+
+def _states_loads(use: LoadCaseVerdict) -> bool:
+    """Whether loads that the sensor can read are to be stated first."""
+    return use.beyond_range is not None and use.decision == "not enough data"
+
+
+def next_lines(use: LoadCaseVerdict) -> tuple[str, ...]:
+    """Give the lines of a file that the next step is about.
+
+    Args:
+        use: The verdict.
+
+    Returns:
+        A load case that the sensor can read, where the default one is beyond its range.
+    """
+    return tuple((use.readable_load_case or "").splitlines()) if _states_loads(use) else ()
 
 
 def _measured(row: CalibrationErrors, compared: Sequence[PriorComparison]) -> Iterator[str]:
     """What data that were not fitted measured, with the calibration's own offset where it has one."""
     own = [one for one in compared if one.offset is Offset.FITTED] or list(compared)
     if not own:
-        yield f"{row.samples} samples not fitted: force error {amount(row.force_error_mean_N, 'N')}"
+        yield f"{row.samples} samples not fitted: mean force error {amount(row.force_error_mean_N, 'N')}"
         return
     errors = ", ".join(
-        f"{one.quantity} error {amount(one.mean, one.unit)} "
+        f"mean {one.quantity} error {amount(one.mean, one.unit)} "
         f"(prior {amount(one.prior_mean, one.unit)}: {one.conclusion})"
         for one in own
     )
@@ -125,15 +142,23 @@ def _measured(row: CalibrationErrors, compared: Sequence[PriorComparison]) -> It
     yield f"{row.samples} samples not fitted: {errors}{still if row.hardly_moved else ''}"
 
 
-def _step(use: LoadCaseVerdict) -> tuple[str, str]:
-    """What to do next, and the command for it."""
-    if use.beyond_range is not None and use.decision == "not enough data":
-        return "state your loads as [[load_case]], and evaluate again", typed(
-            "evaluate", EXPERIMENT, "-c", use.calibration
-        )
+def next_step(use: LoadCaseVerdict) -> tuple[str, str]:
+    """Give the step that follows from a verdict.
+
+    Args:
+        use: The verdict.
+
+    Returns:
+        The step, and the command for it; empty where there is none.
+    """
+    if _states_loads(use):
+        such = ", such as these, which it can read," if use.readable_load_case else ""
+        return f"state your loads{such} in the experiment file", typed("evaluate", EXPERIMENT, "-c", use.calibration)
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
-    if remedy is None:
+    if remedy is None and use.decision == "use":
         return to_export(use.calibration, use.sensor)
+    if remedy is None:
+        return _RECORD_MORE, to_plan(use.calibration)
     if is_for_inspect(use):
         return remedy, typed("inspect", FIRST_EXPERIMENT)
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
@@ -230,16 +255,16 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
         failed = [criterion for criterion in ordered if not criterion.passed]
         worst = ordered[0]
         name = short_names([worst.calibration])[worst.calibration]
-        # load cases of the acceptance file are criteria themselves, and decide alone
-        decided = any(criterion.criterion.startswith("load_case.") for criterion in criteria)
-        uses = () if decided else acceptance.load_cases
-        unsure = [use for use in uses if use.sensor == sensor and use.decision == "not enough data"]
-        step, command = _acceptance_step(worst) if failed else _after_acceptance(worst, unsure)
+        unsure = acceptance.unsure(sensor)
+        step, command = (
+            _acceptance_step(worst) if failed else next_step(unsure[0]) if unsure else _after_acceptance(worst)
+        )
         yield Answer(
             subject=f"{worst.sensor} ({worst.serial}), {name}, by {acceptance.specification!r}",
-            verdict="REJECTED" if failed else "ACCEPTED",
+            verdict="REJECTED" if failed else "UNDECIDED" if unsure else "ACCEPTED",
             why=(*_reasons(worst, failed, len(criteria)), *(use.message for use in unsure[:1])),
             step=step,
+            lines=next_lines(unsure[0]) if unsure and not failed else (),
             command=command,
             concern=Concern.BAD if failed else Concern.UNCERTAIN if unsure else Concern.NONE,
         )
@@ -271,11 +296,9 @@ def _compared(criterion: Criterion) -> str:
     return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
 
 
-def _after_acceptance(criterion: Criterion, unsure: Sequence[LoadCaseVerdict]) -> tuple[str, str]:
+def _after_acceptance(criterion: Criterion) -> tuple[str, str]:
     if criterion.calibration == PRIOR:
         return "", ""
-    if unsure:
-        return _RECORD_MORE, to_plan(criterion.calibration)
     return to_export(criterion.calibration, criterion.sensor)
 
 

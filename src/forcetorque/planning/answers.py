@@ -46,7 +46,7 @@ def plan_answer(plan: Plan) -> Answer:
             *([words.removeprefix("; ")] if (words := of_model(last)) else []),
         ),
         step=(
-            "name a folder for the trajectories by --output"
+            "write the trajectories by the same command with --output FOLDER"
             if plan.folder is None
             else "play every motion slowly, or in a simulator, before it is recorded; collisions were not checked"
         ),

@@ -85,6 +85,8 @@ class Assessment(Row):
     """Static checks of every calibration, or of the prior."""
     criteria: tuple[Criterion, ...]
     """Criteria of the acceptance file."""
+    undecided: dict[str, str] = Field(default_factory=dict)
+    """Verdict that leaves a calibration undecided though all of them hold, by file."""
     calibrations: dict[str, Calibration]
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
     information_gain: dict[str, tuple[InformationGain, ...]] = Field(default_factory=dict)
@@ -167,7 +169,7 @@ def assess(
     if evaluation:
         judged = evaluated_wrenches(run, unseen)
         counts = tried.attempt("independence", partial(independence, judged))
-    static, criteria = _checked(run, calibrations, others or {}, demands or Demands(), tried)
+    static, criteria, undecided = _checked(run, calibrations, others or {}, demands or Demands(), tried)
     assessment = Assessment(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
@@ -180,6 +182,7 @@ def assess(
         spheres=clouds.rows if clouds else (),
         static=static,
         criteria=criteria,
+        undecided=undecided,
         calibrations=dict(calibrations),
         information_gain={
             file: rows for file, one in calibrations.items() if (rows := information_gains(one)) is not None
@@ -207,11 +210,12 @@ def _checked(
     others: Mapping[str, Calibration],
     demands: Demands,
     tried: _Attempts,
-) -> tuple[tuple[StaticChecks, ...], tuple[Criterion, ...]]:
-    """Static checks of every calibration, or of the prior, and the criteria of the acceptance file."""
+) -> tuple[tuple[StaticChecks, ...], tuple[Criterion, ...], dict[str, str]]:
+    """Static checks of every calibration, or of the prior, criteria of the acceptance file, and what is undecided."""
     names = short_names(calibrations)
     static: list[StaticChecks] = []
     criteria: list[Criterion] = []
+    undecided: dict[str, str] = {}
     candidates: list[tuple[str, Calibration] | None] = [*calibrations.items()] or [None]
     for candidate in candidates:
         name = PRIOR if candidate is None else names[candidate[0]]
@@ -222,12 +226,14 @@ def _checked(
         if accepted is not None:
             criteria += accepted.criteria
             static += accepted.measured
+            if accepted.undecided:
+                undecided[accepted.criteria[0].calibration] = accepted.unsure(run.sensor.name)[0].message
             continue
         checks = tried.attempt(
             f"static checks of {name}", partial(check, run, candidate, population=demands.population)
         )
         static += [] if checks is None else [checks]
-    return tuple(static), tuple(criteria)
+    return tuple(static), tuple(criteria), undecided
 
 
 def _outside(evaluation: Evaluation | None, names: Mapping[str, str]) -> tuple[str, ...]:
@@ -346,7 +352,10 @@ def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         if failed:
             yield "bad", f"{name} is not accepted: {len(failed)} of {len(rows)} criteria fail: {', '.join(failed)}"
         else:
-            yield _unless_warned("good", assessment, candidate), f"{name} is accepted: all {len(rows)} criteria hold"
+            unsure = assessment.undecided.get(candidate)
+            text = f"{name} is {'accepted' if unsure is None else 'undecided'}: all {len(rows)} criteria hold"
+            tone = _unless_warned("good", assessment, candidate) if unsure is None else "caution"
+            yield tone, text if unsure is None else f"{text}; {unsure}"
 
 
 def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:

@@ -15,7 +15,7 @@ from forcetorque.results.terminal.options import (
     PopulationOption,
     SensorOption,
 )
-from forcetorque.results.terminal.output import Format, say, show, start_logging
+from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,6 +36,10 @@ def report(
         list[Path],
         typer.Option("--output", "-o", help="File to write, .html or .pdf; repeat for both. A .json goes beside it."),
     ],
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration, beside those among the files."),
+    ] = None,
     title: Annotated[str | None, typer.Option("--title", help="Title. Default: names of the experiments.")] = None,
     sensor: SensorOption = None,
     population: PopulationOption = None,
@@ -68,7 +72,7 @@ def report(
     require_writable(output)
     files = [*output, output[0].with_suffix(".numbers.json")]
     declare_outputs(*files, force=force)
-    sources = sort_sources(results)
+    sources = sort_sources([*results, *(calibration or ())])
     demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
     experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in sources.experiments]
     groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
@@ -96,8 +100,8 @@ def report(
     )
     log.info("drawing")
     written.save(*files)
-    show(written, output_format, details=details)
-    say(f"written: {', '.join(map(str, files))}", output_format)
+    written = written.model_copy(update={"files": tuple(map(str, files))})
+    show(written, output_format, details=details, experiments=sources.experiments)
 
 
 def _of_sensors(

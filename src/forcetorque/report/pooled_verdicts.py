@@ -350,6 +350,6 @@ def _state_use(uses: Sequence[LoadCaseVerdict]) -> Iterator[str]:
     """Ask for the load case where the default is used."""
     for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.specified):
         yield (
-            f"Check that this is your use. The experiment file specifies none, so {loads}, was assumed; specify your "
+            f"Check that this is your use. The experiment file specifies none, so it is about {loads}; specify your "
             "loads, and the error that you allow, as [[load_case]] in the experiment file, and write this report again."
         )

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import refuse_output, refuse_unwritable, write_bytes_atomically
-from forcetorque.evaluation.answers import CONCERN
+from forcetorque.evaluation.answers import CONCERN, next_lines, next_step
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Tone
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -63,6 +63,8 @@ class Report(Result):
     """One per experiment file."""
     results: dict[str, dict[str, Any]]
     """Results of other commands by file, as they were given."""
+    files: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
+    """Files that it is written to."""
     viewers: tuple[Section, ...] = Field(default=(), exclude=True, repr=False)
     """Sections of the document with a viewer."""
 
@@ -76,11 +78,15 @@ class Report(Result):
         names = short_names([*(row.calibration for row in self.load_cases), *unjudged])
         steps = {(row.sensor, row.serial): next(iter(row.steps), "") for row in self.next_steps}
         for use in self.load_cases:
+            step, command = next_step(use)
             yield Answer(
                 subject=f"{use.sensor} ({use.serial}), {names[use.calibration]}, {use.load_case}",
                 verdict=use.decision.upper(),
                 why=(use.reasons[0].text,),
-                step=steps.get((use.sensor, use.serial), ""),
+                step=step,
+                lines=next_lines(use),
+                command=command,
+                written=self.files,
                 concern=CONCERN[use.decision],
             )
         for row in self.undecided:
@@ -90,6 +96,7 @@ class Report(Result):
                 verdict="NO VERDICT",
                 why=(row.reason,),
                 step=steps.get((row.sensor, row.serial), ""),
+                written=self.files,
                 concern=Concern.UNCERTAIN,
             )
 

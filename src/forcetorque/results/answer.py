@@ -77,6 +77,8 @@ class Answer:
     """At most two sentences."""
     step: str = ""
     """What to do next; empty where nothing is to be done."""
+    lines: tuple[str, ...] = ()
+    """Lines of a file that the step is about, as they are to be copied."""
     command: str = ""
     """The command that does it, as `typed` writes it."""
     written: tuple[str | None, ...] = ()
@@ -155,6 +157,7 @@ def _end(answers: Sequence[Answer], width: int, names: Mapping[str, str]) -> Ite
     worst = answers[0]
     if worst.step:
         yield wrapped(f"next: {worst.step}", width)
+    yield from (f"{_INDENT}{line}" for line in worst.lines)
     if worst.command:
         command = worst.command
         for placeholder, name in names.items():

@@ -75,8 +75,13 @@ class Result(Row):
 
     @property
     def passed(self) -> bool:
-        """Whether it is as it should be; a command whose result is not ends with exit code 1."""
+        """Whether it is as it should be."""
         return True
+
+    @property
+    def exit_code(self) -> int:
+        """How a command ends that shows it: 0 where it is as it should be, else 1."""
+        return 0 if self.passed else 1
 
     @property
     def details_options(self) -> str:

@@ -48,7 +48,9 @@ def skin_calibration_answer(result: SkinCalibration) -> Answer:
             + ("" if kept.above_kPa is None else f", {amount(kept.above_kPa, 'kPa')} above; medians over taxels"),
             *((f"the curve {result.least_inside} errs less there",) if better else ()),
         ),
-        step=f"calibrate with --curve {result.least_inside}" if better else "compute contact wrenches with skin wrench",
+        step=f"calibrate with --curve {result.least_inside}"
+        if better
+        else "compute contact wrenches by skin wrench, where the patch has a layout",
         written=written,
         concern=Concern.UNCERTAIN if better or kept is None else Concern.NONE,
     )

@@ -282,6 +282,11 @@ INLINE_BYTES = 8_000_000
 _FORMS = {".rrd": "recording of Rerun", ".mcap": "bag of ROS 2"}
 
 
+def _is_page(file: str | None) -> bool:
+    """Whether it is a page that a browser opens."""
+    return file is not None and file.lower().endswith(".html")
+
+
 class View(Result):
     """An experiment as the viewer shows it."""
 
@@ -334,8 +339,8 @@ class View(Result):
     def _repr_html_(self) -> str:
         """The page itself, where it is short enough to be kept in a notebook; then what every result says."""
         said = super()._repr_html_()
-        file = None if self.file is None else Path(self.file)
-        if file is None or file.suffix.lower() != ".html" or not file.is_file():
+        file = Path(self.file or "")
+        if not _is_page(self.file) or not file.is_file():
             return said
         if (size := file.stat().st_size) > INLINE_BYTES:
             return (
@@ -356,7 +361,7 @@ class View(Result):
             subject=self.experiment,
             verdict=f"{self.samples} samples of {', '.join((*self.sensors, *self.skin))}",
             why=self.notes[:2],
-            step="" if self.url is None else f"open {self.url}",
+            step=f"open {self.url}" if self.url else f"open {self.file} in a browser" if _is_page(self.file) else "",
             written=(self.file, self.video),
         )
 

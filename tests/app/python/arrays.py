@@ -29,7 +29,7 @@ def arrays_of(experiment: Experiment, **changes: Any) -> dict[str, Any]:
         "support": "base",
         "gravity_direction": [0.0, 0.0, -1.0],
         "calibrate": spans[Use.CALIBRATION],
-        "judge": spans[Use.VALIDATION],
+        "validate": spans[Use.VALIDATION],
         "serial": sensor.serial,
         "prior": sensor.prior,
         "tolerance": "exact",

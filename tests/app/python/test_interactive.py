@@ -67,7 +67,7 @@ def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
     fitted, same = one.calibrate(), other.calibrate()
     np.testing.assert_allclose(same.matrix, fitted.matrix, rtol=1e-6, atol=1e-9)  # instants are rounded to 1 ns
     np.testing.assert_allclose(same.offset, fitted.offset, rtol=1e-6)
-    _, expected = other.expected_wrenches("judge")
+    _, expected = other.expected_wrenches("validate")
     label = next(i.label for i in experiment.recording.intervals if i.use is Use.VALIDATION)
     np.testing.assert_allclose(expected, one.expected_wrenches(label)[1], atol=1e-5)
     rows = zip(one.evaluate(fitted).verdicts, other.evaluate(same).verdicts, strict=True)
@@ -99,24 +99,24 @@ def test_several_spans_are_fitted_and_judged(experiment: Experiment) -> None:
     """Halves of a span hold its samples; intervals are numbered where there are several of a use."""
     arguments = arrays_of(experiment)
     start, end = arguments["calibrate"]
-    first, last = arguments["judge"]
+    first, last = arguments["validate"]
     halves = {
         "calibrate": [(start, 0.5 * (start + end)), (0.5 * (start + end), end)],
-        "judge": np.array([(first, 0.4 * first + 0.6 * last), (0.7 * last + 0.3 * first, last)]),
+        "validate": np.array([(first, 0.4 * first + 0.6 * last), (0.7 * last + 0.3 * first, last)]),
     }
     several = experiment_of_arrays(**arguments | halves)
     labels = [interval.label for interval in several.recording.intervals]
-    assert labels == ["calibrate 1", "calibrate 2", "judge 1", "judge 2"]
-    assert {role.kind for role in several.roles.values()} == {"calibrate", "judge"}
+    assert labels == ["calibrate 1", "calibrate 2", "validate 1", "validate 2"]
+    assert {role.kind for role in several.roles.values()} == {"calibrate", "validate"}
     run, whole = several["arm_ft"], experiment_of_arrays(**arguments)["arm_ft"]
     calibration = run.calibrate()
     assert calibration.provenance.samples == whole.calibrate().provenance.samples
     all_judged = whole.evaluate(calibration).verdicts[0].samples
     assert 0.85 * all_judged < run.evaluate(calibration).verdicts[0].samples < 0.95 * all_judged
-    time_s, _ = run.expected_wrenches("judge 2")
-    assert time_s[0] >= halves["judge"][1, 0]
+    time_s, _ = run.expected_wrenches("validate 2")
+    assert time_s[0] >= halves["validate"][1, 0]
     listed = experiment_of_arrays(**arguments | {"calibrate": [arguments["calibrate"]]})
-    assert [interval.label for interval in listed.recording.intervals] == ["calibrate", "judge"]
+    assert [interval.label for interval in listed.recording.intervals] == ["calibrate", "validate"]
 
 
 @pytest.mark.long
@@ -157,13 +157,13 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
             "calibrate: expected spans that do not overlap, got 'calibrate 2' to 4 s and 'calibrate 1' from 3 s",
         ),
         (
-            {"calibrate": (1, 4), "judge": (3, 5)},
+            {"calibrate": (1, 4), "validate": (3, 5)},
             ExperimentError,
-            "calibrate and judge: expected spans that do not overlap, got 'calibrate' to 4 s and 'judge' from 3 s",
+            "calibrate and validate: expected spans that do not overlap, got 'calibrate' to 4 s and 'validate' from",
         ),
         ({"calibrate": None}, ExperimentError, "calibrate: expected one span"),
-        ({"judge": (np.nan, 2.0)}, ExperimentError, "judge: expected one span"),
-        ({"judge": (0.0, np.inf)}, ExperimentError, "judge: expected one span"),
+        ({"validate": (np.nan, 2.0)}, ExperimentError, "validate: expected one span"),
+        ({"validate": (0.0, np.inf)}, ExperimentError, "validate: expected one span"),
         (
             {"time_s": pd.date_range("2026-01-01", periods=5)},
             ExperimentError,
@@ -203,7 +203,7 @@ def test_arrays_that_do_not_fit_are_refused(
 def test_milliseconds_for_seconds_are_refused_with_the_likely_cause(experiment: Experiment) -> None:
     """All stamps and spans a thousand times too large contradict no other argument."""
     arguments = arrays_of(experiment)
-    times = {name: 1000.0 * np.asarray(arguments[name]) for name in ("time_s", "joint_time_s", "calibrate", "judge")}
+    times = {name: 1000.0 * np.asarray(arguments[name]) for name in ("time_s", "joint_time_s", "calibrate", "validate")}
     with pytest.raises(RecordingError, match="lengthen the window, or specify the stamps in their unit"):
         experiment_of_arrays(**arguments | times)["arm_ft"].calibrate()
 
@@ -304,13 +304,13 @@ def test_what_to_record_next_is_planned_fromarrays_of(experiment: Experiment) ->
 @pytest.mark.long
 def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> None:
     """A fit is had all the same, and may not be used yet."""
-    run = experiment_of_arrays(**arrays_of(experiment, judge=None))["arm_ft"]
+    run = experiment_of_arrays(**arrays_of(experiment, validate=None))["arm_ft"]
     calibration = run.calibrate()
     assert [verdict.decision for verdict in run.verdicts(calibration)] == ["not enough data"]
     with pytest.raises(ExperimentError, match="expected an interval"):
         run.evaluate(calibration)
-    with pytest.raises(ExperimentError, match="no interval is labelled 'judge'"):
-        run.expected_wrenches("judge")
+    with pytest.raises(ExperimentError, match="no interval is labelled 'validate'"):
+        run.expected_wrenches("validate")
     with pytest.raises(FitError):
         run.calibrate(nonlinear=True, kind="generative")
 

@@ -45,8 +45,8 @@ def test_an_accepted_sensor_is_exported() -> None:
     assert answer.concern is Concern.NONE
 
 
-def test_an_accepted_sensor_without_enough_data_says_so() -> None:
-    """The verdict of `evaluate` stands beside that of the limits, and the next step is to record."""
+def test_a_sensor_without_enough_data_is_undecided() -> None:
+    """Every limit holds, the verdict of `evaluate` is the reason, and the next step is to record."""
     use = LoadCaseVerdict(
         sensor="leg",
         serial="SN1",
@@ -62,7 +62,7 @@ def test_an_accepted_sensor_without_enough_data_says_so() -> None:
         errors=(),
     )
     (answer,) = _accepted(GOOD, load_cases=(use,)).answers()
-    assert (answer.verdict, answer.concern) == ("ACCEPTED", Concern.UNCERTAIN)
+    assert (answer.verdict, answer.concern) == ("UNDECIDED", Concern.UNCERTAIN)
     assert answer.why[1:] == (use.message,)
     assert answer.command == f"plan {EXPERIMENT} -c old/leg.json --clearance-deg 10"
 

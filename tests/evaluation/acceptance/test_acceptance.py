@@ -300,7 +300,23 @@ def test_what_evaluate_forbids_is_not_accepted(arm: Path) -> None:
         assert [use.load_case for use in accepted.load_cases if use.decision == "do not use"] == [
             row.criterion.removeprefix("verdict.") for row in forbidden
         ]
-        assert accepted.accepted is (decision is None) is not bool(forbidden)
+        assert (accepted.accepted or accepted.undecided) is (decision is None) is not bool(forbidden)
+
+
+def test_a_file_that_limits_errors_leaves_a_sensor_undecided_where_evaluate_lacks_data(arm: Path) -> None:
+    """Every limit holds, and the loads to come are more than the data show; a file of the matrix alone accepts it."""
+    experiment = load_experiment(arm / PARQUET)
+    name, good = _fitted(experiment)
+    doubted = good.model_copy(update={"warnings": ("gains of 12 %",)})
+    limits: dict[str, dict[str, Any]] = {"evaluate": {"force_error_mean_N": 1e9}, "matrix": {"condition": 1e9}}
+    for table, undecided in (("evaluate", True), ("matrix", False)):
+        result = accept(_run(experiment), _spec(**{table: limits[table]}), (name, doubted))
+        assert [use.decision for use in result.load_cases] == ["not enough data"]
+        assert all(row.passed for row in result.criteria)
+        assert (result.accepted, result.undecided, result.passed) == (not undecided, undecided, not undecided)
+        (answer,) = result.answers()
+        assert answer.verdict == ("UNDECIDED" if undecided else "ACCEPTED")
+        assert Acceptance.together([result, result]).undecided is undecided
 
 
 def test_limits_of_the_matrix_need_no_verdict(arm: Path) -> None:
@@ -351,7 +367,8 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     assert len(repr(result)) < 600
     assert result.records()[0]["passed"] is True
     assert list(json.loads(result.json_text())) == [
-        "schema", "experiment", "specification", "accepted", "criteria", "measured", "validity", "load_cases"
+        "schema", "experiment", "specification", "accepted", "undecided", "criteria", "measured", "validity",
+        "load_cases",
     ]  # fmt: skip
 
 

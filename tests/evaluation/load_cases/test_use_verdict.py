@@ -91,7 +91,7 @@ def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     verdict = _verdict(fresh, calibration)
     assert verdict.decision == "not enough data"
     assert verdict.within == pytest.approx(0.5, abs=0.1)
-    assert "the chance that it is within that is" in verdict.message
+    assert "the chance that both are within what is allowed is" in verdict.message
 
 
 @pytest.mark.long
@@ -251,10 +251,22 @@ def test_a_default_load_case_that_the_sensor_cannot_read_is_no_part_of_the_verdi
     (verdict,), (answer,) = evaluation.load_cases, evaluation.answers()
     assert (verdict.load_case, verdict.specified) == ("recorded loads", False)
     assert answer.verdict.endswith("for recorded loads")
-    assert re.match(
-        r"pushes of \d.* N, .*, reaches .* in t[xyz], the full scale of 'arm_ft' is 7.5: not used", answer.why[1]
-    )
+    reached = r"no verdict on pushes of \d.* N, .*, which reaches .* in t[xyz], the full scale of 'arm_ft' is 7.5: "
+    assert re.match(reached, answer.why[1])
     assert answer.why[1].endswith("state your loads as [[load_case]]")
+
+
+def test_loads_that_the_sensor_can_read_are_offered_and_lead_on(arm: Path) -> None:
+    """The lines are a load case of the file: with them the verdict is on these loads, and the step is another one."""
+    edit(arm / PARQUET, 'prior = "', 'full_scale = [300.0, 300.0, 300.0, 7.5, 7.5, 7.5]\nprior = "')
+    run = _run(arm, "")
+    (case,) = operating_load_cases([run])
+    (offered,) = operating_load_cases([_run(arm, f"\n{case.readable}\n")])
+    assert offered.is_stated
+    assert 0.9 * 7.5 < np.abs(offered.wrench).max(axis=0)[3:].max() <= 7.5
+    assert offered.readable == ""
+    # negative control: the default load case is beyond the full scale
+    assert np.abs(case.wrench).max(axis=0)[3:].max() > 7.5
 
 
 def test_two_load_cases_of_one_name_are_refused(arm: Path) -> None:
@@ -303,7 +315,11 @@ def test_a_share_of_recorded_loads_that_hardly_move_forbids_nothing(arm: Path) -
     for name, decision in ((RECORDED, "not enough data"), ("stated", "do not use")):
         case = LoadCase(name=name, words="", wrench=still.moved, is_stated=name != RECORDED)
         assert still.force.rest_at_least > case.requirement[0]
-        assert LoadCaseAssessment(case, calibration, still).verdict()[0] == decision
+        assessment = LoadCaseAssessment(case, calibration, still)
+        assert assessment.verdict()[0] == decision
+        force, _ = assessment.errors()
+        assert (force.allowed is None) is (name == RECORDED)
+        assert (assessment.within is None) is (name == RECORDED)
 
 
 def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned: bool = False) -> Evidence:

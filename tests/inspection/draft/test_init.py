@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pacsv
+import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError, OutputError
@@ -346,6 +347,30 @@ def test_columns_look_like_what_they_are_called() -> None:
     assert seen["orientation"].form == "quat_xyzw"
     assert seen["raw"].columns == tuple(range(16, 22))
     assert column_matches([read_heading(name) for name in ("fx", "fy", "fz", "note")], []) == ()
+
+
+def test_four_elements_of_a_list_with_norm_1_are_an_orientation(tmp_path: Path) -> None:
+    """In a pose too; the order of the four is asked unless the name states it. Negative control: another norm."""
+    rng = np.random.default_rng(7)
+    fours = rng.normal(size=(50, 4))
+    fours /= np.linalg.norm(fours, axis=1, keepdims=True)
+    columns = {"time": 0.01 * np.arange(50), "ft": rng.normal(size=(50, 6))}
+    for name, values, form in (
+        ("tcp_pose", np.hstack([rng.normal(size=(50, 3)), fours]), None),
+        ("quat_wxyz", fours, "quat_wxyz"),
+        ("quat_xyzw", 2.0 * fours, ""),
+    ):
+        path = tmp_path / f"{name}.parquet"
+        lists = {key: list(array) for key, array in (columns | {name: values}).items()}
+        pq.write_table(pa.table(lists), path)
+        draft = draft_experiment(path)
+        text = draft.content
+        assert ('quantity = "orientation"' in text) is (form != "")
+        if form is None:
+            assert f'columns = ["{name}[3]", "{name}[4]", "{name}[5]", "{name}[6]"]' in text
+            assert {"form", "sense"} <= {question.key for question in draft.questions}
+        elif form:
+            assert f'orientation = {{ form = "{form}", sense = "?" }}' in text
 
 
 def test_messages_of_joints_as_a_table_are_of_joints() -> None:

@@ -30,7 +30,7 @@ Spans = Span | Sequence[Span]
 """One span, or several that do not overlap."""
 _Quantity = Literal["raw", "wrench"]
 _READINGS, _JOINTS = "readings", "joints"
-_USES = {"calibrate": "calibration", "judge": "validation"}
+_USES = {"calibrate": "calibration", "validate": "validation"}
 """Uses of spans by the arguments that they come by, after which their intervals are called."""
 _LATEST_S = 9.2e9
 """Seconds, which as nanoseconds fill 64 bits."""
@@ -83,7 +83,7 @@ def experiment_of_arrays(
     support: str,
     gravity_direction: Any,
     calibrate: Spans,
-    judge: Spans | None = None,
+    validate: Spans | None = None,
     serial: str,
     prior: Any = None,
     full_scale: Any = None,
@@ -108,7 +108,7 @@ def experiment_of_arrays(
         gravity_direction: Direction in which things fall, in the axes of that link; shape (3,).
         calibrate: Span that is fitted, `(1.0, 59.0)`, or several, `[(1.0, 29.0), (31.0, 59.0)]`; s. Their intervals
             are called `calibrate`, or `calibrate 1` and so on.
-        judge: Span that judges, or several, in the same way; none if left out.
+        validate: Span that validates, or several, in the same way; none if left out.
         serial: Serial number of the sensor.
         prior: Matrix that it was calibrated with before; shape (6, c); N/count, N m/count; None where there is none.
         full_scale: Full scale of its components; shape (6,), or one number for all; N, N m.
@@ -147,7 +147,7 @@ def experiment_of_arrays(
     if not (isinstance(limit_counts, Real) and limit_counts > 0.0):
         raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
     _require_magnitude(streams[0]["signal"][0]["variable"], quantity, limit_counts)
-    spans = {"calibrate": calibrate} if judge is None else {"calibrate": calibrate, "judge": judge}
+    spans = {"calibrate": calibrate} if validate is None else {"calibrate": calibrate, "validate": validate}
     intervals = [interval for kind, given in spans.items() for interval in _intervals(kind, given)]
     _require_apart(intervals)
     matrix = None if prior is None else numbers(prior, "prior")

@@ -182,7 +182,7 @@ class Run(SensorRun):
         """Give what mechanics demands that the sensor reads over an interval.
 
         Args:
-            label: Label of the interval: `calibrate` or `judge` where the experiment is made from arrays.
+            label: Label of the interval: `calibrate` or `validate` where the experiment is made from arrays.
 
         Returns:
             Instants since the start of the recording, shape (n,), s; and wrenches in the sensor's frame and direction,

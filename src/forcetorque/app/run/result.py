@@ -51,6 +51,8 @@ class Stage(Row):
     """Why the rest would mislead, one of each sensor, file or fault; empty where the stage went well."""
     remedy: str | None = None
     """What to change; None where nothing is to be changed."""
+    lines: tuple[str, ...] = ()
+    """Lines of the file that the remedy is about."""
     command: str | None = None
     """Command to type next, without the name of the program; None where there is none."""
 
@@ -114,6 +116,7 @@ class WholeRun(Result):
                 verdict=f"STOPPED AT {stage.name.upper()}",
                 why=stage.reasons or (stage.text,),
                 step=stage.remedy or "",
+                lines=stage.lines,
                 command=stage.command or "",
                 written=self.files,
                 concern=Concern.BAD,

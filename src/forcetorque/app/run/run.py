@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
@@ -87,7 +88,15 @@ class _Way:
         self.stages.append(Stage(name=name, outcome="skipped" if skipped else "done", seconds=seconds, text=text))
         self.progress(f"{name}: {text} ({seconds:.1f} s)")
 
-    def stop(self, name: StageName, reasons: Sequence[str], remedy: str, *command: str, for_good: bool = False) -> None:
+    def stop(
+        self,
+        name: StageName,
+        reasons: Sequence[str],
+        remedy: str,
+        *command: str,
+        lines: Sequence[str] = (),
+        for_good: bool = False,
+    ) -> None:
         """Record a stage after which the rest would mislead, and stop there unless a person gave a reason to go on."""
         text = "; ".join(reasons)
         seconds = monotonic() - self.started
@@ -100,6 +109,7 @@ class _Way:
                 text=text,
                 reasons=tuple(reasons),
                 remedy=remedy if for_good else f"{remedy}; {_OVERRIDE}",
+                lines=tuple(lines),
                 command=typed(*command) if command else None,
             )
         )
@@ -201,11 +211,13 @@ def _by_known_loads(way: _Way) -> None:
         way.stop("workbench", reasons, "correct the loads or readings, or record other loads", for_good=True)
     elif faults or unfitted:
         remedy = "record again what they name"
+        lines: tuple[str, ...] = ()
         positions = [name for fault in result.faults for name in fault.positions]
         if len(recordings) == 1 and positions:
-            names = ", ".join(f'"{name}"' for name in dict.fromkeys([*recordings[0].left_out, *positions]))
-            remedy += f", or leave it out: leave_out = [{names}] in [loads], after which faults are searched anew"
-        way.stop("workbench", [*faults, *unfitted], remedy)
+            names = list(dict.fromkeys([*recordings[0].left_out, *positions]))
+            remedy += ", or leave it out by these lines of the file, after which faults are searched anew"
+            lines = ("[loads]", f"leave_out = {json.dumps(names)}")
+        way.stop("workbench", [*faults, *unfitted], remedy, lines=lines)
     way.output.mkdir(parents=True, exist_ok=True)
     stem = way.files[0].stem
     for one in (_doubted(one, way.doubts) for one in result.calibrations):

@@ -24,6 +24,9 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, with_first_column
 
+_OF_ERRORS = {"evaluate", "improvement", "validate"}
+"""Tables of an acceptance file that limit errors, so that it matters whether a calibration may be used."""
+
 
 class Acceptance(DrawnResult):
     """Which criteria sensors meet, and everything that was measured of them without one."""
@@ -43,7 +46,9 @@ class Acceptance(DrawnResult):
     specification: str
     """Name of the specification."""
     accepted: bool = False
-    """Whether every criterion holds for every sensor; computed from the criteria, a given value is ignored."""
+    """Whether every criterion holds for every sensor, and none is undecided; computed, a given value is ignored."""
+    undecided: bool = False
+    """Whether every criterion holds, but `evaluate` has not enough data on a sensor whose errors are limited."""
     criteria: tuple[Criterion, ...]
     """One per sensor and limit: of errors of all recordings pooled, or of the worst recording."""
     recordings: tuple[RecordingCriterion, ...] = ()
@@ -60,13 +65,36 @@ class Acceptance(DrawnResult):
     @model_validator(mode="after")
     def _accept_what_passes(self) -> Self:
         # a field, not a property, because a property would stand at the end of the JSON
-        object.__setattr__(self, "accepted", all(criterion.passed for criterion in self.criteria))
+        hold = all(criterion.passed for criterion in self.criteria)
+        unsure = any(self.unsure(criterion.sensor) for criterion in self.criteria)
+        object.__setattr__(self, "accepted", hold and not unsure)
+        object.__setattr__(self, "undecided", hold and unsure)
         return self
+
+    def unsure(self, sensor: str) -> tuple[LoadCaseVerdict, ...]:
+        """Give the verdicts of `evaluate` that leave a sensor undecided.
+
+        Args:
+            sensor: Name of the sensor.
+
+        Returns:
+            Those without enough data; none where load cases of the file are criteria, or no error is limited.
+        """
+        tables = {row.criterion.partition(".")[0] for row in self.criteria if row.sensor == sensor}
+        if "load_case" in tables or not tables & _OF_ERRORS:
+            return ()
+        uses = (use for use in self.load_cases if use.sensor == sensor)
+        return tuple(use for use in uses if use.decision == "not enough data")
 
     @property
     def passed(self) -> bool:
         """Whether it is accepted."""
         return self.accepted
+
+    @property
+    def exit_code(self) -> int:
+        """0 where it is accepted, 1 where a criterion fails, 3 where it is undecided."""
+        return 3 if self.undecided else super().exit_code
 
     @classmethod
     def together(cls, results: Iterable[Self]) -> Self:
@@ -97,7 +125,7 @@ class Acceptance(DrawnResult):
                 table = criteria_table(apart, f"{first.sensor} ({first.serial}), each recording by itself")
                 yield with_first_column(table, "recording", [criterion.recording for criterion in apart])
         passed = sum(criterion.passed for criterion in self.criteria)
-        verdict = "accepted" if self.accepted else "NOT accepted"
+        verdict = "accepted" if self.accepted else "undecided" if self.undecided else "NOT accepted"
         yield f"{verdict} by {self.specification!r}: {passed} of {len(self.criteria)} criteria hold"
 
 
@@ -152,7 +180,8 @@ def accept(
 
     Returns:
         Criteria in the order of `AcceptanceFile`, the verdicts of `evaluate`, and static checks. Where the file
-        states no load case, a sensor that `evaluate` forbids to use ("do not use") is not accepted.
+        states no load case, a sensor that `evaluate` forbids to use ("do not use") is not accepted, and one whose
+        errors are limited, but whose data are not enough for its verdict, is undecided.
 
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.

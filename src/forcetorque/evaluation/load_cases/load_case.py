@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -48,6 +49,8 @@ class LoadCase(ArrayRecord):
     """The same of the moment error."""
     is_stated: bool = True
     """Whether a file specifies it; else it is the default."""
+    readable: str = ""
+    """A [[load_case]] of the kind of the default one that the sensor can read; empty where it can read this one."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -193,6 +196,8 @@ DEFAULT_RADIUS_M: Final = 0.3
 """How far from a sensor a push acts by default."""
 SOLE_RADIUS_M: Final = 0.05
 """How far from the origin of a sole the weight of the robot acts by default."""
+_SMALLER_RADII_M: Final = (0.04, 0.03, 0.02, 0.01, 0.0)
+"""Where a sensor may read it if it cannot read that."""
 _POSTURES, _POSTURE_SEED = 40, 5
 _SOLES = ("sole", "foot")
 
@@ -258,7 +263,7 @@ def operating_load_cases(
             refuse(error)
     if cases or refused:
         return tuple(cases)
-    default = location.default(max(_SensorLocation(run).outboard_weight for run in runs))
+    default = location.default(max(_SensorLocation(run).outboard_weight for run in runs), matrix)
     return () if default is None else (default,)
 
 
@@ -317,17 +322,38 @@ class _SensorLocation:
             allowed_moment_Nm=table.moment_error_Nm,
         )
 
-    def default(self, weight: float) -> LoadCase | None:
+    def default(self, weight: float, matrix: FloatArray | None) -> LoadCase | None:
         """The default load case; None without a mass beyond the sensor."""
         sole = self._sole()
         if sole is not None:
             wrench, words = self._stood_upon(sole, SOLE_RADIUS_M)
-            return LoadCase(name="weight of the robot", words=words, wrench=wrench, is_stated=False)
-        if weight <= 0.0:
+            case = LoadCase(name="weight of the robot", words=words, wrench=wrench, is_stated=False)
+            smaller = [LoadCaseTable(name="standing", weight_on=sole, radius_m=radius) for radius in _SMALLER_RADII_M]
+        elif weight <= 0.0:
             return None
-        words = f"pushes of {weight:.3g} N, the weight of the distal links, anywhere within {DEFAULT_RADIUS_M:g} m"
-        wrench = pushes_around_sensor(weight, DEFAULT_RADIUS_M)
-        return LoadCase(name="push", words=words, wrench=wrench, is_stated=False)
+        else:
+            words = f"pushes of {weight:.3g} N, the weight of the distal links, anywhere within {DEFAULT_RADIUS_M:g} m"
+            wrench = pushes_around_sensor(weight, DEFAULT_RADIUS_M)
+            case = LoadCase(name="push", words=words, wrench=wrench, is_stated=False)
+            smaller = [self._pushed_less(wrench, weight, matrix)]
+        if self._reads(case.wrench, matrix):
+            return case
+        fitting = (_table_text(table) for table in smaller if self._reads(self._loads(table)[0], matrix))
+        return replace(case, readable=next(fitting, ""))
+
+    def _reads(self, wrench: FloatArray, matrix: FloatArray | None) -> bool:
+        """Whether the sensor can read loads, as far as its limit is known."""
+        reached = _reached(wrench, self.run.sensor, matrix)
+        return reached is None or reached.share <= 1.0
+
+    def _pushed_less(self, wrench: FloatArray, force: float, matrix: FloatArray | None) -> LoadCaseTable:
+        """Pushes like those of a force, as strong as the sensor can read."""
+        reached = _reached(wrench, self.run.sensor, matrix)
+        least = force if reached is None else min(force, force / reached.share)
+        digit = 10.0 ** (np.floor(np.log10(least)) - 1)  # two digits, rounded down
+        return LoadCaseTable(
+            name="push", force_N=float(f"{np.floor(least / digit) * digit:.6g}"), radius_m=DEFAULT_RADIUS_M
+        )
 
     def _loads(self, table: LoadCaseTable) -> tuple[FloatArray, str]:
         if table.weight_on is not None:
@@ -391,6 +417,12 @@ class _SensorLocation:
         return None
 
 
+def _table_text(table: LoadCaseTable) -> str:
+    """Write a load case as an experiment file has it."""
+    values = {key: getattr(table, key) for key in ("name", "weight_on", "force_N", "radius_m")}
+    return "\n".join(["[[load_case]]", *(f"{key} = {json.dumps(value)}" for key, value in values.items() if value)])
+
+
 def _range(model: RobotModel, tree: BodyTree, joint: str) -> tuple[float, float]:
     try:
         return joint_range(model, tree, joint, margin=0.0)
@@ -409,6 +441,34 @@ def _full_scale(run: SensorRun) -> FloatArray:
     return sensor.limit_counts * np.linalg.norm(sensor.prior, axis=1)
 
 
+@dataclass(frozen=True, slots=True)
+class _Reached:
+    """How far loads go towards what a sensor can read."""
+
+    share: float
+    """Of its limit; above 1 it cannot read them."""
+    text: str
+    """What they reach, and the limit."""
+
+
+def _reached(wrench: FloatArray, sensor: ExperimentSensor, matrix: FloatArray | None) -> _Reached | None:
+    """Compare loads, shape (n, 6), with what the sensor can read; None where nobody knows its limit."""
+    if sensor.full_scale is not None:
+        largest = np.abs(wrench).max(axis=0)
+        worst = int(np.argmax(largest / sensor.full_scale))
+        text = (
+            f"reaches {largest[worst]:.4g} {'N' if worst < 3 else 'N m'} in {WRENCH_COMPONENTS[worst]}, the full scale "
+            f"of {sensor.name!r} is {sensor.full_scale[worst]:.4g}"
+        )
+        return _Reached(float(largest[worst] / sensor.full_scale[worst]), text)
+    read_by = sensor.prior if matrix is None else matrix
+    if read_by is None or sensor.prior_source == "identity":
+        return None
+    counts, limit = float(np.abs(wrench @ np.linalg.pinv(read_by).T).max()), sensor.limit_counts
+    text = f"reaches {counts:.0f} counts in a channel of {sensor.name!r}, which reads up to {limit:.0f}"
+    return _Reached(counts / limit, text)
+
+
 def beyond_range(case: LoadCase, sensor: ExperimentSensor, matrix: FloatArray | None) -> str | None:
     """Compare the loads with what the sensor can read.
 
@@ -420,19 +480,5 @@ def beyond_range(case: LoadCase, sensor: ExperimentSensor, matrix: FloatArray | 
     Returns:
         What the loads reach, and the limit; None where the sensor can read them, or nobody knows its limit.
     """
-    if sensor.full_scale is not None:
-        largest = np.abs(case.wrench).max(axis=0)
-        worst = int(np.argmax(largest / sensor.full_scale))
-        if largest[worst] <= sensor.full_scale[worst]:
-            return None
-        return (
-            f"reaches {largest[worst]:.4g} {'N' if worst < 3 else 'N m'} in {WRENCH_COMPONENTS[worst]}, the full scale "
-            f"of {sensor.name!r} is {sensor.full_scale[worst]:.4g}"
-        )
-    read_by = sensor.prior if matrix is None else matrix
-    if read_by is None or sensor.prior_source == "identity":
-        return None
-    counts = float(np.abs(case.wrench @ np.linalg.pinv(read_by).T).max())
-    if counts <= sensor.limit_counts:
-        return None
-    return f"reaches {counts:.0f} counts in a channel of {sensor.name!r}, which reads up to {sensor.limit_counts:.0f}"
+    reached = _reached(case.wrench, sensor, matrix)
+    return None if reached is None or reached.share <= 1.0 else reached.text

@@ -141,7 +141,7 @@ class LoadCaseVerdict(Row):
     reasons: tuple[Reason, ...]
     """Reasons against it and for it, the most important first."""
     within: float | None
-    """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
+    """Predicted probability that the error is no more than allowed; None where nothing predicts or limits it."""
     errors: tuple[LoadCaseError, ...]
     """Predicted errors of force and moment; none without a covariance."""
     limited_by: ErrorSource | None = None
@@ -150,6 +150,8 @@ class LoadCaseVerdict(Row):
     """Errors that validation data find larger than those of the prior, however little."""
     beyond_range: str | None = None
     """Why the default load case is not that of the verdict: the sensor cannot read it; None where it can."""
+    readable_load_case: str | None = None
+    """A [[load_case]] of its kind that the sensor can read; None where it can read the default one."""
 
     @property
     def tone(self) -> Tone:
@@ -169,7 +171,7 @@ def verdict_texts(verdicts: tuple[LoadCaseVerdict, ...]) -> list[str]:
 
 LOOK_FOR_CAUSE: Final = (
     "Find the cause of the measured error before recording more: `forcetorque inspect` names contacts, steps, delays "
-    "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
+    "and losses; a mass that the robot model lacks, or a sensor that warms up, looks like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
 UNMEASURED: Final = (
@@ -304,11 +306,23 @@ class LoadCaseAssessment:
         self.before: PredictedError | None = None
         if self.posterior is not None:
             self.after, self.before = predict(calibration, case), predict_prior(calibration, case)
+        # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
+        self.static = None
+        if measured is not None:
+            moved = validation_excitation(measured.reference, [calibration], moved=measured.moved)
+            self.static = static_loads_text(*moved)
+
+    @property
+    def requirement(self) -> tuple[float, float]:
+        """Allowed force and moment error; N, N m; infinite where it is not evaluated."""
+        # a share of loads that hardly moved is no limit that an error can contradict
+        shares_nothing = self.static is not None and self.case.name == RECORDED
+        return (np.inf, np.inf) if shares_nothing else self.case.requirement
 
     @property
     def limits(self) -> dict[str, float]:
-        """Allowed errors by quantity; N, N m; infinite where it is not evaluated."""
-        return {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
+        """`requirement` by quantity."""
+        return {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.requirement, strict=True)}
 
     @property
     def loads(self) -> dict[str, float]:
@@ -317,8 +331,8 @@ class LoadCaseAssessment:
 
     @property
     def within(self) -> float | None:
-        """Predicted probability that the error is no more than allowed; None where nothing predicts it."""
-        return None if self.after is None else self.after.within(*self.case.requirement)
+        """Predicted probability that the error is no more than allowed; None where nothing predicts or limits it."""
+        return None if self.after is None or np.isinf(self.requirement).all() else self.after.within(*self.requirement)
 
     def verdict(self) -> tuple[Decision, tuple[Reason, ...]]:
         """Decide.
@@ -339,12 +353,13 @@ class LoadCaseAssessment:
 
     def _worse(self) -> Iterator[Reason]:
         """Where validation data find a quantity with a limit worse than with the prior, by more than a trifle."""
+        force, moment = self.case.requirement
         for row in self.worse:
             text = (
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
                 f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
             )
-            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(self.limits[row.quantity]):
+            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(force if row.quantity == "force" else moment):
                 yield Reason(against=None, text=text)
             else:
                 yield Reason(against="use", text=text, remedy=KEEP_PRIOR)
@@ -357,24 +372,24 @@ class LoadCaseAssessment:
             )
             yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
-        chance = self.after.within(*self.case.requirement)
+        chance = self.after.within(*self.requirement)
         text = ", ".join(error.text for error in self.errors())
         if chance >= CONFIDENCE:
             yield Reason(against=None, text=text)
         else:
             text += f"; the chance that both are within what is allowed is {100.0 * chance:.0f} %"
-            quantity, _ = largest_source(self.after, self.case.requirement)
+            quantity, _ = largest_source(self.after, self.requirement)
             size, part = getattr(self.after, quantity).typical, FORCE if quantity == "force" else MOMENT
             unmeasured = self._is_unmeasured(self.case.wrench, part, size)
-            remedy = UNMEASURED if unmeasured else error_reduction_advice(self.after, self.case.requirement)
+            remedy = UNMEASURED if unmeasured else error_reduction_advice(self.after, self.requirement)
             yield Reason(against="data", text=text, remedy=remedy)
 
     @property
     def limited_by(self) -> ErrorSource | None:
         """Largest source of the predicted error that is too large; None where it is not."""
-        if self.after is None or self.after.within(*self.case.requirement) >= CONFIDENCE:
+        if self.after is None or self.after.within(*self.requirement) >= CONFIDENCE:
             return None
-        return largest_source(self.after, self.case.requirement)[1]
+        return largest_source(self.after, self.requirement)[1]
 
     def errors(self) -> Iterator[LoadCaseError]:
         """Predict the errors.
@@ -422,22 +437,16 @@ class LoadCaseAssessment:
         if len(self.measured.reference) < FEWEST_S:
             text = f"the data that were not fitted last {len(self.measured.reference)} s only, too short to test it"
             yield Reason(against="data", text=text, remedy=ADD_VALIDATION)
-        # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
-        static = static_loads_text(
-            *validation_excitation(self.measured.reference, [self.calibration], moved=self.measured.moved)
-        )
-        # a share of loads that hardly moved is no limit that an error can contradict
-        limits_error = static is None or self.case.name != RECORDED
         expected = self._expected_there()
         for quantity, unit, part in self.quantities:
             allowed = self.limits[quantity]
             error: MeasuredError = getattr(self.measured, quantity)
-            if limits_error:
-                yield from self._constant(error, quantity, unit, allowed, self.loads[quantity])
+            yield from self._constant(error, quantity, unit, allowed, self.loads[quantity])
             unmeasured = self._is_unmeasured(self.measured.moved, part, error.rest)
             cause = UNMEASURED if unmeasured else LOOK_FOR_CAUSE
-            rest = f"on data that were not fitted its {quantity} error is {amount(error.rest, unit)} (RMS)"
-            if error.rest_at_least > allowed and limits_error:
+            size = f"{amount(error.rest, unit)} (RMS of means of 1 s)"
+            rest = f"on data that were not fitted its {quantity} error is {size}"
+            if error.rest_at_least > allowed:
                 text = f"{rest} without the constant part, {amount(allowed, unit)} allowed"
                 yield Reason(against="use", text=text, remedy=cause)
             elif expected is not None and error.rest_at_least > expected[quantity]:
@@ -445,8 +454,9 @@ class LoadCaseAssessment:
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
                 yield Reason(against="data", text=text, remedy=cause)
-        if static is not None:
-            yield Reason(against="data", text=f"{static}; evaluate it on data that move", remedy=VALIDATE_MOVING_LOADS)
+        if self.static is not None:
+            text = f"{self.static}; evaluate it on data that move"
+            yield Reason(against="data", text=text, remedy=VALIDATE_MOVING_LOADS)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
@@ -557,7 +567,9 @@ def _without(verdict: LoadCaseVerdict, usual: LoadCase, beyond: str) -> LoadCase
     """The verdict with the reason that it is not about the default load case."""
     text = f"no verdict on {usual.words}, which {beyond}: state your loads as [[load_case]]"
     reasons = (*verdict.reasons, Reason(against=None, text=text))
-    return verdict.model_copy(update={"reasons": reasons, "beyond_range": text})
+    return verdict.model_copy(
+        update={"reasons": reasons, "beyond_range": text, "readable_load_case": usual.readable or None}
+    )
 
 
 def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:

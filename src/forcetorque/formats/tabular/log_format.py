@@ -146,7 +146,8 @@ def _sketch_columnar(path: Path) -> LogSketch:
     )
     # two columns may have one name
     numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
-    sketch = LogSketch(path=path, columns=columns, skipped_arrays=uneven)
+    fours = () if batch is None else _unit_fours(batch)
+    sketch = LogSketch(path=path, columns=columns, skipped_arrays=uneven, quaternion=fours)
     return _with_extents(sketch, columnar_batches(path, numeric), numeric, 0 if batch is None else len(batch))
 
 

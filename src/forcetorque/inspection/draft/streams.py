@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from forcetorque.base.toml_file import OPEN
@@ -32,6 +33,7 @@ _ANGLES = re.compile(
 _MATRIX = re.compile(r"^(?P<before>.*?)r" + _APART + r"(?P<axis>[123]_?[123])$")
 _NUMBERED = re.compile(r"^(?P<before>.*?)(?P<number>\d+)(?P<behind>\D*)$")
 _ELEMENT = re.compile(r"^(?P<before>.+)\[(?P<number>\d+)\]$")
+_ORDERS = (OrientationForm.QUAT_XYZW, OrientationForm.QUAT_WXYZ)
 _CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
 _MOTIONS = {
     "": "position",
@@ -77,7 +79,7 @@ class ColumnMatch:
     names: tuple[str, ...] | None = None
     """Joints of the robot by the columns; None where the quantity has fixed names, or they are unknown."""
     form: OrientationForm | None = None
-    """Form of an orientation."""
+    """Form of an orientation; None for a quaternion of unknown order."""
     words: str = ""
     """Possible quantities, for the question."""
 
@@ -96,12 +98,15 @@ def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> i
     return next(iter(named), 0 if steps and steps[0] is not None else None)
 
 
-def column_matches(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
+def column_matches(
+    headings: Sequence[Heading], joints: Sequence[str], unit_fours: Sequence[int] = ()
+) -> tuple[ColumnMatch, ...]:
     """Match the columns of a table with quantities, by their headings.
 
     Args:
         headings: Headings of the columns.
         joints: Joints of the robot that move.
+        unit_fours: First columns of four whose norm is 1 in every row.
 
     Returns:
         Groups of columns, in the order of their first columns; columns without a match are in none.
@@ -116,6 +121,7 @@ def column_matches(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[
         _angles,
         _vectors,
         _temperatures,
+        partial(_listed_quaternions, unit_fours),
         _lists,
         _numbered,
     ):
@@ -246,6 +252,19 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
         if word and quantity is not None and counted:
             likeness.setdefault(quantity, ColumnMatch(quantity=quantity, columns=columns))
     return list(likeness.values())
+
+
+def _listed_quaternions(unit_fours: Sequence[int], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    """Four elements of one list, `pose[3]` to `pose[6]`, of norm 1; their order only where the name states it."""
+    quaternions = []
+    for first in unit_fours:
+        columns = tuple(range(first, first + 4))
+        elements = [_ELEMENT.match(free.get(k, "")) for k in columns]
+        lists = {None if element is None else element["before"] for element in elements}
+        if len(lists) == 1 and (name := lists.pop()) is not None:
+            form = next((form for form in _ORDERS if form.value.removeprefix("quat_") in name), None)
+            quaternions.append(ColumnMatch(quantity="orientation", columns=columns, form=form))
+    return quaternions
 
 
 def _lists(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:

@@ -68,6 +68,13 @@ _EULER_LINES = (
     question("sense", _SENSE, "sensor_to_world"),
 )
 """How angles are an orientation."""
+_QUATERNION_LINES = (
+    "",
+    "[recording.stream.signal.orientation]",
+    question("form", "quat_xyzw where the scalar is the last of the four, quat_wxyz where it is the first"),
+    question("sense", _SENSE, "sensor_to_world"),
+)
+"""How four numbers of norm 1 are an orientation."""
 
 
 def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple[DraftedStream, ...]:
@@ -142,7 +149,7 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]
     if not (sketch.has_headings or sketch.names_specified):
         return ()
     groups: dict[str, ColumnMatch] = {}
-    for group in column_matches(_headings(sketch), joints):
+    for group in column_matches(_headings(sketch), joints, sketch.quaternion):
         groups.setdefault(group.quantity, group)
     if "position" in groups:  # which tell the pose
         groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
@@ -349,7 +356,7 @@ def _group_lines(
         question("quantity", group.words) if quantity is None else line("quantity", group.quantity),
         line("columns", names),
     ]
-    if group.form not in (None, OrientationForm.EULER):
+    if group.quantity == "orientation" and group.form is not OrientationForm.EULER:
         units = ["1"] * len(names)
     if group.quantity == "raw" and names == list(few_components(sketch).values()):
         units = ["counts"] * len(names)  # of newtons too
@@ -374,6 +381,8 @@ def _group_lines(
         lines.append(axes_line(group.quantity, stream, frames))
     if group.form is OrientationForm.EULER:
         lines += _EULER_LINES
+    elif group.quantity == "orientation" and group.form is None:
+        lines += _QUATERNION_LINES
     elif group.form is not None:
         stated = {"form": str(group.form), "sense": OPEN}
         likeliest_sense = line("orientation", {**stated, "sense": "sensor_to_world"})

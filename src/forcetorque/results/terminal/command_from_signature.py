@@ -143,7 +143,7 @@ class _Analysis:
             The result.
 
         Raises:
-            typer.Exit: With code 1 if the result is not as it should be, with code 2 if it lacks a sensor.
+            typer.Exit: With that of the result if it is not as it should be, with code 2 if it lacks a sensor.
         """
         log, figure = start_logging(), given.get("figure")
         self.refuse_outputs(given)
@@ -158,10 +158,10 @@ class _Analysis:
             show_warnings(result)
         else:
             files = given.get("experiments") or ([given["experiment"]] if self.reads_experiments else [])
-            show(result, given["output_format"], details=given["details"], experiments=files)
+            show(result, given["output_format"], details=given["details"], experiments=files, refusals=refusals)
         end_with(refusals)
-        if not result.passed:
-            raise typer.Exit(1)
+        if result.exit_code:
+            raise typer.Exit(result.exit_code)
         return result
 
     def refuse_outputs(self, given: Mapping[str, Any]) -> None:

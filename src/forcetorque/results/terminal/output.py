@@ -113,13 +113,38 @@ def end_with(refusals: Sequence[ForceTorqueError]) -> None:
     Raises:
         typer.Exit: If there is one.
     """
+    if not refusals:
+        return
+    print_messages()
+    sys.stderr.write("".join(f"{line}\n" for line in refusal_lines(refusals)))
+    raise typer.Exit(2)
+
+
+def refusal_lines(refusals: Sequence[ForceTorqueError]) -> list[str]:
+    """Write what was refused; a reason that an earlier one has already is not repeated.
+
+    Returns:
+        A line each: where it is, and the reason.
+    """
+    lines: list[str] = []
+    said: set[str] = set()
     for refusal in refusals:
-        report_error(refusal)
-    if refusals:
-        raise typer.Exit(2)
+        words = " ".join(str(refusal).split()).split(": ")
+        reasons = [": ".join(words[k:]) for k in range(len(words))]
+        same = next((k for k, reason in enumerate(reasons) if k and reason in said), None)
+        lines.append(f"error: {reasons[0] if same is None else ': '.join([*words[:same], 'the same'])}")
+        said.update(reasons)
+    return lines
 
 
-def show(result: Result, output_format: Format, *, details: bool = False, experiments: Sequence[Path] = ()) -> None:
+def show(
+    result: Result,
+    output_format: Format,
+    *,
+    details: bool = False,
+    experiments: Sequence[Path] = (),
+    refusals: Sequence[ForceTorqueError] = (),
+) -> None:
     """Print a result in the form that was asked for, and its warnings, each once, to standard error.
 
     Args:
@@ -127,9 +152,10 @@ def show(result: Result, output_format: Format, *, details: bool = False, experi
         output_format: Form.
         details: Whether people read the tables below the answer, and all warnings.
         experiments: Experiment files that were typed, for the next command.
+        refusals: What `end_with` says below it, for which the answer leaves room.
     """
     if output_format is Format.TABLE:
-        show_table(result, details=details, experiments=experiments)
+        show_table(result, details=details, experiments=experiments, refusals=refusals)
         return
     show_warnings(result)
     if output_format is Format.JSON:
@@ -138,13 +164,16 @@ def show(result: Result, output_format: Format, *, details: bool = False, experi
     sys.stdout.write(result.csv_text())
 
 
-def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) -> None:
+def show_table(
+    result: Result, *, details: bool, experiments: Sequence[Path], refusals: Sequence[ForceTorqueError] = ()
+) -> None:
     """Print a result for people: the answer, then its warnings in a line each, or all details.
 
     Args:
         result: The result.
         details: As of `show`.
         experiments: As of `show`.
+        refusals: As of `show`.
     """
     from forcetorque.results.answer import MOST_LINES, STANDARD_WIDTH, answer_text, warnings_text
 
@@ -153,7 +182,8 @@ def show_table(result: Result, *, details: bool, experiments: Sequence[Path]) ->
         show_warnings(result)
         sys.stdout.write(result.text(columns))
         return
-    most = MOST_LINES + len(answers) - 1
+    below = sum(-(-len(line) // columns) for line in refusal_lines(refusals))
+    most = MOST_LINES + len(answers) + len(refusals) - 1 - below
     warnings: tuple[str, ...] = ()
     if not details:
         warnings = tuple(dict.fromkeys([*result.cautions(), *release_messages()]))
@@ -217,19 +247,6 @@ def show_warnings(result: Result) -> None:
     print_messages()
     for sentence in result.cautions():
         log.warning("%s", sentence)
-
-
-def say(sentence: str, output_format: Format) -> None:
-    """Print a sentence below a result for people; the other forms hold the result alone.
-
-    Args:
-        sentence: The sentence.
-        output_format: Form of the result.
-    """
-    from forcetorque.results.table_rendering import wrapped
-
-    if output_format is Format.TABLE:
-        sys.stdout.write(wrapped(sentence, width()) + "\n")
 
 
 def width() -> int:

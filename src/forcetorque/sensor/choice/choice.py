@@ -106,7 +106,7 @@ def _rows(sensor: CatalogueSensor, loads: Sequence[LoadCase], wrench: FloatArray
             bandwidth_hz=sensor.bandwidth_hz,
             mass_kg=sensor.mass,
             nonlinearity=sensor.nonlinearity,
-            sign_stated=calibration.has_sign,
+            has_sign=calibration.has_sign,
             source=sensor.source,
         )
 

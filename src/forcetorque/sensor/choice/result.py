@@ -64,7 +64,7 @@ class SensorRow(Row):
     """Mass; null where none is stated."""
     nonlinearity: Annotated[str | None, Shown("nonlinearity")]
     """As printed; not part of the error."""
-    sign_stated: Annotated[bool, Shown("range has sign")]
+    has_sign: Annotated[bool, Shown("range has sign")]
     """Whether the range is printed for both directions."""
     source: Annotated[tuple[str, ...], Shown("source")]
     """Where its figures are from."""
