@@ -420,6 +420,6 @@ def test_a_type_of_the_thesis_has_nothing_to_draw(arm: Path, run: Run) -> None:
 def test_a_figure_that_cannot_be_written_is_refused_before_the_fit(arm: Path, run: Run) -> None:
     """Another ending: nothing is read, fitted or written."""
     before = snapshot(arm)
-    error = run("calibrate", PARQUET, "-o", "a.json", "--figure", "learnt.pdf").error()
-    assert "--figure learnt.pdf: expected a name that ends in .png" in error
+    error = run("calibrate", PARQUET, "-o", "a.json", "--figure", "learnt.bmp").error()
+    assert "--figure learnt.bmp: expected a name that ends in .png" in error
     assert snapshot(arm) == before
