@@ -26,7 +26,7 @@ from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.long_recording import first_segment, segment_experiments
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.plausibility.checks import examine
+from forcetorque.inspection.plausibility.checks import require_sense
 from forcetorque.recording.recording import Use
 
 JOINT_FILE = "joint.json"
@@ -248,7 +248,7 @@ def calibrate_jointly(
     """
     data = JointData.of(experiments, sensors, progress)
     for campaign in data.campaigns.values():
-        _require_plausible(campaign)
+        _require_sense(campaign)
     specified = experiments[0].fit_options.tolerance if tolerance is None else tolerance
     result = data.fit(data.intervals, specified, progress)
     require_positive_masses(result.fit)
@@ -289,13 +289,14 @@ def calibrate_jointly(
     )
 
 
-def _require_plausible(campaign: Campaign) -> None:
-    """Refuse what the fit of this sensor alone refuses, where nothing touches the robot beyond it.
+def _require_sense(campaign: Campaign) -> None:
+    """Refuse a sensor that is read the wrong way round, where nothing touches the robot beyond it.
 
+    Factors are no reason: in a motion that hardly moves its load the noise of an IMU moves the expected wrench more.
     Of a long recording the first segment with calibration data is looked at.
 
     Raises:
-        FitError: What that fit says.
+        FitError: If it is so.
     """
     try:
         first = Campaign([first_segment(run, Use.CALIBRATION) for run in campaign.runs])
@@ -303,7 +304,7 @@ def _require_plausible(campaign: Campaign) -> None:
     except ForceTorqueError:
         return  # the load beyond it is not known
     try:
-        examine(data, campaign.sensor.prior, campaign.sensor.full_scale)
+        require_sense(data, required_prior(campaign.sensor))
     except FitError as error:
         raise FitError(f"sensor {campaign.sensor.name!r}: {error}") from error
 

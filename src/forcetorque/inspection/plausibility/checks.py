@@ -15,6 +15,7 @@ from forcetorque.experiment.calibration.sensor_model import is_invertible, measu
 from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
 from forcetorque.inspection.plausibility.reversed_sense_and_gain import (
     axis_doubts,
+    gains_of,
     require_moment_unit,
     require_moving_load,
     require_same_sign,
@@ -229,6 +230,30 @@ def examine(
             require_moment_unit(movement, setup)
         doubts += [*scale_doubts(movement, prior, setup), *axis_doubts(movement, prior, setup)]
     return (*doubts, *delay_doubts(usable, prior))
+
+
+_REVERSED = -0.5
+"""Gain below which a reading is the expected one with the other sign."""
+
+
+def require_sense(data_sets: Sequence[DataSet], prior: FloatArray) -> None:
+    """Refuse readings that follow the modelled load the wrong way round, about as large as it, and judge nothing else.
+
+    Gravity that is turned, as by an IMU on another link, has a smaller negative gain, and other causes.
+
+    Args:
+        data_sets: Stretches of calibration data of one sensor.
+        prior: Matrix that the sensor is read by so far; shape (6, c).
+
+    Raises:
+        FitError: If the force, or one axis of it, is opposite to the expected force.
+    """
+    usable = [data for data in data_sets if len(data.raw) > 1]
+    if sum(len(data.raw) for data in usable) < FEWEST:
+        return
+    movement = Movement.of(usable, prior)
+    if gains_of(movement, prior).overall < _REVERSED:
+        require_same_sign(movement, prior)
 
 
 def _pooled(data_sets: Sequence[DataSet]) -> Moments:
