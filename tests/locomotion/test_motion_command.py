@@ -41,7 +41,7 @@ def test_a_motion_is_shown_and_drawn(log: Path, run: Run) -> None:
         (("--column", "com_z"), "no column 'com_z'; did you mean"),
         (("--column", "com_y", "--step-at", "99"), "step at 99 s"),
         (("--column", "com_y", "--band-percent", "200"), "band: expected more than 0 and less than 100 % of the step"),
-        (("--column", "com_y", "--figure", "motion.pdf"), "ends in .png"),
+        (("--column", "com_y", "--figure", "motion.bmp"), "ends in .png"),
     ],
 )
 def test_what_is_not_there_is_named(log: Path, run: Run, words: tuple[str, ...], message: str) -> None:

@@ -175,7 +175,7 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
         (("--amplifier-gain", "0"), "--amplifier-gain 0: expected finite numbers above 0"),
         (("--allowed-gains", "8,nan"), "--allowed-gains 8,nan: expected finite numbers above 0"),
         (("--allowed-gains", "8,16"), "give --amplifier-gain, or amplifier_gain in the experiment file"),
-        (("--figure", "gains.pdf"), "--figure gains.pdf: expected a name that ends in .png"),
+        (("--figure", "gains.bmp"), "--figure gains.bmp: expected a name that ends in .png"),
         (("--figure", "nowhere/gains.png"), "expected an existing folder to write to"),
         (("--sensor", "arm_tf"), "has no sensor 'arm_tf'; did you mean \"arm_ft\"?"),
         (("-c", "fitted.json", "-c", "copy.json"), "copy.json: fitted.json calibrates 'arm_ft' too; give one"),

@@ -56,7 +56,7 @@ def test_taps_of_a_sensor_by_itself_need_no_force(taps: Path, run: Run, tmp_path
         (("-e", "impact", "--interval", "oven"), "no interval is labelled 'oven'"),
         (("-e", "impact", "--sensor", "leg"), "leg"),
         (("-e", "impact", "--force", "hammer"), "hammer"),
-        (("-e", "impact", "--figure", "bode.pdf"), "ends in .png"),
+        (("-e", "impact", "--figure", "bode.bmp"), "ends in .png"),
     ],
 )
 def test_what_is_not_there_is_named(taps: Path, run: Run, words: tuple[str, ...], message: str) -> None:

@@ -56,7 +56,7 @@ def test_a_sensor_by_itself_needs_no_motion(chamber: Path, run: Run, tmp_path: P
         (("--interval", "oven"), "no interval is labelled 'oven'"),
         (("--variable", "room"), "no variable 'room'"),
         (("--sensor", "leg"), "leg"),
-        (("--figure", "drift.pdf"), "ends in .png"),
+        (("--figure", "drift.bmp"), "ends in .png"),
     ],
 )
 def test_what_is_not_there_is_named(chamber: Path, run: Run, words: tuple[str, ...], message: str) -> None:

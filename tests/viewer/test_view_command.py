@@ -80,7 +80,7 @@ def test_the_table_says_what_was_written(run: Run, arm: Path) -> None:
     ended = run("view", PARQUET, "-o", "view.html", "--details")
     assert ended.code == 0
     answer, details = ended.out.split("\n\n", maxsplit=1)
-    assert answer.endswith("\nwritten: view.html")
+    assert answer.endswith("\nwritten: view.html\nnext: open view.html in a browser")
     lines = details.splitlines()
     assert re.fullmatch(r"small arm: \d+ samples of arm_ft", lines[0])
     assert re.fullmatch(r"page of \d\.\d MB written to view\.html", lines[1])

@@ -26,6 +26,7 @@ UNITS: Final[Mapping[str, str]] = MappingProxyType(
         "flattening": "N, N m",
         "accuracy": "N, N m",
         "load_full_scale": "N, N m",
+        "prior_size": "1",
         "prior": "N, N m per unit of what it multiplies",
         "prior_deviation": "N, N m per unit of the variable",
         "variables": "that of each variable",

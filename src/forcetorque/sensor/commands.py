@@ -119,7 +119,7 @@ def response(
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Tell bandwidth and resonance of a sensor, a filter that undoes them, or its static curves.
+    """Tell bandwidth and resonance of a sensor, their filter, or static curves.
 
     Example: forcetorque bench response taps.toml -e impact --force hammer
 

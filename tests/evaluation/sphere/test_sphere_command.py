@@ -152,7 +152,7 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     [
         (("--interval", "jugde"), "has the label or kind 'jugde'; did you mean \"judge\"?"),
         (("--sensor", "arm_tf"), "has no sensor 'arm_tf'; did you mean \"arm_ft\"?"),
-        (("--figure", "spheres.pdf"), "--figure spheres.pdf: expected a name that ends in .png"),
+        (("--figure", "spheres.bmp"), "--figure spheres.bmp: expected a name that ends in .png"),
         (("--figure", "nowhere/spheres.png"), "expected an existing folder to write to"),
         (("-c", "nothing.json"), "nothing.json"),
     ],
@@ -164,7 +164,7 @@ def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run, words: tuple[s
     assert snapshot(arm) == before
 
 
-@pytest.mark.parametrize("figure", ["spheres.pdf", "nowhere/spheres.png"])
+@pytest.mark.parametrize("figure", ["spheres.bmp", "nowhere/spheres.png"])
 def test_a_figure_is_refused_before_anything_is_read(arm: Path, run: Run, figure: str) -> None:
     """No minutes are lost to a folder that is not there."""
     refused = run("study", "sphere", PARQUET, "--figure", figure)

@@ -294,7 +294,7 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     [
         (("none.toml",), "none.toml: expected an experiment file, there is none"),
         ((PARQUET,), "parquet.toml: is named twice"),
-        (("--figure", "compare.pdf"), "--figure compare.pdf: expected a name that ends in .png"),
+        (("--figure", "compare.bmp"), "--figure compare.bmp: expected a name that ends in .png"),
         (("--figure", "nowhere/compare.png"), "expected an existing folder to write to"),
         (("-c", "nothing.json"), "nothing.json"),
     ],
