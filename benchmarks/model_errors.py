@@ -37,8 +37,8 @@ from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_a
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts, fit_doubts
-from forcetorque.experiment.calibration import assumptions
-from forcetorque.experiment.calibration.assumptions import Scale
+from forcetorque.experiment.calibration import expected_sensor_errors
+from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
@@ -274,7 +274,9 @@ def _written(
 def _certificate(family: str, prior: FloatArray) -> str:
     """What a certificate states of a sensor whose coefficients are off by as much as those of the family."""
     full_scale, counts = LIMIT_COUNTS * np.linalg.norm(prior, axis=1), np.full(prior.shape[1], LIMIT_COUNTS)
-    size_of_one_percent = assumptions.stated_prior_size(prior, counts, full_scale, 0.01 * full_scale / NORMAL_95)
+    size_of_one_percent = expected_sensor_errors.stated_prior_size(
+        prior, counts, full_scale, 0.01 * full_scale / NORMAL_95
+    )
     percent = max(FAMILIES[family].coefficients, CERTIFIED) / size_of_one_percent
     return f"full_scale = {full_scale.tolist()}\nprior_uncertainty_percent = {percent.tolist()}\n"
 
@@ -300,7 +302,7 @@ def expected_errors(family: str, robot: str) -> Iterator[str]:
     }
     tilt = kind.robot.tilt_deg or 1e-3  # without any term the fit would be that of an exact model
     of_model = f"mass_relative = {kind.robot.mass}, joint_zero_deg = {kind.robot.zero_deg}, tilt_deg = {tilt}"
-    with patch.multiple(assumptions, **changed):
+    with patch.multiple(expected_sensor_errors, **changed):
         yield f"tolerance = {{ {of_model}, delay_s = {kind.delay_s}, centre_m = 0 }}\n"
 
 

@@ -19,7 +19,7 @@ from benchmarks.harness import interleaved, median_ratio
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
 from forcetorque.calibration.generative.fit import fit_generative
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
 
 RECORDINGS, ROWS, UNKNOWNS = 8, 6, 39

@@ -15,7 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.toml_file import read_toml
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.thesis.calibrate import CalibrationFit, calibrate
-from forcetorque.experiment.calibration.assumptions import REPEATABILITY, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY, Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.recording import Interval, Support, Use

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
 

@@ -16,7 +16,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.evaluation.evaluation import validation_errors
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, UNMEASURED, use_verdicts
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment

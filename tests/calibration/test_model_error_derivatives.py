@@ -18,11 +18,11 @@ from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
 from forcetorque.calibration.generative.fit import GenerativeFit, SolvedRows, fit_generative
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
 from forcetorque.calibration.reduced_recordings import recording_moments
-from forcetorque.experiment.calibration import assumptions
+from forcetorque.experiment.calibration import expected_sensor_errors
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibration.assumptions import Scale
-from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError, ModelTolerance, TermKind
+from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelError, ModelTolerance, TermKind
 from forcetorque.experiment.calibration.stored_moments import read_moments
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -311,7 +311,7 @@ def test_rows_with_a_common_model_are_one_gaussian_inference(
     """Coefficients of all rows and errors of the model, the noise being given; other sizes give another result."""
     for name, size in SIZES.items():
         taken = size if as_they_are or name != "GAIN" else 3.0 * size
-        monkeypatch.setattr(assumptions, name, Scale(expected=taken, weight=np.inf))
+        monkeypatch.setattr(expected_sensor_errors, name, Scale(expected=taken, weight=np.inf))
     means = _means_with_model()
     readings: list[FloatArray] = []
     given = SolvedRows.reading

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, REPEATABILITY
+from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, REPEATABILITY
 from forcetorque.simulation.scenario.file import LINEAR_ONLY
 from tests.calibration.other_sensors import FAMILIES, with_eight_channels, with_error
 from tests.calibration.push_error import Case, cases

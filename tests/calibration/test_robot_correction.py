@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.model_error import ModelError
 from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.calibration.robot_model_error import ModelError
 from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE
+from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE
 from tests.calibration.generative.tools import Wrist
 from tests.cases import some_cases
 

@@ -15,7 +15,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.calibration import contact_windows
 from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.study.candidate_errors import push_error
 from tests.calibration.push_error import LIMIT_COUNTS, TEMPERATURE, cases

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import fit_generative
-from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.experiment.calibration.assumptions import REPEATABILITY, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY, Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.loading import Purpose, load_experiment

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.planning.information import Knowledge, Nuisance
 from forcetorque.planning.proposal import Demand, Effort, Workplace, proposals, supports_of, workplaces
 from forcetorque.planning.search import Criterion

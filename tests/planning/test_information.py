@@ -13,7 +13,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
 from forcetorque.evaluation.load_cases.predicted_error import load_second_moment, predict_from_posterior
 from forcetorque.evaluation.section import LoadCaseOffset
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.planning.information import Knowledge, Nuisance, PlannedLoads, unfitted_posterior

@@ -15,7 +15,7 @@ from forcetorque.base.toml_file import read_toml
 from forcetorque.calibration.generative.fit import GenerativeFit
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance
 from forcetorque.planning.planning import Plan, plan

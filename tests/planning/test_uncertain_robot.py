@@ -13,9 +13,9 @@ import pytest
 from benchmarks.planned_errors import LIMBS, Trial, followed
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, PlannedLoads, unfitted_posterior

@@ -171,7 +171,7 @@ def calibrate(
 
 
 def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapping[Path, Experiment]) -> None:
-    from forcetorque.experiment.calibration.model_error import EXACT
+    from forcetorque.experiment.calibration.robot_model_error import EXACT
 
     if len(sensors) != 1 or not contents:
         raise ExperimentError(

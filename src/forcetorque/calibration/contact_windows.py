@@ -21,7 +21,7 @@ from forcetorque.base.noise.means import WINDOW_S
 from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.experiment.calibration.assumptions import FLATTENED, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED, Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 

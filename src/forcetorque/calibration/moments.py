@@ -16,12 +16,12 @@ from forcetorque.base.rows_on_disk import RowsOnDisk
 from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
 from forcetorque.calibration.interval_and_mount_doubts import mount_doubts
 from forcetorque.calibration.model_error_derivatives import model_columns
-from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, in_blocks
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import Content
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, VariableDescription
 from forcetorque.experiment.campaign import Campaign
@@ -32,7 +32,7 @@ from forcetorque.experiment.segmented_samples import IntervalParts
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.inspection.plausibility.checks import examine
-from forcetorque.inspection.plausibility.reversed_sense_and_gain import require_moving_load
+from forcetorque.inspection.plausibility.reversed_gravity_and_gain import require_moving_load
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.parameter_vector import OF_LOAD, Kind, places
 from forcetorque.payload.load_warnings import reference_doubts

@@ -17,7 +17,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.collisions.residual import TOGETHER, WINDOW_S, FreeModel, Level, Signals
-from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 
 RELEASE: Final = 0.25
 """Share of the threshold below which a contact is over."""

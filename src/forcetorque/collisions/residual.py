@@ -27,7 +27,7 @@ from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.model_error_derivatives import derivatives_at
 from forcetorque.calibration.moments import assumptions_of
-from forcetorque.experiment.calibration.assumptions import LOADS, SENSOR, sensor_root
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, SENSOR, sensor_root
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun

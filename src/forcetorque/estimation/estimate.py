@@ -29,10 +29,10 @@ from forcetorque.experiment.validity import AppliedReadings, applied_readings
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
-from forcetorque.robot.mechanics.readable_evaluator import indistinguishable
 from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, outboard_bodies

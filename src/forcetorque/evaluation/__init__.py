@@ -8,7 +8,7 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept as accept
-    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance as read_acceptance
+    from forcetorque.evaluation.acceptance.limits import read_acceptance as read_acceptance
     from forcetorque.evaluation.commands import compare as compare
     from forcetorque.evaluation.commands import evaluate as evaluate
     from forcetorque.evaluation.commands import validate as validate
@@ -47,7 +47,7 @@ __all__, __getattr__, __dir__ = lazy_names(
         "accept": "forcetorque.evaluation.acceptance.acceptance",
         "compare": "forcetorque.evaluation.commands",
         "evaluate": "forcetorque.evaluation.commands",
-        "read_acceptance": "forcetorque.evaluation.acceptance.acceptance_file",
+        "read_acceptance": "forcetorque.evaluation.acceptance.limits",
         "spheres": "forcetorque.evaluation.sphere.sphere",
         "spheres_of_sensors": "forcetorque.evaluation.sphere.sphere",
         "use_verdicts": "forcetorque.evaluation.load_cases.verdict",

@@ -23,8 +23,8 @@ from forcetorque.base.errors import known_names
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, one_for_each, word_or_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection
 from forcetorque.experiment.calibration.artefact import GENERATIVE
-from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, OffsetStrategy
+from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY
 from forcetorque.experiment.experiment import FitOptions
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.robot.mechanics.samples import Processing

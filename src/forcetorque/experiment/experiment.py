@@ -12,9 +12,9 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
-from forcetorque.experiment.calibration.assumptions import REPEATABILITY
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
-from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
+from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY
+from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names, measured_part
 from forcetorque.experiment.input_files import path_endings, recording_name
 from forcetorque.experiment.section import Section

@@ -17,7 +17,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text, read_toml
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.calibration.model_error import ModelTolerance, MountTolerance
+from forcetorque.experiment.calibration.robot_model_error import ModelTolerance, MountTolerance
 from forcetorque.experiment.core_tables import (
     CalibrationTable,
     ClockTable,

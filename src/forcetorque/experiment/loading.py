@@ -18,7 +18,7 @@ from pydantic import Field, create_model
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, known_names
 from forcetorque.base.toml_file import Table, Text, checked_tables, read_toml, toml_content
-from forcetorque.experiment.calibration.model_error import EXACT
+from forcetorque.experiment.calibration.robot_model_error import EXACT
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.core_tables import (

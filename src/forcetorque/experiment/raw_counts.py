@@ -19,7 +19,7 @@ from forcetorque.base.arrays import (
     require_shape,
 )
 from forcetorque.base.errors import ExperimentError, known_names
-from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, stated_prior_size
+from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, stated_prior_size
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality

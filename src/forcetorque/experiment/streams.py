@@ -13,8 +13,8 @@ from pathlib import Path
 from forcetorque.base.errors import ExperimentError, MissingFileError, known_names
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.additions import follow_recipes
-from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.experiment.core_tables import Sensor
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import ExperimentContext, Inputs, stated_in

@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError, FormatError, known_names
 from forcetorque.base.pose import skew
 from forcetorque.base.stored_model import read_json
 from forcetorque.base.toml_file import first_error
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.raw_counts import full_scale_of, prior_size_of
 from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem

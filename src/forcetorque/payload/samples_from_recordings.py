@@ -18,7 +18,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_of_parts, means_over, window_for
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import reading_sign, wrench_matrix
-from forcetorque.experiment.calibration.assumptions import FLATTENED
+from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.long_recording import forget_recording, keep_quality, recorded_segments
 from forcetorque.experiment.sample_quality import sample_quality

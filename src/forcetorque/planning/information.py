@@ -12,11 +12,11 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
-from forcetorque.experiment.calibration import assumptions as expected
-from forcetorque.experiment.calibration.assumptions import LOADS, QUADRATIC, Assumptions, rows_of
-from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration import expected_sensor_errors as expected
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, QUADRATIC, Assumptions, rows_of
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS, quadratic_terms
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 ASSUMED_NOISE: Final = 1e-4

@@ -16,7 +16,7 @@ from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibration.assumptions import ACCURACY_SHARE, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, Assumptions
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.raw_counts import prior_size_of

@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, RobotError
 from forcetorque.base.noise.means import means_over
 from forcetorque.calibration.model_error_derivatives import UncertainPart
-from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, PlannedLoads
 from forcetorque.planning.search import Choices, Criterion, picked_orders, search

@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError
-from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.planning.information import ASSUMED_NOISE
 from forcetorque.planning.proposal import NOTHING, Proposal, Workplace
 from forcetorque.planning.search import HELPS, Criterion

@@ -12,8 +12,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.predicted_error import load_second_moment
-from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.planning.information import rows_by_model
 
 

@@ -15,7 +15,7 @@ from forcetorque.base.pose import skew
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.workbench.bench import Bench, Placement
 from forcetorque.workbench.loads import BenchLoads

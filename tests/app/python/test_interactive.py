@@ -25,7 +25,7 @@ from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
-from forcetorque.experiment.calibration.model_error import EXACT
+from forcetorque.experiment.calibration.robot_model_error import EXACT
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.planning import plan as analysis_plan
 from forcetorque.planning.proposal import Effort

@@ -12,9 +12,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES
 from forcetorque.calibration.generative import design
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans, model_terms
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 PRIOR = 0.01 * np.diag([1.0, 1.0, 1.0, 0.05, 0.05, 0.05])

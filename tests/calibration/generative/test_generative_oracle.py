@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.experiment.calibration import assumptions
-from forcetorque.experiment.calibration.assumptions import Scale
+from forcetorque.experiment.calibration import expected_sensor_errors
+from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from tests.calibration.synthetic import LIMIT_COUNTS, OFFSET, PRIOR, anyhow, hanging, read_by
@@ -100,7 +100,7 @@ def _written_out(stretches: list[WindowMeans], row: int, result: GenerativeFit) 
 def _fixed_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Take the expected sizes of all deviations for given."""
     for name, size in (("SENSOR", SENSOR), ("FRAME", FRAME), ("QUADRATIC", QUADRATIC)):
-        monkeypatch.setattr(assumptions, name, Scale(expected=size, weight=np.inf))
+        monkeypatch.setattr(expected_sensor_errors, name, Scale(expected=size, weight=np.inf))
 
 
 @pytest.mark.usefixtures("_fixed_sizes")

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator

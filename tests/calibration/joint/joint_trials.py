@@ -23,7 +23,7 @@ from forcetorque.base.errors import RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

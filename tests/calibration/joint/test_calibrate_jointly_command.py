@@ -17,7 +17,7 @@ from forcetorque.calibration.joint.calibrate import require_positive_masses
 from forcetorque.calibration.joint.unknowns import JointFit, Places
 from forcetorque.experiment.calibration.artefact import JOINT, read_calibration
 from forcetorque.experiment.calibration.joint_posterior import read_joint_posterior
-from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, TWO, edit, edit_lines, snapshot

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import windows
 from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 

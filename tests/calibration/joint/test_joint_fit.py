@@ -23,7 +23,7 @@ from forcetorque.calibration.joint.robust_fit import (
 )
 from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
-from forcetorque.experiment.calibration.model_error import EXACT, ModelTolerance
+from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.experiment.calibration.model_error import EXACT
+from forcetorque.experiment.calibration.robot_model_error import EXACT
 from forcetorque.simulation.scenario.file import LINEAR_ONLY
 from tests.calibration.joint.joint_trials import ALONE, ARMS, JUDGED, WAYS, SensorTrial, robots, trials
 

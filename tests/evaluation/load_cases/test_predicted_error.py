@@ -12,8 +12,8 @@ from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, pushes_around_sensor
 from forcetorque.evaluation.load_cases.predicted_error import ErrorMagnitude, predict_from_posterior, predict_prior
-from forcetorque.experiment.calibration.model_error import ErrorTerm, TermKind
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.scenes.experiments import PARQUET

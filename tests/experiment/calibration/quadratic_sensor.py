@@ -11,7 +11,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibration.assumptions import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection, steepness

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.assumptions import Assumptions, rows_of
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions, rows_of
 from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread
 
 FULL_SCALE = np.array([100.0, 100.0, 200.0, 10.0, 10.0, 10.0])

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from forcetorque.robot.contacts import Contact, ContactType
+from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.question import MinimumNorm, Question
-from forcetorque.robot.mechanics.readable_evaluator import indistinguishable
 from forcetorque.robot.motion import JointMotion
 from tests.robot.mechanics.touched import Touched, touched
 

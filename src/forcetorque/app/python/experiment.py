@@ -13,7 +13,7 @@ from forcetorque.app.python.run import Run
 from forcetorque.base.lazy import LazyMethod
 from forcetorque.base.output_file import refuse_output
 from forcetorque.calibration.calibrate import SensorCalibrations
-from forcetorque.experiment.calibration.model_error import ModelTolerance
+from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment as ExperimentContent

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
-from forcetorque.experiment.calibration.assumptions import FLATTENED
+from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 

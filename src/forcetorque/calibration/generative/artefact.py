@@ -27,8 +27,8 @@ from forcetorque.experiment.calibration.artefact import (
     Prior,
     SessionOffset,
 )
-from forcetorque.experiment.calibration.assumptions import FLATTENED, LOADS, Assumptions
 from forcetorque.experiment.calibration.excitation import excitation_of
+from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED, LOADS, Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans, pooled
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import Provenance, Selection

@@ -21,12 +21,12 @@ from forcetorque.calibration.generative.agreement import (
 from forcetorque.calibration.generative.design import Design, cells_of, design_of
 from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer
 from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
-from forcetorque.experiment.calibration import assumptions as expected
-from forcetorque.experiment.calibration.assumptions import LOADS, Assumptions, Rows, Scale, rows_of
-from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelError
+from forcetorque.experiment.calibration import expected_sensor_errors as expected
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Assumptions, Rows, Scale, rows_of
 from forcetorque.experiment.calibration.moments import WindowMeans, in_order, model_terms
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelError
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
 
 

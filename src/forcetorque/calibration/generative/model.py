@@ -24,7 +24,7 @@ from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.calibration.generative.row_evidence import RowPrior, evidence_of
 from forcetorque.calibration.generative.shared_unknowns import RowProducts, SharedSolution, solve_together
 from forcetorque.calibration.generative.whitening import Whitened
-from forcetorque.experiment.calibration.assumptions import LOADS
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 
 _SWEEPS = 20
 _CHOICES = (0, 4, 10)

@@ -14,8 +14,8 @@ from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.untouched_interval import JointInterval, required_prior
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, Prior, SessionOffset
-from forcetorque.experiment.calibration.assumptions import LOADS
 from forcetorque.experiment.calibration.excitation import excitation_of
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.joint_posterior import JointOffset, JointPosterior, JointSensor, JointTerm
 from forcetorque.experiment.calibration.moments import Moments, pooled
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise

@@ -20,7 +20,7 @@ from forcetorque.calibration.moments import assumptions_of
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
-from forcetorque.experiment.calibration.model_error import ModelTolerance, TermKind
+from forcetorque.experiment.calibration.robot_model_error import ModelTolerance, TermKind
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment

@@ -32,8 +32,8 @@ from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, in
 from forcetorque.calibration.generative.whitening import Border, Whitened
 from forcetorque.calibration.joint.unknowns import CHANGES, EVEN, JointFit, Places, SensorPrior
 from forcetorque.calibration.joint.windows import PartWindows
-from forcetorque.experiment.calibration.assumptions import LOADS, MODEL, Scale
-from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, MODEL, Scale
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 _OFFSET: Final = Scale(expected=1e3, weight=np.inf)
 """An offset before any data, in `UNITS`: hardly anything is known of it.

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import cross
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.experiment.calibration.model_error import (
+from forcetorque.experiment.calibration.robot_model_error import (
     ACCELERATION,
     CENTRE,
     DELAY,

@@ -15,8 +15,8 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
 from forcetorque.calibration.joint.unknowns import JointFit
 from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.calibration.model_error import ErrorTerm
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, Table, table_of
 

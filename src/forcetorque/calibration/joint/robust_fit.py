@@ -16,8 +16,8 @@ from forcetorque.calibration.joint.model_error_columns import delay_terms, error
 from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit, SensorPrior
 from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows, part_windows
-from forcetorque.experiment.calibration.assumptions import LOADS
-from forcetorque.experiment.calibration.model_error import ErrorTerm, ModelTolerance
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelTolerance
 from forcetorque.robot.tree import SubModel
 
 _NEIGHBOURS = 2

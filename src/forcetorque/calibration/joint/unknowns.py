@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.calibration.generative.fit import FRAME_CHANGES
-from forcetorque.experiment.calibration.assumptions import (
+from forcetorque.experiment.calibration.expected_sensor_errors import (
     COEFFICIENTS_TOGETHER,
     GAIN,
     LOADS,
@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.assumptions import (
     sensor_root,
 )
 from forcetorque.experiment.calibration.joint_posterior import LENGTH_M
-from forcetorque.experiment.calibration.model_error import ZERO, ErrorTerm
+from forcetorque.experiment.calibration.robot_model_error import ZERO, ErrorTerm
 
 UNITS: Final = np.array([1.0, 1.0, 1.0, LENGTH_M, LENGTH_M, LENGTH_M])
 """Unit of every component; N, N m."""

@@ -21,8 +21,8 @@ from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages, rows_where
 from forcetorque.calibration.joint.model_error_columns import body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
-from forcetorque.experiment.calibration.assumptions import LOADS
-from forcetorque.experiment.calibration.model_error import DELAY, ZERO, ErrorTerm
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
+from forcetorque.experiment.calibration.robot_model_error import DELAY, ZERO, ErrorTerm
 from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
     joints_of_cuts,

@@ -15,8 +15,8 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.estimation.uncertain.uncertainty import Action, Actor
+from forcetorque.robot.mechanics.contact_wrenches_and_torques import RANK_TOLERANCE
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.mechanics.readable_evaluator import RANK_TOLERANCE
 from forcetorque.robot.tree import Connection, SubModel, outboard_bodies
 
 

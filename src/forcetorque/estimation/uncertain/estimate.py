@@ -17,10 +17,10 @@ from forcetorque.estimation.uncertain.equations import Scene, Undetermined, post
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty, actions_of, actors_of, wrench_covariances
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import BodyState, net_wrench
+from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, body_states
 from forcetorque.robot.mechanics.estimates import column_of
 from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question, TorqueSum
-from forcetorque.robot.mechanics.readable_evaluator import Block, body_states
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 BY_SAMPLE: Final = (

@@ -22,10 +22,10 @@ from forcetorque.base.errors import FormatError, MissingFileError, RecordingErro
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.base.stored_model import StoredTable, read_json, validated_table
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.experiment.calibration.model_error import ModelError
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
 from forcetorque.experiment.calibration.quadratic_correction import LinearityTest, NonlinearTrial, QuadraticCorrection
+from forcetorque.experiment.calibration.robot_model_error import ModelError
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, measured_components, secondary_matrix
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.results.table import Table

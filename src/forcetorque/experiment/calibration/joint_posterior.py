@@ -12,7 +12,7 @@ from pydantic import ConfigDict, Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
 from forcetorque.experiment.calibration.artefact import JOINT_SCHEMA
-from forcetorque.experiment.calibration.model_error import ModelError
+from forcetorque.experiment.calibration.robot_model_error import ModelError
 
 LENGTH_M: Final = 0.1
 """Moment over force that weigh alike: 0.1 N m is as much as 1 N."""

@@ -12,8 +12,8 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
 from forcetorque.base.errors import ShapeError, known_names
 from forcetorque.base.stored_model import StoredTable
-from forcetorque.experiment.calibration.assumptions import LOADS
-from forcetorque.experiment.calibration.model_error import ErrorTerm
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 
 class RowNoise(StoredTable):

@@ -14,7 +14,7 @@ from forcetorque.base.errors import FormatError, RobotError, known_names
 from forcetorque.base.stored_model import read_json
 from forcetorque.experiment.calibration.artefact import JOINT_SCHEMA, read_calibration
 from forcetorque.experiment.calibration.joint_posterior import read_joint_posterior
-from forcetorque.experiment.calibration.model_error import CENTRE, MASS, ZERO, ModelError
+from forcetorque.experiment.calibration.robot_model_error import CENTRE, MASS, ZERO, ModelError
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors
 from forcetorque.robot.tree import build_tree

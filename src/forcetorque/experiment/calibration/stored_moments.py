@@ -13,11 +13,11 @@ from pydantic import ConfigDict, Field
 from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
-from forcetorque.experiment.calibration.assumptions import Assumptions
-from forcetorque.experiment.calibration.model_error import ErrorTerm, MountTolerance
+from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, MountTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 

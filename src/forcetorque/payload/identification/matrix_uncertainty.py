@@ -23,7 +23,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import reading_sign
-from forcetorque.experiment.calibration.assumptions import FRAME, SENSOR, Assumptions, rows_of
+from forcetorque.experiment.calibration.expected_sensor_errors import FRAME, SENSOR, Assumptions, rows_of
 from forcetorque.payload.identification.estimate_under_noise import noise_sizes
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.measurement_model import load_columns, load_wrench

@@ -11,10 +11,10 @@ import numpy as np
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.robot.contacts import Wrenches
+from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, BlockEvaluation
 from forcetorque.robot.mechanics.estimates import Estimates
 from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.mechanics.readable_evaluator import Block, BlockEvaluation
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 _FEW = 20000

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.experiment.calibration.model_error import MountTolerance
+from forcetorque.experiment.calibration.robot_model_error import MountTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, measured_components
 
 ACCURACY_SHARE: Final = 1e-3
