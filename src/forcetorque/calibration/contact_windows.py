@@ -88,7 +88,9 @@ _TURNED: Final = float(np.radians(0.25))
 _SHIFTED_M: Final = 0.001
 """By how much a centre of mass may be elsewhere; m."""
 _MOVED: Final = 0.3
-"""Share of the spread of all loads, in each of their directions, that the rest has where the fit of all was refused."""
+"""Share of the spread of all loads, in each of their directions, that the rest has at least."""
+_RESTS: Final = 1e-9
+"""Share of its largest value below which the spread of a component is rounding."""
 _DIRECTION: Final = 0.1
 """Share of the largest spread from which a direction counts."""
 _NOISE: Final = SlowNoise(time_constant_s=15.0, ratio=1.0)
@@ -130,8 +132,8 @@ def agreeing_samples(
 
     Returns:
         Which samples of every data set agree, shape (n,) each, and the spans of those that do not. All agree in fewer
-        than `FEWEST` seconds, in a table of single samples, where the rest does not determine a fit, and where the fit
-        of all is refused and all motion in some direction would leave: then the prior matrix or the reference is wrong.
+        than `FEWEST` seconds, in a table of single samples, where the rest does not determine a fit, and where all
+        motion in some direction would leave: then the prior matrix or the reference is wrong.
     """
     means = [WindowMeans.of(data) for data in data_sets]
     every = [np.ones(len(data.raw), dtype=bool) for data in data_sets]
@@ -139,7 +141,7 @@ def agreeing_samples(
     if not len(ends) or ends[-1] < FEWEST or np.median(np.concatenate([one.count for one in means])) < _PARTS:
         return every, ()
     exact = replace(assumptions, accuracy=np.zeros(6))
-    marks, left, by_prior = np.zeros(ends[-1], dtype=bool), np.zeros((ends[-1], 6)), False
+    marks, left = np.zeros(ends[-1], dtype=bool), np.zeros((ends[-1], 6))
     for far in (_SUSPECT, *(FAR,) * (_ROUNDS - 1)):
         kept = [one.kept(~own) for one, own in zip(means, np.split(marks, ends[:-1]), strict=True) if not own.all()]
         fit = None
@@ -149,7 +151,6 @@ def agreeing_samples(
             if prior is None or marks.any():  # the fit of all says why, if it fails too
                 return every, ()
             # a contact may turn the matrix so far that the fit is refused: the prior matrix tells what to suspect
-            by_prior = True
         residuals = [_residual(data, one, fit, prior) for data, one in zip(data_sets, means, strict=True)]
         left = np.concatenate([one[0] for one in residuals])
         alone = disagreeing(left, np.concatenate([one[1] for one in residuals]), far=far)
@@ -157,7 +158,7 @@ def agreeing_samples(
         if np.array_equal(found, marks):
             break
         marks = found
-    if by_prior and _loses_direction(np.concatenate([one.reference for one in means]), marks):
+    if _loses_direction(np.concatenate([one.reference for one in means]), marks):
         return every, ()
     spans: list[Disagreeing] = []
     agree = []
@@ -170,9 +171,13 @@ def agreeing_samples(
 
 def _loses_direction(loads: FloatArray, marks: BoolArray) -> bool:
     """Whether what is not marked hardly moves in a direction in which the whole does; loads of shape (n, 6)."""
-    size = np.maximum(loads.std(axis=0), np.finfo(float).tiny)
-    _, spread, directions = np.linalg.svd((loads - loads.mean(axis=0)) / size, full_matrices=False)
-    along = (loads / size) @ directions[spread > _DIRECTION * spread[0]].T
+    spread = loads.std(axis=0)
+    moves = spread > _RESTS * np.abs(loads).max(axis=0)
+    if not moves.any():
+        return False
+    moved = (loads - loads.mean(axis=0))[:, moves] / spread[moves]
+    _, sizes, directions = np.linalg.svd(moved, full_matrices=False)
+    along = moved @ directions[sizes > _DIRECTION * sizes[0]].T
     return bool((along[~marks].std(axis=0) < _MOVED * along.std(axis=0)).any())
 
 
