@@ -258,6 +258,9 @@ def test_collada_is_read_without_entities(tmp_path: Path) -> None:
     file.write_text("".join([lines[0], *lines[2:]]), encoding="ascii")
     mesh = read_mesh(file, (2, 1, 1))
     np.testing.assert_array_equal(mesh.vertices[mesh.faces[0]], [[0, 0, 0], [2, 0, 0], [0, 1, 0]])
+    file.write_text(file.read_text(encoding="ascii").replace('meter="1"', 'meter="0.001"'), encoding="ascii")
+    mesh = read_mesh(file, (2, 1, 1))
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces[0]], [[0, 0, 0], [0.002, 0, 0], [0, 0.001, 0]])
 
 
 def _ball(count: int) -> Triangles:

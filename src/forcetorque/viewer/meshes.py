@@ -115,8 +115,7 @@ def _load(file: Path) -> tuple[FloatArray, npt.NDArray[np.int64]]:
     import trimesh
 
     declare_input(file)
-    if file.suffix.lower() == ".dae":
-        read_xml(file)  # refuses entities, which pycollada expands
+    unit_m = _collada_unit(file) if file.suffix.lower() == ".dae" else 1.0
     try:
         with file.open("rb") as stream:
             # without a resolver nothing beside the file, such as a texture, is read
@@ -125,7 +124,21 @@ def _load(file: Path) -> tuple[FloatArray, npt.NDArray[np.int64]]:
         raise FormatError(f"{file}: expected a mesh, got {type(error).__name__}: {error}") from error
     vertices = np.asarray(getattr(loaded, "vertices", np.empty((0, 3))), dtype=np.float64)
     faces = np.asarray(getattr(loaded, "faces", np.empty((0, 3))), dtype=np.int64)
-    return vertices.reshape(-1, 3), faces.reshape(-1, 3)
+    return unit_m * vertices.reshape(-1, 3), faces.reshape(-1, 3)
+
+
+def _collada_unit(file: Path) -> float:
+    """Length of the unit of a COLLADA file; m. Entities, which pycollada expands, are refused."""
+    root = read_xml(file)
+    unit = None if root is None else root.find("{*}asset/{*}unit")
+    text = "1" if unit is None else unit.get("meter", "1")
+    try:
+        length = float(text)
+    except ValueError:
+        length = 0.0
+    if not (np.isfinite(length) and length > 0.0):
+        raise FormatError(f"{file}: unit: expected meter to be a number above 0, got {text!r}")
+    return length
 
 
 def _icub_models() -> list[Path]:
