@@ -18,7 +18,7 @@ from forcetorque.results.figures import (
     new_figure,
     shown_name,
 )
-from forcetorque.results.number_text import amount
+from forcetorque.results.number_text import amount, counted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -103,11 +103,13 @@ def joint_plan_figure(plan: JointPlan) -> Figure:
         panel.axhline(1.0, **LIMIT_LINE)
         panel.set_ylabel(f"predicted {quantity} error over what is allowed")
         panel.set_ylim(bottom=0.0)
-        panel.set_xticks(range(count + 1), ["prior", *(shown_name(row.recording) for row in plan.steps)])
+        panel.set_xticks(range(count + 1), ["prior", *map(str, range(1, count + 1))])
+        panel.set_xlabel("recordings fitted")
     headline(
         figure,
-        f"errors over what is allowed, mean of {len(cases)} load cases: {plan.steps[0].excess_before:.2g} by the "
-        f"priors, {plan.steps[-1].excess_after:.2g} after {count} recording{'s' if count > 1 else ''}",
+        f"errors over what is allowed, geometric mean of {counted(len(cases), 'load case')}: "
+        f"{plan.steps[0].excess_before:.2g} by the priors, {plan.steps[-1].excess_after:.2g} after "
+        f"{counted(count, 'recording')}: {', '.join(shown_name(row.recording) for row in plan.steps)}",
     )
     legend_below(figure, [*keys, ("allowed", LIMIT_LINE)])
     return figure
