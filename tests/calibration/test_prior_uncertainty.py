@@ -86,17 +86,6 @@ def test_predicted_errors_are_those_that_are_stated() -> None:
     assert (stated < np.sqrt((predicted["usual"] ** 2).mean(axis=0))).all()
 
 
-def test_channels_in_place_of_components() -> None:
-    """With eight channels the covariance of readings is as large as stated in the mean over the components."""
-    rng = np.random.default_rng(1)
-    matrix = np.linalg.pinv(np.vstack([np.linalg.inv(PRIOR), np.linalg.inv(PRIOR)[:2] + rng.normal(size=(2, 6))]))
-    known = _stated(matrix)
-    spread = MatrixSpread.of(matrix, known)
-    sizes = np.stack([spread.expected[:, 0], np.zeros(2)], axis=1)
-    of_stated = (_at_full_scale(spread.covariance(sizes)) / DEVIATION) ** 2
-    assert 0.2 < of_stated.min() < of_stated.max() < 5.0
-
-
 def test_of_the_file(arm: Path) -> None:
     """It is percent of the full scale, and needs one and a prior."""
     line = "prior_uncertainty_percent = [1.0, 1.25, 0.75, 1.5, 1.25, 1.0]\n"

@@ -168,7 +168,7 @@ def _sensor(where: str, entry: PlannedSensor, model: RobotModel, inputs: Inputs)
         prior_source=None if prior is None else prior.source,
         limit_counts=entry.limit_counts,
         full_scale=full_scale,
-        prior_deviation=prior_deviation_of(where, entry, full_scale),
+        prior_deviation=prior_deviation_of(where, entry, prior, full_scale),
         variables=tuple(variables),
     )
 

@@ -124,22 +124,30 @@ def full_scale_of(entry: Sensor, prior: SpecifiedPrior | None) -> FloatArray | N
     return None if prior is None else prior.full_scale
 
 
-def prior_deviation_of(where: str, entry: Sensor, full_scale: FloatArray | None) -> FloatArray | None:
+def prior_deviation_of(
+    where: str, entry: Sensor, prior: SpecifiedPrior | None, full_scale: FloatArray | None
+) -> FloatArray | None:
     """Give how far readings by the prior matrix are off, as the file states it.
 
     Args:
         where: File and table, for messages.
         entry: The sensor.
+        prior: Its prior; None for none.
         full_scale: Its full scale; shape (6,); N, N m; None if it is not known.
 
     Returns:
         Standard deviation; shape (6,); N, N m; None where nothing is stated.
 
     Raises:
-        ExperimentError: If there is no full scale that it is a share of.
+        ExperimentError: If the sensor has not six channels, or there is no full scale that it is a share of.
     """
-    if entry.prior_uncertainty_percent is None:
+    if entry.prior_uncertainty_percent is None or prior is None:
         return None
+    if prior.matrix.shape[1] != len(WRENCH_COMPONENTS):
+        raise ExperimentError(
+            f"{where}: expected a sensor of six channels for prior_uncertainty_percent, got {prior.matrix.shape[1]}; "
+            "delete it: errors of more channels do not belong to single components"
+        )
     if full_scale is None:
         raise ExperimentError(
             f"{where}: expected full_scale, of which prior_uncertainty_percent is a share: six numbers, N and N m, as "
@@ -270,7 +278,7 @@ def _sensor(
         prior_source=None if prior is None else prior.source,
         limit_counts=entry.limit_counts,
         full_scale=full_scale,
-        prior_deviation=prior_deviation_of(where, entry, full_scale),
+        prior_deviation=prior_deviation_of(where, entry, prior, full_scale),
         measurement_noise=None if entry.measurement_noise is None else np.array(entry.measurement_noise),
         measurement_offset_sd=None if entry.measurement_offset_sd is None else np.array(entry.measurement_offset_sd),
         amplifier_gain=entry.amplifier_gain,

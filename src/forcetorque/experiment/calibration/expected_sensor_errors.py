@@ -140,7 +140,7 @@ class Assumptions(ArrayRecord):
     """
     prior_size: FloatArray | None = field(default=None, metadata=array(6))
     """How far coefficients of the prior matrix are off, relative to the root mean square of their row, as a certificate
-    has it; shape (6,); None where nobody states it."""
+    has it of a sensor of six channels; shape (6,); None where nobody states it."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -245,10 +245,7 @@ class Rows:
         Returns:
             What `sensor_root` of every row is to be multiplied by; shape (rows,).
         """
-        stated = assumptions.prior_size
-        if stated is None:
-            return np.full(len(self.unit), usual)
-        return stated if self.space == "wrench" else np.full(len(self.unit), np.sqrt((stated**2).mean()))
+        return np.full(len(self.unit), usual) if assumptions.prior_size is None else assumptions.prior_size
 
 
 def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) -> Rows:

@@ -368,7 +368,10 @@ def _compared(recording: RecordingMoments) -> dict[str, Any]:
         "accuracy": None if recording.accuracy is None else recording.accuracy.tolist(),
         "repeatability": recording.repeatability,
         "tolerance of the mount (rotation, shift)": [recording.mount_rotation_rad, recording.mount_shift_m],
-        "uncertainty of the prior matrix": None if recording.prior_size is None else recording.prior_size.tolist(),
+        # its last digits are those of the processor that computed it
+        "uncertainty of the prior matrix": None
+        if recording.prior_size is None
+        else [f"{size:.6g}" for size in recording.prior_size],
         "drift": recording.drift,
         "nonlinear": recording.nonlinear,
         "variables": [variable.model_dump(mode="json") for variable in recording.variables],
