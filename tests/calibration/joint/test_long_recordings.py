@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Use
 from tests.scenes.experiments import TWO, edit, write_experiments
-from tests.scenes.segments import SEGMENT_S, short_segments
+from tests.scenes.segments import SEGMENT_S, short_segments, within
 from tests.scenes.studies import CALIBRATION, SENSOR
 
 _OF_ERROR = 1e-3
@@ -92,16 +91,6 @@ def test_a_wrong_sign_of_a_long_recording_is_refused(days: Path) -> None:
         _calibrated(days)
 
 
-def _within(experiment: Experiment, name: str, start_s: float, end_s: float) -> Experiment:
-    """Leave out what a stream holds before and after."""
-    recording = experiment.recording
-    stream = recording.stream(name)
-    rows = slice(*np.searchsorted(stream.stamp_ns, recording.start_ns + np.array([start_s, end_s]) * 1e9))
-    signals = {key: replace(signal, values=signal.values[rows]) for key, signal in stream.signals.items()}
-    short = replace(stream, stamp_ns=stream.stamp_ns[rows], signals=signals, sequence=None)
-    return replace(experiment, recording=replace(recording, streams={**recording.streams, name: short}))
-
-
 def _both(experiment: Experiment) -> tuple[dict[str, int], float]:
     """Samples by sensor, and the mean standard error of the first."""
     found = calibrate_jointly([experiment], "joint", ["arm_ft", "tool_ft"], code_version="1", created="2020")
@@ -115,7 +104,7 @@ def _both(experiment: Experiment) -> tuple[dict[str, int], float]:
 def test_a_stream_that_ends_early_takes_nothing_from_the_others(tmp_path: Path, stream: str, share: float) -> None:
     """In segments without a sample of it, samples of the other sensors count as in the whole recording."""
     write_experiments(tmp_path)
-    experiment = _within(load_experiment(tmp_path / TWO), stream, 0.0, 7.0)
+    experiment = within(load_experiment(tmp_path / TWO), stream, 0.0, 7.0)
     samples, error = _both(experiment)
     with short_segments(3.0):
         same, same_error = _both(experiment)
@@ -127,7 +116,7 @@ def test_a_stream_that_ends_early_takes_nothing_from_the_others(tmp_path: Path, 
 def test_a_sensor_without_a_sample_in_the_interval_is_refused(tmp_path: Path) -> None:
     """By the same words in segments and as a whole."""
     write_experiments(tmp_path)
-    experiment = _within(load_experiment(tmp_path / TWO), "tool_ft", 15.0, 23.0)
+    experiment = within(load_experiment(tmp_path / TWO), "tool_ft", 15.0, 23.0)
     with pytest.raises(RecordingError, match="'fit': stream 'tool_ft' has no sample in it to use") as whole:
         _both(experiment)
     with short_segments(3.0), pytest.raises(RecordingError) as segmented:
