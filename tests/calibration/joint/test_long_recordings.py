@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FitError, RecordingError
+from forcetorque.base.errors import FitError, OutputError, RecordingError
 from forcetorque.calibration.calibrate import SensorCalibrations
 from forcetorque.calibration.joint import untouched_interval
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
@@ -82,6 +82,16 @@ def test_what_calibrations_leave_is_found_in_segments(recorded: Path) -> None:
         same_times, same_after = left()
     np.testing.assert_allclose(times, same_times, rtol=0.0, atol=1e-9)
     assert 0.0 < np.sqrt(np.mean((after - same_after) ** 2)) < _OF_RESIDUAL * np.sqrt(np.mean(after**2))
+
+
+def test_no_room_for_temporary_files_is_not_passed_over(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Residuals are then refused, not left out."""
+    (entry,) = _calibrated(recorded).calibrations
+    monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
+    monkeypatch.setattr("tempfile.tempdir", str(recorded / "none"))
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    with short_segments(), pytest.raises(OutputError, match="none"):
+        part_residuals(experiment, {SENSOR: entry.calibration}, Use.CALIBRATION)
 
 
 def test_a_wrong_sign_of_a_long_recording_is_refused(days: Path) -> None:

@@ -10,7 +10,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, ForceTorqueError, RecordingError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, OutputError, RecordingError
 from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.calibration.joint.nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
@@ -371,6 +371,8 @@ def _residuals(
 ) -> Iterator[PartResidual]:
     try:
         one = joint_interval(experiment, interval, list(calibrations), segments=segments).untouched
+    except OutputError:
+        raise
     except ForceTorqueError:  # no support, or something touches every part: then there is nothing to add up
         return
     sessions = experiment.session_names(interval.label)
