@@ -413,7 +413,7 @@ def _without_pressure(experiment: PatchExperiment, patch: ExperimentPatch) -> It
     stream = experiment.recording.stream(patch.counts)
     counts = stream.signal("taxel_counts").values[:, patch.taxels]
     read = np.isfinite(counts)
-    lost = read.any(axis=1) & ~np.nan_to_num(counts).any(axis=1)
+    lost: BoolArray = np.any(read, axis=1) & ~np.any(np.nan_to_num(counts), axis=1)
     read &= ~lost[:, None]
     if lost.any():
         ends = np.flatnonzero(lost)[[0, -1]]
