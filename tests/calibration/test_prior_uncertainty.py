@@ -102,3 +102,21 @@ def test_of_the_file(arm: Path) -> None:
     edit(file, 'prior = "matrix_SIM001.txt"\n', "")
     with pytest.raises(FormatError, match="prior_uncertainty_percent needs prior"):
         load_experiment(file)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "expected"),
+    [
+        ("prior_uncertainty_percent", "0", "expected more than 0, got 0"),
+        ("prior_uncertainty_percent", "-1.5", "expected more than 0, got -1.5"),
+        ("prior_uncertainty_percent", "[1, 1, 0, 1, 1, 1]", "expected more than 0, got 0"),
+        ("prior_uncertainty_percent", "[1, 1, 1, 1, 1]", "expected one number, or six .* percent of the full scale"),
+        ("full_scale", "0", "expected more than 0, got 0"),
+    ],
+)
+def test_one_number_that_is_wrong_is_named_by_its_key(arm: Path, key: str, value: str, expected: str) -> None:
+    """One number stands for six, which are in no list of the file."""
+    place = r"\[2\]" if "0," in value else ""
+    edit(arm / PARQUET, "[[sensor]]\n", f"[[sensor]]\n{key} = {value}\n")
+    with pytest.raises(FormatError, match=rf"sensor\[0\]\.{key}{place}: {expected}"):
+        load_experiment(arm / PARQUET)

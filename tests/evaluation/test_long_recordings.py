@@ -9,21 +9,25 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.base.errors import ExperimentError
+from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.limits import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.sphere.sphere import spheres
+from forcetorque.evaluation.trials.comparison import Comparison
+from forcetorque.evaluation.trials.trials import read_trials
 from forcetorque.evaluation.validation.validation import validation
 from forcetorque.experiment.free_sub_model import SubModelChoice
+from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.fingerprint import window_hashes
 from tests.scenes.campaigns import FITTED, by_day, run_of, two_days
-from tests.scenes.segments import SEGMENT_S, short_segments
+from tests.scenes.experiments import PARQUET, write_experiments
+from tests.scenes.segments import SEGMENT_S, short_segments, within
 
 _ROUNDING = 1e-9
 """Sums over blocks against sums over all samples."""
@@ -145,15 +149,32 @@ def test_a_sphere_of_segments_is_that_of_the_recording(recorded: Path, monkeypat
         (segmented,) = spheres(run_of(recorded, FITTED)).analyses
         monkeypatch.setattr("forcetorque.evaluation.sphere.sensor_sphere._MOST", 200)
         thinned = spheres(run_of(recorded, FITTED))
+        trials, failures = read_trials([recorded / FITTED])
     assert whole.reference is not None
     assert segmented.reference is not None
     scale = np.abs(whole.reference).max()
     np.testing.assert_array_equal(whole.force, segmented.force)
     assert np.abs(whole.reference - segmented.reference).max() < 3.0 * _OF_LOAD_ONCE * scale
+    assert [words for words in Comparison.of(trials, failures, lambda _: None).warnings if "one of" in words] == [
+        f"{trials[0].file}: {words}" for words in thinned.warnings
+    ]
     (some,) = thinned.analyses
     assert some.every == -(-len(whole.force) // 200) > 1
     assert 150 < len(some.force) < 250
     assert f"one of {some.every} samples" in " ".join(thinned.warnings)
+
+
+@pytest.mark.parametrize(
+    ("stream", "lost"), [("arm_ft", "stream 'arm_ft' has no sample in it"), ("joints", "none of .* the joint")]
+)
+def test_a_sphere_of_segments_has_samples_of_every_interval(tmp_path: Path, stream: str, lost: str) -> None:
+    """One of which none can be used is refused, as in the whole recording."""
+    write_experiments(tmp_path)
+    experiment = within(load_experiment(tmp_path / PARQUET), stream, 0.0, 14.2)
+    with pytest.raises(RecordingError, match=f"interval 'judge': {lost}"):
+        spheres(SensorRun(experiment, "arm_ft"))
+    with short_segments(3.0), pytest.raises(RecordingError, match="interval 'judge': "):
+        spheres(SensorRun(experiment, "arm_ft"))
 
 
 def test_hashes_of_blocks_are_those_of_all_samples(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError
@@ -50,6 +52,24 @@ def test_broken_taxels_are_named_without_a_pressure(tmp_path: Path) -> None:
         found = taxel_findings(load_patches(_changed(file, 'pressure = "chamber"\n', "")))
         assert {finding.kind: finding.count for finding in found} == expected
         assert all(finding.message == "palm: rails: 1 of 60 taxels in the log: 7" for finding in found)
+
+
+def test_lost_messages_and_columns_hide_no_fault_and_make_none(tmp_path: Path) -> None:
+    """Messages of zeros are counted; a column without counts takes nothing from the others."""
+    recording = chamber(responses(), 11, broken={7: TaxelFault.RAILS})
+    stream = recording.stream("counts")
+    signal = stream.signal("taxel_counts")
+    values = signal.values.copy()
+    values[100:103] = 0.0
+    values[:, 20] = np.nan
+    values[40:50, 21] = np.nan
+    lost = replace(stream, signals={"taxel_counts": replace(signal, values=values)})
+    recording = replace(recording, streams={**recording.streams, "counts": lost})
+    file = _changed(write_chamber(tmp_path, "lost", recording), 'pressure = "chamber"\n', "")
+    assert [(one.kind, one.count, one.message) for one in taxel_findings(load_patches(file))] == [
+        ("missing", 3, f"palm: 3 of {len(values)} messages of zeros, without power or lost"),
+        ("taxel_rails", 1, "palm: rails: 1 of 60 taxels in the log: 7"),
+    ]
 
 
 def test_other_questions_refuse_it(file: Path) -> None:

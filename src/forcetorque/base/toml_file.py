@@ -367,8 +367,8 @@ def _key_path(content: Any, location: tuple[int | str, ...], *, missing: bool) -
     """Name a key as the file has it, such as `sensor[0].serial`; the names of alternatives are no keys."""
     place = ""
     for depth, part in enumerate(location, start=1):
-        if isinstance(part, int) and isinstance(content, dict):
-            continue  # one table may stand for a list of one
+        if isinstance(part, int) and not isinstance(content, list | tuple):
+            continue  # one table may stand for a list of one, one number for several
         if isinstance(part, int):
             place, content = f"{place}[{part}]", content[part]
         elif isinstance(content, dict) and part in content:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import inf
 from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
@@ -251,7 +250,7 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
     """
     for sensor in dict.fromkeys(criterion.sensor for criterion in acceptance.criteria):
         criteria = [criterion for criterion in acceptance.criteria if criterion.sensor == sensor]
-        ordered = sorted(criteria, key=lambda criterion: (criterion.passed, -_excess(criterion)))
+        ordered = sorted(criteria, key=lambda criterion: (criterion.passed, -criterion.share))
         failed = [criterion for criterion in ordered if not criterion.passed]
         worst = ordered[0]
         name = short_names([worst.calibration])[worst.calibration]
@@ -268,14 +267,6 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
             command=command,
             concern=Concern.BAD if failed else Concern.UNCERTAIN if unsure else Concern.NONE,
         )
-
-
-def _excess(criterion: Criterion) -> float:
-    """How many times over the limit; above 1 it fails."""
-    beyond, limit = abs(criterion.measured), abs(criterion.limit)
-    if criterion.bound is Bound.AT_LEAST:
-        beyond, limit = limit, beyond
-    return beyond / limit if limit else inf if beyond else 0.0
 
 
 def _reasons(worst: Criterion, failed: Sequence[Criterion], count: int) -> Iterator[str]:

@@ -46,28 +46,39 @@ SixPositive = Annotated[tuple[Positive, ...], Field(min_length=_AXES, max_length
 """Of forces in N, then of moments in N m."""
 
 
-def _full_scale(value: Any) -> Any:
+def _one_of_all(value: Any) -> Any:
     return one_for_each(value, _AXES)
 
 
-FullScale = Annotated[
-    SixPositive,
-    BeforeValidator(_full_scale),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                {"type": "number", "exclusiveMinimum": 0},
-                {
-                    "type": "array",
-                    "items": {"type": "number", "exclusiveMinimum": 0},
-                    "minItems": _AXES,
-                    "maxItems": _AXES,
-                },
-            ]
-        }
-    ),
-]
+_ONE_OR_SIX = WithJsonSchema(
+    {
+        "anyOf": [
+            {"type": "number", "exclusiveMinimum": 0},
+            {
+                "type": "array",
+                "items": {"type": "number", "exclusiveMinimum": 0},
+                "minItems": _AXES,
+                "maxItems": _AXES,
+            },
+        ]
+    }
+)
+
+FullScale = Annotated[SixPositive, BeforeValidator(_one_of_all), _ONE_OR_SIX]
 """Full scale of fx, fy, fz in N and of tx, ty, tz in N m; one number where all are the same."""
+
+
+def _percent_of_six(value: Any) -> Any:
+    values = _one_of_all(value)
+    if isinstance(values, list | tuple) and len(values) != _AXES:
+        raise PydanticCustomError(
+            "six_percent", "expected one number, or six of fx, fy, fz, tx, ty, tz, percent of the full scale"
+        )
+    return values
+
+
+SixPercent = Annotated[tuple[Positive, ...], BeforeValidator(_percent_of_six), _ONE_OR_SIX]
+"""Percent of the full scale of each component; one number where all are the same."""
 
 
 class Variable(Table):
@@ -157,7 +168,7 @@ class Sensor(Table):
     """Full scale of fx, fy, fz, tx, ty, tz, or one number for all; N, N m; needed with the prior `identity`, which says
     nothing of sizes, and with `components`: the largest loads, by which the cross-talk of those that are not measured
     is sized."""
-    prior_uncertainty_percent: FullScale | None = None
+    prior_uncertainty_percent: SixPercent | None = None
     """95 % uncertainty of a reading by the prior matrix, as a certificate states it: percent of the full scale of each
     component, or one number for all; needs `full_scale`. If left out coefficients are expected to be 6 % off."""
     measurement_noise: SixPositive | None = None

@@ -412,10 +412,24 @@ def _without_pressure(experiment: PatchExperiment, patch: ExperimentPatch) -> It
     """What no pressure explains: a contact may be sudden, and most taxels are not touched."""
     stream = experiment.recording.stream(patch.counts)
     counts = stream.signal("taxel_counts").values[:, patch.taxels]
-    whole = np.isfinite(counts).all(axis=1)
-    if np.count_nonzero(whole) > 1:
-        faults = taxel_faults(counts[whole], np.full(counts.shape[1], np.inf))
-        span = (int(stream.stamp_ns[whole][at]) for at in (0, -1))
+    read = np.isfinite(counts)
+    lost: BoolArray = np.any(read, axis=1) & ~np.any(np.nan_to_num(counts), axis=1)
+    read &= ~lost[:, None]
+    if lost.any():
+        ends = np.flatnonzero(lost)[[0, -1]]
+        yield Finding(
+            stream=patch.counts,
+            kind="missing",
+            message=f"{patch.name}: {np.count_nonzero(lost)} of {len(lost)} messages of zeros, without power or lost",
+            count=int(np.count_nonzero(lost)),
+            start_ns=int(stream.stamp_ns[ends[0]]),
+            end_ns=int(stream.stamp_ns[ends[1]]),
+        )
+    faults: list[tuple[TaxelFault, ...]] = []
+    for rows, column in zip(read.T, counts.T, strict=True):
+        faults += taxel_faults(column[rows, None], np.full(1, np.inf)) if np.count_nonzero(rows) > 1 else [()]
+    if any(faults):
+        span = (int(stream.stamp_ns[read.any(axis=1)][at]) for at in (0, -1))
         yield from _with_faults(patch, "the log", faults, (TaxelFault.WRAPS, TaxelFault.RAILS), *span)
 
 

@@ -10,15 +10,16 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FitError
+from forcetorque.base.errors import FitError, OutputError, RecordingError
 from forcetorque.calibration.calibrate import SensorCalibrations
 from forcetorque.calibration.joint import untouched_interval
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.calibration.joint.untouched_interval import part_residuals
+from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Use
-from tests.scenes.experiments import edit
-from tests.scenes.segments import SEGMENT_S, short_segments
+from tests.scenes.experiments import TWO, edit, write_experiments
+from tests.scenes.segments import SEGMENT_S, short_segments, within
 from tests.scenes.studies import CALIBRATION, SENSOR
 
 _OF_ERROR = 1e-3
@@ -83,8 +84,51 @@ def test_what_calibrations_leave_is_found_in_segments(recorded: Path) -> None:
     assert 0.0 < np.sqrt(np.mean((after - same_after) ** 2)) < _OF_RESIDUAL * np.sqrt(np.mean(after**2))
 
 
+def test_no_room_for_temporary_files_is_not_passed_over(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Residuals are then refused, not left out."""
+    (entry,) = _calibrated(recorded).calibrations
+    monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
+    monkeypatch.setattr("tempfile.tempdir", str(recorded / "none"))
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    with short_segments(), pytest.raises(OutputError, match="none"):
+        part_residuals(experiment, {SENSOR: entry.calibration}, Use.CALIBRATION)
+
+
 def test_a_wrong_sign_of_a_long_recording_is_refused(days: Path) -> None:
     """By its first segment, as the fit of the sensor alone refuses it."""
     edit(days / CALIBRATION[0], "[0.0, 0.0, -1.0]", "[0.0, 0.0, 1.0]")
     with short_segments(), pytest.raises(FitError, match=f"'{SENSOR}'.* opposite to the expected force"):
         _calibrated(days)
+
+
+def _both(experiment: Experiment) -> tuple[dict[str, int], float]:
+    """Samples by sensor, and the mean standard error of the first."""
+    found = calibrate_jointly([experiment], "joint", ["arm_ft", "tool_ft"], code_version="1", created="2020")
+    calibrations = [entry.calibration for entry in found.calibrations]
+    assert calibrations[0].posterior is not None
+    error = np.sqrt(np.diagonal(calibrations[0].posterior.covariance, axis1=-2, axis2=-1))
+    return {one.sensor.name: one.provenance.samples for one in calibrations}, float(error.mean())
+
+
+@pytest.mark.parametrize(("stream", "share"), [("tool_ft", 0.5), ("joints", 1.0)])
+def test_a_stream_that_ends_early_takes_nothing_from_the_others(tmp_path: Path, stream: str, share: float) -> None:
+    """In segments without a sample of it, samples of the other sensors count as in the whole recording."""
+    write_experiments(tmp_path)
+    experiment = within(load_experiment(tmp_path / TWO), stream, 0.0, 7.0)
+    samples, error = _both(experiment)
+    with short_segments(3.0):
+        same, same_error = _both(experiment)
+    assert same == samples
+    assert samples["tool_ft"] == pytest.approx(share * samples["arm_ft"], rel=0.1)
+    assert same_error == pytest.approx(error, rel=0.04)  # windows end where segments do
+
+
+def test_a_sensor_without_a_sample_in_the_interval_is_refused(tmp_path: Path) -> None:
+    """By the same words in segments and as a whole."""
+    write_experiments(tmp_path)
+    experiment = within(load_experiment(tmp_path / TWO), "tool_ft", 15.0, 23.0)
+    with pytest.raises(RecordingError, match="'fit': stream 'tool_ft' has no sample in it to use") as whole:
+        _both(experiment)
+    with short_segments(3.0), pytest.raises(RecordingError) as segmented:
+        _both(experiment)
+    assert str(segmented.value) == str(whole.value)

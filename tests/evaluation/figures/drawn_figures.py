@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Literal
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -11,7 +14,7 @@ from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.figures.acceptance import acceptance_figure
 from forcetorque.evaluation.figures.contact_forces import validation_figure
-from forcetorque.evaluation.validation.contact_forces import ContactForceErrors
+from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors
 from forcetorque.evaluation.validation.validation import JointTorqueErrors, Validation
 from forcetorque.experiment.validation_offset import Offset
 
@@ -23,22 +26,73 @@ def draw_acceptance(rng: np.random.Generator) -> Figure:
     measured = [*np.exp(rng.normal(0.0, 1.5, 10)), np.inf, 0.0, -1.0]
     bounds = [*[Bound.AT_MOST] * 6, *[Bound.AT_LEAST] * 4, Bound.AT_MOST, Bound.AT_LEAST, Bound.AT_MOST]
     criteria = tuple(
-        Criterion(
-            sensor="left" if k < 7 else "_right $",
-            serial="FT1",
-            calibration="leg.json",
-            criterion=f"evaluate.rmse.{WRENCH_COMPONENTS[k % 6]}",
-            measured=float(value),
+        criterion_of(
+            f"evaluate.rmse.{WRENCH_COMPONENTS[k % 6]}",
+            float(value),
+            0.0 if k == 12 else 1.5,
             bound=bound,
-            limit=0.0 if k == 12 else 1.5,
+            sensor="left" if k < 7 else "_right $",
             unit="N" if k < 6 else "",
-            count=100,
-            note="",
         )
         for k, (value, bound) in enumerate(zip(measured, bounds, strict=True))
     )
-    return acceptance_figure(
-        Acceptance(experiment="leg", specification="limits of $all$", criteria=criteria, measured=())
+    return acceptance_figure(acceptance_of(*criteria))
+
+
+def criterion_of(
+    name: str,
+    measured: float,
+    limit: float,
+    *,
+    bound: Bound = Bound.AT_MOST,
+    sensor: str = "left",
+    unit: str = "N",
+) -> Criterion:
+    """A criterion of a sensor."""
+    return Criterion(
+        sensor=sensor,
+        serial="FT1",
+        calibration="leg.json",
+        criterion=name,
+        measured=measured,
+        bound=bound,
+        limit=limit,
+        unit=unit,
+        count=100,
+        note="",
+    )
+
+
+def acceptance_of(*criteria: Criterion) -> Acceptance:
+    """An acceptance by these criteria."""
+    return Acceptance(experiment="leg", specification="limits of $all$", criteria=criteria, measured=())
+
+
+def contact_force(
+    calibration: str,
+    offset: Offset,
+    force_N: float,
+    *,
+    sensor: str = SENSOR["sensor"],
+    half_width_N: float | None = 0.3,
+) -> ContactForceErrors:
+    """Contact force of so much."""
+    return ContactForceErrors(
+        **SENSOR | {"sensor": sensor},
+        sub_model="left leg",
+        calibration=calibration,
+        offset=offset,
+        prior=None,
+        samples=1000,
+        force_mean_N=force_N,
+        force_mean_error_N=0.1,
+        force_mean_half_width_95_N=half_width_N,
+        moment_mean_Nm=0.1,
+        mean_absolute=(1.0,) * 6,
+        bias=(0.0,) * 6,
+        independent=20.0,
+        excitation_N=10.0,
+        excitation_Nm=1.0,
     )
 
 
@@ -46,23 +100,7 @@ def draw_validation(rng: np.random.Generator) -> Figure:
     """A prior and two calibrations of one sensor, an interval that is not known, and five joints."""
     names = ("prior", "leg.json", "another $leg$ of a long name.json")
     forces = tuple(
-        ContactForceErrors(
-            **SENSOR,
-            sub_model="left leg",
-            calibration=name,
-            offset=offset,
-            prior=None,
-            samples=1000,
-            force_mean_N=float(size),
-            force_mean_error_N=0.1,
-            force_mean_half_width_95_N=None if k == 1 else 0.3,
-            moment_mean_Nm=0.1,
-            mean_absolute=(1.0,) * 6,
-            bias=(0.0,) * 6,
-            independent=20.0,
-            excitation_N=10.0,
-            excitation_Nm=1.0,
-        )
+        contact_force(name, offset, float(size), half_width_N=None if k == 1 else 0.3)
         for offset in (Offset.FIRST_SECOND, Offset.NONE)
         for k, (name, size) in enumerate(zip(names, rng.uniform(1.0, 8.0, 3), strict=True))
     )
@@ -90,8 +128,27 @@ def draw_validation(rng: np.random.Generator) -> Figure:
         for name in names
         for joint in range(5)
     )
-    return validation_figure(
-        Validation(
-            experiment="leg", other_sensors="model", contact_forces=forces, best=(), joint_torques=torques, left_out=()
+    return validation_figure(validation_of(forces, "inconclusive").model_copy(update={"joint_torques": torques}))
+
+
+def validation_of(
+    forces: Sequence[ContactForceErrors], conclusion: Literal["better", "no difference", "inconclusive"] | None
+) -> Validation:
+    """A validation of contact forces, by one conclusion for every sensor and offset."""
+    least: dict[tuple[str, Offset], ContactForceErrors] = {}
+    for row in sorted(forces, key=lambda row: row.force_mean_N):
+        least.setdefault((row.sensor, row.offset), row)
+    best = tuple(
+        BestCalibration(
+            sensor=sensor,
+            offset=offset,
+            by_magnitude=row.calibration,
+            by_axis=(row.calibration,) * 6,
+            conclusion=conclusion,
+            comparisons=(),
         )
+        for (sensor, offset), row in least.items()
+    )
+    return Validation(
+        experiment="leg", other_sensors="model", contact_forces=tuple(forces), best=best, joint_torques=(), left_out=()
     )

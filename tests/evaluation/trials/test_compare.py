@@ -308,6 +308,6 @@ def test_what_failed_and_what_flatters_are_warnings_of_the_result(arm: Path) -> 
     (failure,) = result.failures
     assert result.warnings == (
         f"failed: {failure.message}",
-        f"new.json was fitted on 'fit' of {arm / PARQUET}, so the verdict on it flatters",
+        f"{arm / PARQUET}: new.json was fitted on 'fit', so the verdict on it flatters",
     )
     assert compare([arm / PARQUET]).warnings == ()

@@ -10,7 +10,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, ForceTorqueError, RecordingError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, OutputError, RecordingError
 from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.calibration.joint.nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
@@ -23,9 +23,14 @@ from forcetorque.experiment.sample_quality import unusable_in
 from forcetorque.experiment.sensor_reading import readings_at
 from forcetorque.recording.alignment import require_overlap, seconds_since
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
-from forcetorque.recording.recording import Interval, MovingSupport, Use
-from forcetorque.robot.mechanics.root_motion import imu_frame
-from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
+from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
+from forcetorque.robot.mechanics.root_motion import imu_frame, joints_to_support
+from forcetorque.robot.mechanics.samples import (
+    padded_samples,
+    pick_samples,
+    require_motion_overlap,
+    robot_motion_at,
+)
 from forcetorque.robot.mechanics.sub_model_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree
 
@@ -175,9 +180,10 @@ def joint_interval(
         ExperimentError: If the interval has no support, or of no untouched part all joints are in the log.
         RecordingError: If no sample of the interval can be used.
     """
-    parts = _parts(experiment, interval, sensors, segments)
+    setup = _Setup.of(experiment, interval, sensors)
+    parts = _parts(experiment, interval, setup, segments)
     untouched, raw, counts = next(parts)
-    unusable = {name: [own] for name, own in counts.items()}
+    unusable = {sensor.name: [counts[sensor.name]] if sensor.name in counts else [] for sensor in setup.used}
     if segments:
         rows = StretchRows(untouched.stretch, raw)
         untouched = replace(untouched, stretch=untouched.stretch.samples(np.arange(0)))
@@ -203,27 +209,40 @@ def joint_interval(
     )
 
 
-def _parts(
-    experiment: Experiment, interval: Interval, sensors: Sequence[str], segments: Sequence[Experiment]
-) -> Iterator[_LoggedPart]:
-    """An interval as a whole, or its parts in segments, which are not to be kept; at least one."""
-    if not segments:
-        yield _part(experiment, interval, sensors)
-        return
-    error, seen = RecordingError(f"interval {interval.label!r}: expected samples, got none"), False
-    for segment in segments:
-        for part in segment.recording.intervals:
-            if (part.label, part.use) == (interval.label, interval.use):
-                try:
-                    logged = [_part(segment, part, sensors)]
-                except RecordingError as lost:  # the log has a gap there
-                    error = lost
-                else:
-                    seen = True
-                    yield logged.pop()
-        forget_recording(experiment)
-    if not seen:
-        raise error
+class _Setup(NamedTuple):
+    """What of the robot and of the log is the same all over an interval."""
+
+    support: Support | MovingSupport
+    touched: tuple[str, ...]
+    tree: BodyTree
+    logged: LoggedParts
+    used: list[ExperimentSensor]
+
+    @classmethod
+    def of(cls, experiment: Experiment, interval: Interval, sensors: Sequence[str]) -> Self:
+        support = interval.support
+        if support is None:
+            raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
+        present = contacts_in(interval, experiment.contacts)
+        touched = tuple(dict.fromkeys((support.frame, *(entry.contact.link for entry in present))))
+        model = experiment.model_on(support)
+        if isinstance(support, MovingSupport):
+            # the motion is known where the IMU is: nothing needs to be carried to another link
+            support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
+        tree = build_tree(model, support.frame)
+        logged = LoggedParts.of(experiment, untouched_parts(tree, sensors, touched), tree)
+        if not logged.parts and not logged.weighed:
+            raise ExperimentError(
+                f"interval {interval.label!r}: of no untouched part are all joints in the log: "
+                f"{'; '.join(logged.left_out)}"
+            )
+        used = [experiment.sensor(name) for name in sensors if name in logged.sensors]
+        source, *others = (experiment.recording.stream(sensor.stream) for sensor in used)
+        for other in others:
+            require_overlap(source, other)
+        joints = (*logged.joints(tree), *joints_to_support(experiment.model, experiment.recording, support))
+        require_motion_overlap(experiment.recording, support, joints, source, processing=experiment.processing)
+        return cls(support, touched, tree, logged, used)
 
 
 class _LoggedPart(NamedTuple):
@@ -231,28 +250,43 @@ class _LoggedPart(NamedTuple):
     raw: dict[str, FloatArray]
     """Raw readings at the instants of the stretch, by sensor; shape (n, c) each; counts; NaN in gaps."""
     unusable: dict[str, UnusableCounts]
+    """Of the sensors with a sample in it."""
 
 
-def _part(experiment: Experiment, interval: Interval, sensors: Sequence[str]) -> _LoggedPart:
-    support = interval.support
-    if support is None:
-        raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
-    model = experiment.model_on(support)
-    present = contacts_in(interval, experiment.contacts)
-    touched = tuple(dict.fromkeys((support.frame, *(entry.contact.link for entry in present))))
-    if isinstance(support, MovingSupport):
-        # the motion is known where the IMU is: nothing needs to be carried to another link
-        support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
-    tree = build_tree(model, support.frame)
-    logged = LoggedParts.of(experiment, untouched_parts(tree, sensors, touched), tree)
-    if not logged.parts and not logged.weighed:
-        raise ExperimentError(
-            f"interval {interval.label!r}: of no untouched part are all joints in the log: {'; '.join(logged.left_out)}"
-        )
-    used = [experiment.sensor(name) for name in sensors if name in logged.sensors]
+def _parts(
+    experiment: Experiment, interval: Interval, setup: _Setup, segments: Sequence[Experiment]
+) -> Iterator[_LoggedPart]:
+    """An interval as a whole, or its parts in segments, which are not to be kept; at least one."""
+    if not segments:
+        yield _part(experiment, interval, setup, setup.used)
+        return
+    lost = {sensor.name: sensor for sensor in setup.used}
+    for segment in segments:
+        for part in segment.recording.intervals:
+            if (part.label, part.use) != (interval.label, interval.use):
+                continue
+            read = [sensor for sensor in setup.used if _has_sample(segment, sensor, part)]
+            if setup.used[0] in read:  # at whose instants the others are
+                for sensor in read:
+                    lost.pop(sensor.name, None)
+                yield _part(segment, part, setup, read)
+        forget_recording(experiment)
+    for sensor in lost.values():
+        raise RecordingError(f"interval {interval.label!r}: stream {sensor.stream!r} has no sample in it to use")
+
+
+def _has_sample(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> bool:
+    try:
+        pick_samples(experiment.recording, experiment.recording.stream(sensor.stream), interval)
+    except RecordingError:
+        return False
+    return True
+
+
+def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Sequence[ExperimentSensor]) -> _LoggedPart:
+    """A part, in which the sensors that are read have samples; the others are NaN."""
+    support, touched, tree, logged, used = setup
     source = experiment.recording.stream(used[0].stream)
-    for sensor in used[1:]:
-        require_overlap(source, experiment.recording.stream(sensor.stream))
     samples = padded_samples(experiment.recording, source, interval, None)
     joints, root = robot_motion_at(
         experiment.recording,
@@ -262,6 +296,7 @@ def _part(experiment: Experiment, interval: Interval, sensors: Sequence[str]) ->
         source,
         samples.stamp_ns,
         processing=experiment.processing,
+        overlap_checked=True,
     )
     priors = {sensor.name: required_prior(sensor) for sensor in used}
     raw = {sensor.name: readings_at(experiment, sensor, (), samples.stamp_ns).raw for sensor in used}
@@ -281,7 +316,7 @@ def _part(experiment: Experiment, interval: Interval, sensors: Sequence[str]) ->
             stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
         ),
         raw=raw,
-        unusable={sensor.name: unusable_in(experiment, sensor, interval) for sensor in used},
+        unusable={sensor.name: unusable_in(experiment, sensor, interval) for sensor in read},
     )
 
 
@@ -336,6 +371,8 @@ def _residuals(
 ) -> Iterator[PartResidual]:
     try:
         one = joint_interval(experiment, interval, list(calibrations), segments=segments).untouched
+    except OutputError:
+        raise
     except ForceTorqueError:  # no support, or something touches every part: then there is nothing to add up
         return
     sessions = experiment.session_names(interval.label)

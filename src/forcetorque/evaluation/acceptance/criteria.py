@@ -71,6 +71,17 @@ class Criterion(Row):
         """Whether the number is accepted."""
         return self.measured <= self.limit if self.bound is Bound.AT_MOST else self.measured >= self.limit
 
+    @property
+    def share(self) -> float:
+        """What was measured over its limit, for a lower bound the limit over it; above 1 it fails.
+
+        Where there is no such share, as of a limit of 0, it is 0 if it passes and infinite if not.
+        """
+        over, under = (self.measured, self.limit) if self.bound is Bound.AT_MOST else (self.limit, self.measured)
+        if over <= 0.0 or under <= 0.0:
+            return 0.0 if self.passed else np.inf
+        return over / under
+
 
 class RecordingCriterion(Criterion):
     """The same on one of several recordings, for people: what is accepted is what they show together."""

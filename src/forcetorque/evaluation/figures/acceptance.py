@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
+from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.results.figures import (
     GRID,
     LIMIT_LINE,
@@ -51,14 +51,14 @@ def acceptance_figure(acceptance: Acceptance) -> Figure:
     """
     if not acceptance.criteria:
         raise ShapeError("criteria: expected at least one to draw, got none")
-    rows = sorted(acceptance.criteria, key=_share, reverse=True)[:_MOST]
+    rows = sorted(acceptance.criteria, key=lambda row: row.share, reverse=True)[:_MOST]
     figure = new_figure(_FRAME_INCHES + _ROW_INCHES * max(len(rows), 6))
     panel = figure.subplots()
-    low, high = (0.7 * min(0.5, *map(_share, rows)), 1.4 * max(2.0, *map(_share, rows)))
+    low, high = (0.7 * min(0.5, *map(_drawn, rows)), 1.4 * max(2.0, *map(_drawn, rows)))
     for place, row in enumerate(rows):
         style = _HOLDS if row.passed else _FAILS
-        panel.plot([low, _share(row)], [place, place], color=GRID, linewidth=1.2, zorder=1)
-        panel.plot(_share(row), place, markersize=7.0, zorder=3, **style)
+        panel.plot([low, _drawn(row)], [place, place], color=GRID, linewidth=1.2, zorder=1)
+        panel.plot(_drawn(row), place, markersize=7.0, zorder=3, **style)
     panel.axvline(1.0, zorder=2, **LIMIT_LINE)
     panel.set_xscale("log")
     panel.set_xlim(low, high)
@@ -85,12 +85,9 @@ def acceptance_figure(acceptance: Acceptance) -> Figure:
     return figure
 
 
-def _share(row: Criterion) -> float:
-    """Share of the limit that is taken, within what the axis shows."""
-    over, under = (row.measured, row.limit) if row.bound is Bound.AT_MOST else (row.limit, row.measured)
-    if over <= 0.0 or under <= 0.0:  # no share: a limit of 0, or a negative number
-        return 1.0 / _FARTHEST if row.passed else _FARTHEST
-    return float(np.clip(over / under, 1.0 / _FARTHEST, _FARTHEST))
+def _drawn(row: Criterion) -> float:
+    """Share of the limit within what the axis shows."""
+    return float(np.clip(row.share, 1.0 / _FARTHEST, _FARTHEST))
 
 
 def _numbers(row: Criterion) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from forcetorque.base.errors import ShapeError
+from forcetorque.evaluation.validation.answers import answered_choices, best_text
 from forcetorque.evaluation.validation.contact_forces import ContactForceErrors
 from forcetorque.evaluation.validation.validation import JointTorqueErrors
 from forcetorque.experiment.validation_offset import Offset
@@ -46,7 +47,7 @@ def validation_figure(validation: Validation) -> Figure:
         MissingExtraError: If matplotlib is not installed.
         ShapeError: If there is no contact force.
     """
-    if not validation.contact_forces:
+    if not validation.best:
         raise ShapeError("contact forces: expected at least one to draw, got none")
     sensors = list(dict.fromkeys(row.sensor for row in validation.contact_forces))
     styles = looks(list(dict.fromkeys(row.calibration for row in validation.contact_forces)))
@@ -56,14 +57,25 @@ def validation_figure(validation: Validation) -> Figure:
         _draw_forces(forces, [row for row in validation.contact_forces if row.sensor == sensor], styles)
         _draw_torques(torques, [row for row in validation.joint_torques if row.sensor == sensor], styles)
         forces.set_title(f"{shown_name(sensor)}: contact force", loc="left")
-    least = min(_shown_offset(validation.contact_forces), key=lambda row: row.force_mean_N)
-    headline(
-        figure,
-        f"{shown_name(least.sensor)}: least contact force where nothing touches "
-        f"{plus_minus(least.force_mean_N, least.force_mean_half_width_95_N, 'N')}, by {shown_name(least.calibration)}",
-    )
+    headline(figure, _headline(validation))
     legend_below(figure, [(shown_name(name), style.key | {"linestyle": "-"}) for name, style in styles.items()])
     return figure
+
+
+def _headline(validation: Validation) -> str:
+    """Who is best of the sensor whose least contact force is largest, as it is answered."""
+    least = {}
+    for choice in answered_choices(validation.best):
+        key = (choice.sensor, choice.offset, choice.by_magnitude)
+        row = next(row for row in validation.contact_forces if (row.sensor, row.offset, row.calibration) == key)
+        least[choice.sensor] = (row, choice)
+    row, choice = max(least.values(), key=lambda entry: entry[0].force_mean_N)
+    name, verdict = shown_name(row.calibration), best_text(choice, shown_name(row.calibration))
+    return (
+        f"{shown_name(row.sensor)}{f', worst of {len(least)} sensors' if len(least) > 1 else ''}: "
+        f"{f'{verdict}; ' if verdict else ''}contact force where nothing touches, {row.offset} offset: {name} "
+        f"{plus_minus(row.force_mean_N, row.force_mean_half_width_95_N, 'N')}"
+    )
 
 
 def _draw_forces(panel: Axes, rows: Sequence[ContactForceErrors], styles: Mapping[str, Look]) -> None:
@@ -92,7 +104,7 @@ def _draw_torques(panel: Axes, rows: Sequence[JointTorqueErrors], styles: Mappin
 
 
 def _shown_offset(rows: Sequence[_Row]) -> Sequence[_Row]:
-    """Those with the offset of the first second, which a validation is read by; all where it has none."""
+    """Those with the offset of the first second, which every candidate has; all where there is none."""
     return [row for row in rows if row.offset is Offset.FIRST_SECOND] or rows
 
 

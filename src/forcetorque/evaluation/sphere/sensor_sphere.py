@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
@@ -441,16 +440,20 @@ def _collected(
     every = -(-sum(int(np.count_nonzero(interval.holds(stamps))) for interval in intervals) // _MOST)
     taken: list[tuple[Interval, Readings]] = []
     expected: list[FloatArray] = []
+    lost: dict[str, RecordingError] = {}  # the first of every interval
     for part in segment_runs(run):
         own = [one for one in part.experiment.recording.intervals if one.label in labels and one.use is not Use.IGNORE]
         for interval in own:
-            with suppress(RecordingError):  # the log has a gap there
+            try:
                 spans, references = _over(part, [interval], variables, with_model=with_model)
-                taken += [(one, readings.at(slice(None, None, every))) for one, readings in spans]
-                expected += [reference[::every].copy() for reference in references]
+            except RecordingError as error:  # the log has a gap there
+                lost.setdefault(interval.label, error)
+                continue
+            taken += [(one, readings.at(slice(None, None, every))) for one, readings in spans]
+            expected += [reference[::every].copy() for reference in references]
         del part
-    if not taken:
-        raise RecordingError(f"interval {intervals[0].label!r}: expected samples, got none")
+    for label in (one.label for one in intervals if one.label not in {interval.label for interval, _ in taken}):
+        raise lost.get(label) or RecordingError(f"interval {label!r}: expected samples, got none")
     return taken, np.concatenate(expected) if expected else None, every
 
 

@@ -251,12 +251,6 @@ class Comparison(DrawnResult):
             Trials sorted by sensor, condition and way of reading.
         """
         groups, warnings = group_trials(trials, progress=progress)
-        flattered = (
-            f"{trial.sphere.calibration} was fitted on {', '.join(map(repr, trial.sphere.fitted_on))} of {trial.file}, "
-            "so the verdict on it flatters"
-            for trial in trials
-            if trial.sphere.fitted_on
-        )
         return cls(
             tolerance=TOLERANCE,
             rule=RULE,
@@ -268,7 +262,7 @@ class Comparison(DrawnResult):
             warnings=(
                 *(failure.sentence for failure in failures if not failure.skipped),
                 *warnings,
-                *flattered,
+                *dict.fromkeys(f"{trial.file}: {doubt}" for trial in trials for doubt in trial.sphere.doubts()),
                 *dict.fromkeys(f"{trial.file}: {sentence}" for trial in trials for sentence in trial.added),
             ),
         )

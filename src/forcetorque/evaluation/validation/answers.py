@@ -28,13 +28,24 @@ def validation_answers(validation: Validation) -> Iterator[Answer]:
         One answer each.
     """
     forces, torques = validation.contact_forces, validation.joint_torques
-    for sensor in dict.fromkeys(row.sensor for row in validation.best):
-        of_sensor = [row for row in validation.best if row.sensor == sensor]
-        # of its own offset where its candidates have one
-        choice = next((row for row in of_sensor if row.offset is Offset.FITTED), of_sensor[0])
-        rows = [row for row in forces if (row.sensor, row.offset) == (sensor, choice.offset)]
-        own = [row for row in torques if (row.sensor, row.offset) == (sensor, choice.offset)]
+    for choice in answered_choices(validation.best):
+        rows = [row for row in forces if (row.sensor, row.offset) == (choice.sensor, choice.offset)]
+        own = [row for row in torques if (row.sensor, row.offset) == (choice.sensor, choice.offset)]
         yield _answer(choice, rows, own)
+
+
+def answered_choices(best: Sequence[BestCalibration]) -> Iterator[BestCalibration]:
+    """Choose the offset by which every sensor is answered.
+
+    Args:
+        best: One per sensor and offset.
+
+    Yields:
+        One per sensor: that of its own offset where its candidates have one.
+    """
+    for sensor in dict.fromkeys(row.sensor for row in best):
+        of_sensor = [row for row in best if row.sensor == sensor]
+        yield next((row for row in of_sensor if row.offset is Offset.FITTED), of_sensor[0])
 
 
 def _answer(
@@ -60,8 +71,21 @@ def _answer(
 
 
 def _verdict(choice: BestCalibration, name: str, least: ContactForceErrors) -> str:
+    return best_text(choice, name) or f"contact force {_force(least)}"
+
+
+def best_text(choice: BestCalibration, name: str) -> str:
+    """Say who is best.
+
+    Args:
+        choice: Candidates of a sensor.
+        name: What the one with the least contact force is called.
+
+    Returns:
+        The verdict; empty where there is one candidate only.
+    """
     if choice.conclusion is None:
-        return f"contact force {_force(least)}"
+        return ""
     if choice.best is not None:
         return f"BEST: {name}"
     return "NONE IS BEST: NO DIFFERENCE" if choice.conclusion == "no difference" else "NONE IS BEST: TOO LITTLE DATA"

@@ -420,6 +420,35 @@ def _expected(
     return wrenches, tuple(dict.fromkeys((*needed, *joints_to_support(model, recording, support))))
 
 
+def require_motion_overlap(
+    recording: Recording,
+    support: Support | MovingSupport,
+    joints: Sequence[str],
+    source: Stream,
+    *,
+    processing: Processing,
+) -> None:
+    """Check that the streams of joints and of an IMU can be aligned with another.
+
+    Args:
+        recording: The streams.
+        support: The support.
+        joints: Joints whose motion is wanted; those in no stream are left out.
+        source: The other stream.
+        processing: Where velocities and accelerations come from.
+
+    Raises:
+        RecordingError: As of `require_overlap`.
+    """
+    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
+        holders = recording.joint_signals(used)
+        for holder in dict.fromkeys(holders[joint][0].name for joint in joints if joint in holders):
+            require_overlap(source, recording.stream(holder))
+    if isinstance(support, MovingSupport):
+        for stream in support.motion_streams:
+            require_overlap(source, recording.stream(stream))
+
+
 class LoggedRobot:
     """Joints and support of a recording, whose motion can be had at any instants of a stream."""
 
@@ -433,6 +462,7 @@ class LoggedRobot:
         *,
         processing: Processing,
         filters: SharedFilters | None = None,
+        overlap_checked: bool = False,
     ) -> None:
         """Find the streams of the joints and of the IMU.
 
@@ -444,16 +474,13 @@ class LoggedRobot:
             source: Stream that the instants are of.
             processing: Filters and gravity.
             filters: As of `LoggedJoints`.
+            overlap_checked: Whether the whole recording passed `require_motion_overlap`; motion is NaN in a segment
+                in which a stream has no sample.
         """
         self.joints = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
         """Joints whose motion is given: those that are wanted, and those between an IMU and the support."""
-        for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
-            holders = recording.joint_signals(used)
-            for holder in dict.fromkeys(holders[joint][0].name for joint in self.joints if joint in holders):
-                require_overlap(source, recording.stream(holder))
-        if isinstance(support, MovingSupport):
-            for stream in support.motion_streams:
-                require_overlap(source, recording.stream(stream))
+        if not overlap_checked:
+            require_motion_overlap(recording, support, self.joints, source, processing=processing)
         window = processing.derivative_window
         self._joints = LoggedJoints(
             recording,
@@ -493,6 +520,7 @@ def robot_motion_at(
     *,
     processing: Processing,
     filters: SharedFilters | None = None,
+    overlap_checked: bool = False,
 ) -> tuple[JointMotion, RootMotion]:
     """Give the motion of joints and support at instants of a stream.
 
@@ -505,11 +533,21 @@ def robot_motion_at(
         at_ns: Instants; shape (n,); ns.
         processing: Filters and gravity.
         filters: As of `LoggedJoints`.
+        overlap_checked: As of `LoggedRobot`.
 
     Returns:
         Motion of the joints, and of those between an IMU and the support; motion of the support frame.
     """
-    robot = LoggedRobot(recording, model, support, joints, source, processing=processing, filters=filters)
+    robot = LoggedRobot(
+        recording,
+        model,
+        support,
+        joints,
+        source,
+        processing=processing,
+        filters=filters,
+        overlap_checked=overlap_checked,
+    )
     motion = robot.at(at_ns)
     robot.require_radians()
     return motion
