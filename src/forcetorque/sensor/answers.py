@@ -128,20 +128,31 @@ def response_answer(response: Response) -> Answer:
 
 def _static_answer(response: Response) -> Answer:
     curved = [row for row in response.static_curves if row.curved]
-    worst = max(response.static_curves, key=lambda row: row.linear_rmse / row.span)
+    known = [row for row in response.static_curves if row.curved is not None]
+    unknown = [row.channel for row in response.static_curves if row.curved is None]
+    worst = max(known, key=lambda row: row.linear_rmse / row.span, default=None)
+    undetermined = f"{', '.join(unknown)}: the load moves them too little" if unknown else ""
+    line = worst and (
+        f"largest error of a line, {worst.channel}: {amount(worst.linear_rmse, worst.unit)} of a span of "
+        f"{amount(worst.span, worst.unit)}, on {worst.points} points that were held out"
+    )
     return Answer(
         subject=f"{response.sensor} ({response.serial}), static",
-        verdict=f"CURVED: {', '.join(row.channel for row in curved)}" if curved else "STRAIGHT",
+        verdict=f"CURVED: {', '.join(row.channel for row in curved)}"
+        if curved
+        else f"NOT DETERMINED: {', '.join(unknown)}"
+        if unknown
+        else "STRAIGHT",
         why=(
             *(
-                f"{row.channel}: {row.best}, {amount(row.nonlinearity_percent, '%')} of its span from a line"
+                f"{row.channel}: {row.best}, {amount(row.nonlinearity_percent or 0.0, '%')} of its span from a line"
                 for row in curved[:_CURVES]
             ),
-            f"largest error of a line, {worst.channel}: {amount(worst.linear_rmse, worst.unit)} of a span of "
-            f"{amount(worst.span, worst.unit)}, on {worst.points} points that were held out",
+            *((undetermined,) if undetermined else ()),
+            *((line,) if line else ()),
         ),
         written=(response.figure_file,),
-        concern=Concern.UNCERTAIN if curved else Concern.NONE,
+        concern=Concern.UNCERTAIN if curved or unknown else Concern.NONE,
     )
 
 

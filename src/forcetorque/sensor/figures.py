@@ -294,17 +294,18 @@ def session_figure(sensors: Sequence[SensorSessions]) -> Figure:
             for panel, component in zip(panels[2 * k + row], components, strict=False):
                 rows = [one for one in sensor.rows if one.component == component]
                 changed = any(one.component == component and one.quantity == quantity for one in sensor.drifts)
-                _draw_sessions(panel, rows, quantity, changed=changed)
-                drawn.append(changed)
+                if _draw_sessions(panel, rows, quantity, changed=changed) > 1:
+                    drawn.append(changed)
             for panel in panels[2 * k + row, len(components) :]:
                 panel.set_visible(False)
         panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
-    headline(figure, f"{sum(drawn)} of {len(drawn)} offsets and gains changed beyond noise")
+    headline(figure, f"{sum(drawn)} of {len(drawn)} offsets and gains known in two sessions changed beyond noise")
     legend_below(figure, [("changed beyond noise", look(1).key), ("no change beyond noise", look(0).key)])
     return figure
 
 
-def _draw_sessions(panel: Axes, rows: Sequence[SessionRow], quantity: str, *, changed: bool) -> None:
+def _draw_sessions(panel: Axes, rows: Sequence[SessionRow], quantity: str, *, changed: bool) -> int:
+    """Give the number of sessions that determine the quantity."""
     style = look(1 if changed else 0)
     values = [row.offset if quantity == "offset" else row.gain for row in rows]
     widths = [row.offset_half_width_95 if quantity == "offset" else row.gain_half_width_95 for row in rows]
@@ -326,6 +327,7 @@ def _draw_sessions(panel: Axes, rows: Sequence[SessionRow], quantity: str, *, ch
         panel.set_xticklabels([])
     unit = f", {rows[0].unit}" if quantity == "offset" else ""
     panel.set_ylabel(f"{quantity} of {rows[0].component}{unit}")
+    return len(known)
 
 
 _MOST_SESSION_NAMES = 8

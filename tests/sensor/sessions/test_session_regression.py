@@ -12,6 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import Timeline
 from forcetorque.sensor.sessions.session_regression import Change, SessionMeans, fit_sessions, holm
+from tests.sensor.sessions.drawn_figures import draw_session
 
 UNIT = np.repeat([1.0, 0.05], 3)
 """Deviations of noise and drifts of moments beside those of forces."""
@@ -119,3 +120,8 @@ def test_rates_of_both_errors() -> None:
     assert np.mean(held) > 0.9
     assert false / runs < 0.1
     assert (seen / runs > [0.6, 0.95]).all()
+
+
+def test_the_headline_counts_what_two_sessions_determine() -> None:
+    """Of 20 panels two show a gain that no session determines; in either sensor one offset changed."""
+    assert draw_session(np.random.default_rng(1)).get_suptitle().startswith("2 of 18 offsets and gains")

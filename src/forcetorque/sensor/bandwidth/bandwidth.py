@@ -234,13 +234,13 @@ def _static(runs: Sequence[SensorRun], intervals: Collection[str]) -> Response:
         signal=run.sensor.quantity,
         force=None,
         rate_hz=1.0 / POINT_S,
-        samples=max((curve.points for curve in curves), default=0),
+        samples=max(curve.points for curve in curves),
         events=(),
         numbers=(),
         curve=None,
         inverse=None,
         static_curves=curves,
-        refused=() if curves else ("no channel moves with the load",),
+        refused=(),
     )
 
 

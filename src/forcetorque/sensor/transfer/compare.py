@@ -50,6 +50,8 @@ class Score:
     """Number of them outside the range of their fold's fit, where the function was extended."""
     rmse: float
     """Root mean square error of all held-out points together; unit of the output."""
+    fold_rmse: FloatArray
+    """The same of each fold, in the order of the groups' labels or of the blocks; shape (f,); unit of the output."""
     largest: float
     """Largest absolute error of a held-out point; unit of the output."""
     model: TransferFunction
@@ -144,6 +146,7 @@ def _score(name: str, fit: Fitter, stimulus: FloatArray, output: FloatArray, hel
         count=len(errors),
         beyond=beyond,
         rmse=float(np.sqrt((errors**2).mean())),
+        fold_rmse=np.array([np.sqrt((errors[out] ** 2).mean()) for out in held_out]),
         largest=float(np.abs(errors).max()),
         model=fit(stimulus, output),
     )
