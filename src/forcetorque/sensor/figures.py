@@ -287,19 +287,21 @@ def session_figure(sensors: Sequence[SensorSessions]) -> Figure:
     width = max(len({row.component for row in sensor.rows}) for sensor in sensors)
     figure = new_figure(1.5 * ROW_INCHES[1] * len(sensors))
     panels = figure.subplots(2 * len(sensors), width, squeeze=False)
-    drawn = []
+    drawn: list[bool | None] = []
     for k, sensor in enumerate(sensors):
         components = list(dict.fromkeys(row.component for row in sensor.rows))
         for row, quantity in enumerate(("offset", "gain")):
             for panel, component in zip(panels[2 * k + row], components, strict=False):
                 rows = [one for one in sensor.rows if one.component == component]
                 changed = any(one.component == component and one.quantity == quantity for one in sensor.drifts)
-                if _draw_sessions(panel, rows, quantity, changed=changed) > 1:
-                    drawn.append(changed)
+                drawn.append(changed if _draw_sessions(panel, rows, quantity, changed=changed) > 1 else None)
             for panel in panels[2 * k + row, len(components) :]:
                 panel.set_visible(False)
         panels[2 * k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left")
-    headline(figure, f"{sum(drawn)} of {len(drawn)} offsets and gains known in two sessions changed beyond noise")
+    known = [changed for changed in drawn if changed is not None]
+    rest = len(drawn) - len(known)
+    unknown = f"; {rest} not determined in two sessions" if rest else ""
+    headline(figure, f"{sum(known)} of {len(known)} offsets and gains changed beyond noise{unknown}")
     legend_below(figure, [("changed beyond noise", look(1).key), ("no change beyond noise", look(0).key)])
     return figure
 
