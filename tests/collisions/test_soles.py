@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +17,9 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.section import SOLES as SECTION
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.recording import Interval, Use
-from tests.locomotion.standing_robot import Standing, switching
+from forcetorque.recording.storage import read_recording, write_recording
+from tests.app.outcome import Run
+from tests.locomotion.standing_robot import DAY, Standing, switching
 
 FOOT, LASTS_S = "r_foot_ft", 0.4
 OUTLINE_M = np.array([[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15]])
@@ -94,3 +98,27 @@ def test_a_sole_that_cannot_be_tested_is_named(standing: Standing) -> None:
     events, (reason,) = events_on_soles(run, None, ())
     assert events == ()
     assert reason.startswith("r_foot_ft: no test of what presses on r_sole: ")
+
+
+def test_an_event_stands_under_its_sensor(standing: Standing, tmp_path: Path, run: Run) -> None:
+    """Of two sensors only the one above the sole has the event, in the answer and in JSON."""
+    shutil.copytree(standing.experiment.file.parent, tmp_path / "out")
+    file = tmp_path / "out" / f"{DAY}.toml"
+    text = file.read_text(encoding="utf-8")
+    assert '[[sole]]\nframe = "r_sole"\n' in text
+    corners = f"outline_m = {OUTLINE_M.tolist()}\n"
+    file.write_text(text.replace('[[sole]]\nframe = "r_sole"\n', f'[[sole]]\nframe = "r_sole"\n{corners}'))
+    changed = _with(standing, np.array([0.0, 0.0, 0.0, 0.0, 100.0, 0.0]))
+    logged = read_recording(file.with_suffix(""))
+    name = changed.sensor.stream
+    stream, values = logged.stream(name), changed.stream.signal("raw").values
+    signals = {**stream.signals, "raw": replace(stream.signal("raw"), values=values)}
+    shutil.rmtree(file.with_suffix(""))
+    streams = {**logged.streams, name: replace(stream, signals=signals)}
+    write_recording(file.with_suffix(""), replace(logged, streams=streams))
+    words = ("robot", "collisions", file, "--sensor", "l_foot_ft", "--sensor", FOOT)
+    right, left = run(*words).out.split("l_foot_ft, ")
+    assert right.startswith(f"{FOOT}, ")
+    assert "pressed outside its outline, which the ground cannot do: r_sole" in right
+    assert "pressed outside" not in left
+    assert [row["sensors"] for row in run(*words, "--format", "json").result()["sole_events"]] == [[FOOT]]

@@ -131,7 +131,7 @@ class Collisions(DrawnResult):
             rows = [row for row in self.collisions if row.sensor == sensor.sensor]
             strongest = max(rows, key=lambda row: row.over_threshold, default=None)
             count = f"{len(rows)} CONTACT{'S' if len(rows) > 1 else ''}" if rows else "NO CONTACT"
-            soles = list(event_texts(self.sole_events))
+            soles = list(event_texts([event for event in self.sole_events if sensor.sensor in event.sensors]))
             yield Answer(
                 subject=f"{sensor.sensor}, {self.experiment}",
                 verdict=f"{count} in {sensor.looked_at_s:.3g} s",
