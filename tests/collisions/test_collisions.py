@@ -326,3 +326,15 @@ def test_a_slow_stream_is_refused(folder: Path, tmp_path: Path) -> None:
     write_recording(tmp_path / "recording", replace(recording, streams={**recording.streams, "arm_ft": slow}))
     with pytest.raises(ExperimentError, match="expected readings at 20 Hz at least, .* got 10 Hz"):
         _found(_run(tmp_path))
+
+
+def test_an_interval_that_ends_before_there_is_a_level_is_refused(tmp_path: Path) -> None:
+    """Below one second nothing is looked at; beside a longer interval it does not count."""
+    write_experiments(tmp_path)
+    edit(tmp_path / PARQUET, "end_s = 23.5", "end_s = 15.1")
+    run = _run(tmp_path)
+    correction = run.read_by(None, None).bare
+    with pytest.raises(ExperimentError, match="expected an interval of more than 1 s, .* got 'judge' of 0.6 s"):
+        find_collisions(run, correction, ["judge"], (), 1.0)
+    alone, both = (find_collisions(run, correction, labels, (), 1.0) for labels in (["fit"], ()))
+    assert both.sensitivity == alone.sensitivity

@@ -3,19 +3,24 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.collisions.collisions import find_collisions
 from forcetorque.collisions.soles import events_on_soles
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.section import SOLES as SECTION
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.recording import Interval, Use
-from tests.locomotion.standing_robot import Standing, switching
+from forcetorque.recording.storage import read_recording, write_recording
+from tests.app.outcome import Run
+from tests.locomotion.standing_robot import DAY, Standing, switching
 
 FOOT, LASTS_S = "r_foot_ft", 0.4
 OUTLINE_M = np.array([[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15]])
@@ -73,6 +78,7 @@ def test_a_moment_that_a_sole_cannot_bear_is_an_event(
     assert untested == ()
     assert [(event.kind, event.sole) for event in events] == [(kind, "r_sole") for kind in kinds]
     for event in events:
+        assert event.sensors == (FOOT,)
         assert event.end_s - event.start_s == pytest.approx(LASTS_S, abs=0.1)
         assert event.beyond_mm is not None
         assert event.beyond_mm > 50.0
@@ -94,3 +100,42 @@ def test_a_sole_that_cannot_be_tested_is_named(standing: Standing) -> None:
     events, (reason,) = events_on_soles(run, None, ())
     assert events == ()
     assert reason.startswith("r_foot_ft: no test of what presses on r_sole: ")
+
+
+def test_an_event_stands_under_its_sensor(standing: Standing, tmp_path: Path, run: Run) -> None:
+    """Of two sensors only the one above the sole has the event."""
+    shutil.copytree(standing.experiment.file.parent, tmp_path / "out")
+    file = tmp_path / "out" / f"{DAY}.toml"
+    text = file.read_text(encoding="utf-8")
+    assert '[[sole]]\nframe = "r_sole"\n' in text
+    corners = f"outline_m = {OUTLINE_M.tolist()}\n"
+    file.write_text(text.replace('[[sole]]\nframe = "r_sole"\n', f'[[sole]]\nframe = "r_sole"\n{corners}'))
+    changed = _with(standing, np.array([0.0, 0.0, 0.0, 0.0, 100.0, 0.0]))
+    logged = read_recording(file.with_suffix(""))
+    name = changed.sensor.stream
+    stream, values = logged.stream(name), changed.stream.signal("raw").values
+    signals = {**stream.signals, "raw": replace(stream.signal("raw"), values=values)}
+    shutil.rmtree(file.with_suffix(""))
+    streams = {**logged.streams, name: replace(stream, signals=signals)}
+    write_recording(file.with_suffix(""), replace(logged, streams=streams))
+    out = run("robot", "collisions", file, "--sensor", "l_foot_ft", "--sensor", FOOT).out
+    right, left = out.split("l_foot_ft, ")
+    assert right.startswith(f"{FOOT}, ")
+    assert "pressed outside its outline, which the ground cannot do: r_sole" in right
+    assert "pressed outside" not in left
+
+
+def test_what_is_noticed_counts_the_load_of_each_support(standing: Standing) -> None:
+    """A foot hangs while errors are learnt, and bears the robot later: what is noticed anywhere is on every link."""
+    run = SensorRun(standing.experiment, FOOT)
+    supports = [one for one in standing.experiment.recording.intervals if one.support is not None]
+    hanging = [one.label for one in supports if one.support is not None and one.support.frame != "r_sole"]
+    found, alone = (
+        find_collisions(run, run.read_by(None, None).bare, labels, hanging, 1.0) for labels in ((), hanging)
+    )
+    forces = {row.link: row.smallest_force_N for row in found.by_link}
+    assert found.collisions == ()
+    assert {"r_foot", "pelvis", "l_foot"} <= set(forces)
+    assert max(forces.values()) <= found.sensitivity[0].smallest_force_N
+    assert [row.link for row in alone.by_link] == ["r_foot"]
+    assert found.sensitivity[0].smallest_force_N > 10.0 * alone.sensitivity[0].smallest_force_N

@@ -53,6 +53,15 @@ def test_bad_input_is_one_line(feet: Path, run: Run, words: tuple[str, ...], mes
     assert not Path("samples.txt").exists()
 
 
+@pytest.mark.parametrize("key", ["friction", "torsional_friction_m"])
+def test_a_friction_beside_a_vertical_force_is_refused(feet: Path, run: Run, key: str) -> None:
+    """A vertical force alone shows no slip, so that the limit would do nothing."""
+    feet.write_text(feet.read_text(encoding="utf-8").replace('stream = "feet_r"', f'stream = "feet_r"\n{key} = 0.5'))
+    refused = run("robot", "balance", feet)
+    assert refused.code == 2
+    assert f"sole[1]: expected {key} of a sole whose force and moment a sensor measures, got stream" in refused.err
+
+
 def test_a_file_without_soles_is_told_what_to_state(feet: Path, run: Run) -> None:
     """Without [[sole]] nobody knows what the robot stands on."""
     text = feet.read_text(encoding="utf-8")

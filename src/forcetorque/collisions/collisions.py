@@ -9,7 +9,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.collisions.detection import (
     Contact,
@@ -22,7 +22,7 @@ from forcetorque.collisions.detection import (
     threshold_of,
 )
 from forcetorque.collisions.location import locate, noticed_on_links
-from forcetorque.collisions.residual import WINDOW_S, FreeModel, Signals, changes_of, signals_of
+from forcetorque.collisions.residual import WARM_UP_S, WINDOW_S, FreeModel, Signals, changes_of, signals_of
 from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, LinkSensitivityRow, SensitivityRow
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction
@@ -51,6 +51,8 @@ class _Looked:
 
     interval: Interval
     signals: Signals
+    model: FreeModel
+    """What changes of the residual are without a contact, under the load of the interval."""
     detected: Detected
 
 
@@ -95,15 +97,16 @@ def find_collisions(
     names = tuple(dict.fromkeys(name for one in signals.values() for name in one.of_model))
     signals = {label: one.with_terms(names) for label, one in signals.items()}
     model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
-    looked = [
-        _Looked(interval=one, signals=signals[one.label], detected=detect(signals[one.label], model, threshold.value))
-        for one in watched
-    ]
+    looked = [_looked(one, signals[one.label], model, threshold) for one in watched]
+    looked = [one for one in looked if len(one.detected.covariances)]
+    if not looked:
+        lengths = ", ".join(f"{one.label!r} of {1e-9 * (one.end_ns - one.start_ns):.2g} s" for one in watched)
+        raise ExperimentError(
+            f"sensor {run.sensor.name!r}: expected an interval of more than {WARM_UP_S:g} s, in which the level is "
+            f"found first, got {lengths}; name a longer one by --interval, from Python intervals"
+        )
     rows = [
-        _row(run, one, contact, model, threshold)
-        for one in looked
-        for contact in one.detected.contacts
-        if contact.windows
+        _row(run, one, contact, threshold) for one in looked for contact in one.detected.contacts if contact.windows
     ]
     return Collisions(
         experiment=run.experiment.name,
@@ -113,6 +116,12 @@ def find_collisions(
         curves=(_curve(run, looked),),
         warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt])),
     )
+
+
+def _looked(interval: Interval, signals: Signals, model: FreeModel, threshold: Threshold) -> _Looked:
+    loaded = model.under_load(signals.unmodelled)
+    detected = detect(signals, loaded, threshold.value)
+    return _Looked(interval=interval, signals=signals, model=loaded, detected=detected)
 
 
 def _require_rate(run: SensorRun) -> None:
@@ -170,7 +179,7 @@ def _free(run: SensorRun, labels: Collection[str]) -> list[Interval]:
     return known
 
 
-def _row(run: SensorRun, looked: _Looked, contact: Contact, model: FreeModel, threshold: Threshold) -> CollisionRow:
+def _row(run: SensorRun, looked: _Looked, contact: Contact, threshold: Threshold) -> CollisionRow:
     strongest = contact.strongest
     at_s = looked.signals.time_s
     start_ns = run.experiment.recording.start_ns
@@ -178,7 +187,7 @@ def _row(run: SensorRun, looked: _Looked, contact: Contact, model: FreeModel, th
         run,
         looked.interval,
         start_ns + round(float(at_s[contact.windows[strongest]]) * 1e9),
-        *model.contact(contact.wrenches[strongest], contact.covariances[strongest], looked.signals.of_load),
+        *looked.model.contact(contact.wrenches[strongest], contact.covariances[strongest], looked.signals.of_load),
     )
     force = float(np.linalg.norm(location.wrench[:3]))
     first, last = float(at_s[contact.windows[0]]), float(at_s[contact.windows[-1]])
@@ -213,32 +222,30 @@ def _kind(contact: Contact, duration_s: float) -> Literal["collision", "contact"
 
 
 def _sensitivity(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) -> SensitivityRow:
-    covariances = np.concatenate([one.detected.covariances for one in looked])
+    covariances = [one.detected.covariances for one in looked]
     return SensitivityRow(
         sensor=run.sensor.name,
-        smallest_force_N=smallest_force(covariances, threshold.value),
+        smallest_force_N=max(smallest_force(one, threshold.value) for one in covariances),
         threshold=threshold.value,
         tail_decides=threshold.by_tail is not None and threshold.value <= threshold.by_tail,
         alarms_per_hour=threshold.alarms_per_hour,
         free_s=threshold.free_s,
-        looked_at_s=len(covariances) * WINDOW_S,
+        looked_at_s=sum(map(len, covariances)) * WINDOW_S,
     )
 
 
 def _by_link(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) -> Iterator[LinkSensitivityRow]:
     square = noticed_square(threshold.value)
-    forces: dict[str, list[FloatArray]] = {}
+    forces: dict[str, float] = {}
     for one in looked:
         every = max(len(one.detected.covariances) // _POSTURES, 1)
         at_s = one.signals.time_s[np.isfinite(one.detected.excess[:, 0])][::every]
         at_ns: IntArray = run.experiment.recording.start_ns + np.round(at_s * 1e9).astype(np.int64)
         covariances = one.detected.covariances[::every]
         for link, values in noticed_on_links(run, one.interval, at_ns, covariances, square).items():
-            forces.setdefault(link, []).append(values)
-    for link, parts in forces.items():
-        yield LinkSensitivityRow(
-            sensor=run.sensor.name, link=link, smallest_force_N=float(np.median(np.concatenate(parts)))
-        )
+            forces[link] = max(float(np.median(values)), forces.get(link, 0.0))
+    for link, force in forces.items():
+        yield LinkSensitivityRow(sensor=run.sensor.name, link=link, smallest_force_N=force)
 
 
 def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:

@@ -236,8 +236,22 @@ class FreeModel:
     """Their covariance; shape (p, p)."""
     noise: FloatArray
     """Covariance of the noise of a window; shape (6, 6); N, N m."""
+    unmodelled: FloatArray
+    """Standard deviation of slow errors that no term explains, of which `noise` has the square; shape (k,); N, N m."""
     correlation_s: float
     """Time over which noise goes on; s."""
+
+    def under_load(self, unmodelled: FloatArray) -> FreeModel:
+        """Give the model where errors that no term explains are larger, for the load is.
+
+        Args:
+            unmodelled: As of `Signals`; shape (k,); N, N m.
+
+        Returns:
+            The model with the larger of both.
+        """
+        larger = np.maximum(unmodelled, self.unmodelled)
+        return replace(self, noise=self.noise + np.diag(larger**2 - self.unmodelled**2), unmodelled=larger)
 
     def wrench(self, change: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give what changes cannot be explained by.
@@ -305,6 +319,7 @@ class FreeModel:
             mean=mean,
             covariance=covariance,
             noise=noise + np.diag(unmodelled**2),
+            unmodelled=unmodelled,
             correlation_s=correlation * WINDOW_S,
         )
 

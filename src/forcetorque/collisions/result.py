@@ -65,7 +65,7 @@ class SensitivityRow(Row):
     """Sensor."""
     smallest_force_N: Annotated[float, Shown("noticed from", "N", digits=1)]
     """Force that a window of 50 ms notices with a probability of 95 %, whatever its direction and place; median over
-    what was looked at."""
+    an interval, of the interval that needs the largest."""
     threshold: Annotated[float, Shown("threshold", digits=1)]
     """Threshold of the squared residual over its covariance."""
     tail_decides: Annotated[bool, Shown("set by the tail")]
@@ -87,7 +87,7 @@ class LinkSensitivityRow(Row):
     """Link beyond it."""
     smallest_force_N: Annotated[float, Shown("noticed from", "N", digits=1)]
     """Force on the axis of the link that a window of 50 ms notices with a probability of 95 %, whatever its direction
-    and its place on the axis; median over what was looked at."""
+    and its place on the axis; median over an interval, of the interval that needs the largest."""
 
 
 class CollisionCurve(Row):
@@ -131,7 +131,7 @@ class Collisions(DrawnResult):
             rows = [row for row in self.collisions if row.sensor == sensor.sensor]
             strongest = max(rows, key=lambda row: row.over_threshold, default=None)
             count = f"{len(rows)} CONTACT{'S' if len(rows) > 1 else ''}" if rows else "NO CONTACT"
-            soles = list(event_texts(self.sole_events))
+            soles = list(event_texts([event for event in self.sole_events if sensor.sensor in event.sensors]))
             yield Answer(
                 subject=f"{sensor.sensor}, {self.experiment}",
                 verdict=f"{count} in {sensor.looked_at_s:.3g} s",

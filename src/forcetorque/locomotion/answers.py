@@ -47,7 +47,7 @@ def balance_answer(balance: Balance) -> Answer:
         subject=f"{', '.join(balance.experiments)}{weight}",
         verdict=f"DOWN: {shares} of {whole:.3g} s" if phases else "NO FOOT IS DOWN",
         why=(*([_net_force(phases[0])] if phases else []), *_pressure(balance), *event_texts(balance.events)),
-        concern=Concern.UNCERTAIN if balance.refused or not phases else Concern.NONE,
+        concern=Concern.UNCERTAIN if balance.refused or balance.events or not phases else Concern.NONE,
     )
 
 

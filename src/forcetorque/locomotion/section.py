@@ -64,7 +64,8 @@ def read_soles(
         The soles in the order of the file.
 
     Raises:
-        ExperimentError: If a frame is not in the robot or listed twice, or a sole has a stream beside sensors.
+        ExperimentError: If a frame is not in the robot or listed twice, or a sole has a stream beside sensors
+            or beside a friction.
     """
     soles: list[ExperimentSole] = []
     for index, entry in enumerate(entries):
@@ -79,6 +80,12 @@ def read_soles(
             raise ExperimentError(
                 f"{where}: expected stream with the vertical_force of the ground, or [[sensor]] in the file, got both; "
                 "two sources of one force are not combined"
+            )
+        limits = [key for key in ("friction", "torsional_friction_m") if getattr(entry, key) is not None]
+        if limits and entry.stream is not None:
+            raise ExperimentError(
+                f"{where}: expected {' and '.join(limits)} of a sole whose force and moment a sensor measures, got "
+                "stream beside it: a vertical force shows no slip; leave it out"
             )
         with stated_in(where):
             if entry.stream is not None:

@@ -15,11 +15,13 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
+from forcetorque.locomotion.answers import balance_answer
 from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
 from forcetorque.locomotion.standing.interval import BalanceOptions
 from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, ContactThresholds, ForceLimit, support_phases
+from forcetorque.results.answer import Concern
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import balancing_movement
@@ -327,3 +329,16 @@ def test_phases_of_the_yoga_log_are_those_that_were_seen(data_dir: Path, tmp_pat
     assert alone.end_s == pytest.approx(62.0, abs=2.0)
     assert phases[-1].name == "l_sole + r_sole"
     assert max(phase.end_s for phase in phases[1:] if phase.name != "l_sole" and phase.end_s < 60.0) < 17.0
+
+
+def test_no_event_is_claimed_while_an_offset_is_unknown(standing: Standing) -> None:
+    """A sole under a sensor without its offset is named once; with it, the same points outside are events."""
+    unknown = {name: replace(one, removes_offset=name != "l_foot_ft") for name, one in standing.corrections.items()}
+    known, some = (balance([standing.experiment], [one]) for one in (standing.corrections, unknown))
+    assert {event.sole for event in known.events} == {"l_sole", "r_sole"}
+    assert balance_answer(known).concern is Concern.UNCERTAIN
+    assert some.events == tuple(event for event in known.events if event.sole == "r_sole")
+    untested = [warning for warning in some.warnings if "no look for slips" in warning]
+    assert len(untested) == 1
+    assert "on l_sole: " in untested[0]
+    assert not any("no look for slips" in warning for warning in known.warnings)

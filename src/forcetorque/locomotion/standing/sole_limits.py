@@ -46,6 +46,8 @@ class SoleEventRow(Row):
     """Label of the interval."""
     sole: Annotated[str, Shown("sole")]
     """Its frame."""
+    sensors: Annotated[tuple[str, ...], Shown("by")]
+    """Sensors that bound the foot, which measured it."""
     kind: Annotated[EventKind, Shown("event")]
     """The whole interval of the centre of pressure outside the outline; of the normal force below zero, by more than a
     contact has; of the friction used beyond 100 % (`slip`), or its upper end (`slip_risk`). Without the covariance of
@@ -200,6 +202,7 @@ def _row(
         recording=interval.recording,
         interval=interval.label,
         sole=foot.sole.frame,
+        sensors=foot.sensors,
         kind=kind,
         start_s=float(interval.time_s[span.start]),
         end_s=float(interval.time_s[span.stop - 1]),

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import hashlib
 import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar, Literal
 
@@ -80,7 +81,8 @@ class Balance(DrawnResult):
     pendulum: tuple[PendulumRow, ...]
     """One per interval in which (5.22) was requested and holds."""
     events: tuple[SoleEventRow, ...] = ()
-    """Times in which what is measured on a sole is beyond what the ground can do, or friction may not hold."""
+    """Times in which what is measured on a sole is beyond what the ground can do, or friction may not hold; of soles
+    whose sensors have an offset removed."""
     refused: tuple[str, ...]
     """What cannot be determined, as text."""
     intervals: tuple[IntervalBalance, ...] = Field(default=(), exclude=True, repr=False)
@@ -183,6 +185,7 @@ def balance(
     by_place = tuple(corrections) or ({},) * len(recordings)
     names: dict[str, str] = {}
     counted: list[IntervalBalance] = []
+    events: list[SoleEventRow] = []
     warnings = []
     for content, reading in zip(recordings, by_place, strict=True):
         with stated_in(str(content.file)):
@@ -194,14 +197,33 @@ def balance(
         names[mark] = content.name
         if by_motion and isinstance(content, Experiment) and (unused := unused_forces(content)) is not None:
             warnings.append(unused)
+        biased = [sensor for sensor, correction in reading.items() if not correction.removes_offset]
         warnings += [
             f"{content.name}: {sensor}: no offset was removed, so that forces and points include its offset; "
             "give a calibration, or an interval for calibration"
-            for sensor, correction in reading.items()
-            if not correction.removes_offset
+            for sensor in biased
         ]
+        if not by_motion:
+            untested = {
+                foot.sole.frame for one in intervals for foot in one.feet if not set(biased).isdisjoint(foot.sensors)
+            }
+            if untested:
+                warnings.append(
+                    f"{content.name}: no look for slips, and for what the ground cannot do, on "
+                    f"{', '.join(sorted(untested))}: the offset of a sensor is not known"
+                )
+            events += _events(intervals, biased, chosen)
         counted += intervals
-    return _summed_up(tuple(counted), tuple(names.values()), chosen, warnings, by_motion=by_motion)
+    return _summed_up(tuple(counted), tuple(names.values()), chosen, events, warnings, by_motion=by_motion)
+
+
+def _events(
+    intervals: Sequence[IntervalBalance], biased: Collection[str], options: BalanceOptions
+) -> Iterator[SoleEventRow]:
+    """Events of the soles of which no sensor is biased."""
+    for one in intervals:
+        feet = tuple(foot for foot in one.feet if set(biased).isdisjoint(foot.sensors))
+        yield from sole_events(replace(one, feet=feet), release_N=options.thresholds(one.weight_N).release_N)
 
 
 def _over(
@@ -218,6 +240,7 @@ def _summed_up(
     intervals: tuple[IntervalBalance, ...],
     names: tuple[str, ...],
     options: BalanceOptions,
+    events: Sequence[SoleEventRow],
     warnings: Sequence[str],
     *,
     by_motion: bool,
@@ -248,9 +271,7 @@ def _summed_up(
             for interval, robot in robots
             if robot.com_acceleration is not None
         ),
-        events=()
-        if by_motion
-        else tuple(event for interval in intervals for event in sole_events(interval, release_N=thresholds.release_N)),
+        events=tuple(events),
         refused=refused,
         intervals=intervals,
         by_motion=by_motion,
