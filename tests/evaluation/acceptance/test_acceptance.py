@@ -367,7 +367,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     assert len(repr(result)) < 600
     assert result.records()[0]["passed"] is True
     assert list(json.loads(result.json_text())) == [
-        "schema", "experiment", "specification", "accepted", "undecided", "criteria", "measured", "validity",
+        "schema", "figure", "experiment", "specification", "accepted", "undecided", "criteria", "measured", "validity",
         "load_cases",
     ]  # fmt: skip
 
