@@ -21,7 +21,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from forcetorque.report.assessment import assess
+from forcetorque.report.sensor_assessment import assess
 from tests.scenes.experiments import PARQUET
 
 

@@ -24,7 +24,7 @@ from forcetorque.dataset.frames import episode_frames
 from forcetorque.dataset.result import DatasetCheck, DatasetFinding, EpisodeFieldRow
 from forcetorque.dataset.set_checks import set_findings, usual_noise
 from forcetorque.formats.lerobot.dataset import LeRobotDataset, read_dataset
-from forcetorque.recording.frames import OrientationForm, OrientationSense
+from forcetorque.recording.orientation import OrientationForm, OrientationSense
 
 
 def checked(

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.sole_limits import sole_events
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
 

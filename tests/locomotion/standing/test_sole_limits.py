@@ -9,7 +9,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.sole_limits import SoleEventRow, friction_used, sole_events
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
 

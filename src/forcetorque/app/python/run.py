@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from forcetorque.payload import identify as _payload
     from forcetorque.payload import tare_offset as _tare
     from forcetorque.planning import planning as _planning
-    from forcetorque.report.assessment import Demands
     from forcetorque.report.report import Report
+    from forcetorque.report.sensor_assessment import Demands
     from forcetorque.sensor.bandwidth import bandwidth as _bandwidth
 
 

@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.evaluation import smoothing_text
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts, verdict_texts
-from forcetorque.evaluation.validation.contact_forces import (
+from forcetorque.evaluation.validation.contact_force_errors import (
     BestCalibration,
     ContactForceErrors,
     RecordingContactForces,
@@ -34,8 +34,8 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, FreeSubModel, SubModelChoice
+from forcetorque.experiment.seen_and_outside_samples import SamplesOutside, readings_outside, sentences
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Shown, Table, table_of

@@ -16,7 +16,7 @@ from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, topic_
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
 from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
 from forcetorque.recording.alignment import Interpolation
-from forcetorque.recording.frames import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.model import Joint, JointType, RobotModel

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import (
+from forcetorque.device.excitation_options import (
     SAMPLES,
     ExcitationOption,
     excitation_options,
