@@ -21,7 +21,7 @@ from forcetorque.evaluation.validation.contact_force_errors import (
     contact_force_rows,
     contact_forces_of,
 )
-from forcetorque.evaluation.validation.contact_wrenches import ContactRows, ContactWrenches
+from forcetorque.evaluation.validation.contact_wrenches import ContactRows, ContactWrenches, add_segments
 from forcetorque.evaluation.validation.joint_torque_errors import (
     TorqueErrors,
     TorqueErrorSamples,
@@ -296,10 +296,7 @@ def _torques_and_contacts(
     """Torques first: they need the motion of more joints, in which that of the contact force is found."""
     candidates = free.whole.candidates(calibrations)
     torques, contacts = TorqueRows(candidates), ContactRows(candidates)
-    for part in free.segments():
-        torques.add(part)
-        contacts.add(part)
-        del part
+    add_segments(free, torques, contacts)
     return torques.samples(), contacts.wrenches()
 
 
