@@ -18,8 +18,7 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES,
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
-from forcetorque.payload import load_on_wrist_sensor
-from forcetorque.payload import load_warnings as sense
+from forcetorque.payload import load_on_wrist_sensor, load_warnings as sense
 from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identification.load_estimates import LoadSolution, OutlierRow
 from forcetorque.payload.identification.loads_with_intervals import solve

@@ -13,8 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.formats.yarp.log_format import PortKind, discover_ports, read_found_port

@@ -31,8 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from forcetorque.evaluation.sphere import sphere as _sphere
-    from forcetorque.payload import identify as _payload
-    from forcetorque.payload import tare_offset as _tare
+    from forcetorque.payload import identify as _payload, tare_offset as _tare
     from forcetorque.planning import planning as _planning
     from forcetorque.report.report import Report
     from forcetorque.report.sensor_assessment import Demands
