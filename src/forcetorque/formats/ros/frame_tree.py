@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RobotError, known_names
-from forcetorque.formats.namespaces import namespace_depth
+from forcetorque.formats.log_format import namespace_depth
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, topic_batches
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
