@@ -266,7 +266,6 @@ def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:
     assert np.median(_errors("12 steps", 3)[:, 0]) > 30.0
 
 
-@pytest.mark.long
 def test_an_optimised_motion_keeps_to_time_torque_and_locks() -> None:
     """With few changes it is already no worse than the third lock in volume and in both mean squares."""
     third = _options(25.0)["third lock"].trajectories[0]
