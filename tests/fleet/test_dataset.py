@@ -30,8 +30,7 @@ from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, pa
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
 from tests.app.outcome import Run
-from tests.scenes.studies import CALIBRATION as _ALL_CALIBRATION
-from tests.scenes.studies import SERIAL, VALIDATION
+from tests.scenes.studies import CALIBRATION as _ALL_CALIBRATION, SERIAL, VALIDATION
 
 CALIBRATION = _ALL_CALIBRATION[2:]
 FILES = (*CALIBRATION, *VALIDATION)

@@ -112,8 +112,8 @@ def calibrate(
     from forcetorque.calibration.reduced_recordings import store_moments
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
+    from forcetorque.results.terminal.input import campaign_of, readable_experiments, stored_moments
     from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import campaign_of, readable_experiments, stored_moments
 
     log = start_logging()
     refuse_standard_output("--output", output)
@@ -220,7 +220,7 @@ def _sensors(
     contents: Mapping[Path, Experiment], stored: Mapping[Path, RecordingMoments], wanted: Sequence[str] | None
 ) -> list[tuple[str, str]]:
     """Names and serial numbers of the sensors that are meant: those of the first file, or of the moments."""
-    from forcetorque.results.terminal.reading import sensors_named
+    from forcetorque.results.terminal.input import sensors_named
 
     for content in contents.values():
         sensors = [(sensor.name, sensor.serial) for sensor in sensors_named(content, wanted)]

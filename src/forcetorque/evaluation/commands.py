@@ -30,7 +30,7 @@ _COMPARED_CALIBRATIONS = Option(
     "--calibration",
     "-c",
     typed=list[Path],
-    reads="forcetorque.results.terminal.reading:read_calibrations",
+    reads="forcetorque.results.terminal.input:read_calibrations",
 )
 _SPHERE_INTERVALS = Option(
     "Label or kind of an interval whose motion draws a sphere. Default: the sphere intervals of each file, else all.",
@@ -247,7 +247,7 @@ def sphere(
             sensor can be analysed.
     """
     from forcetorque.evaluation.sphere.sphere import spheres_of_sensors
-    from forcetorque.results.terminal.reading import refuse_left_out, sensors_named
+    from forcetorque.results.terminal.input import refuse_left_out, sensors_named
 
     chosen, by_name = sensors_named(experiment, sensors), dict(calibrations or {})
     refuse_left_out(experiment, chosen, by_name)

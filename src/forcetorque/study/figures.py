@@ -41,7 +41,7 @@ from forcetorque.results.figures import (
     shown_name,
 )
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.one_sensor import WORKBENCH
+from forcetorque.study.candidate_fits import WORKBENCH
 from forcetorque.study.selection import Candidate, with_offset
 from forcetorque.study.study import SensorStudy
 

@@ -14,8 +14,8 @@ from forcetorque.base.output_file import new_folder, write_bytes_atomically
 from forcetorque.experiment.calibration.artefact import write_calibration
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.study import thesis_tables as tables
+from forcetorque.study.candidate_fits import Study
 from forcetorque.study.figures import write_figures
-from forcetorque.study.one_sensor import Study
 from forcetorque.study.result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.study.study import SensorStudy
 

@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.provenance import Selection
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
-from forcetorque.study.one_sensor import Study, run_study
+from forcetorque.study.candidate_fits import Study, run_study
 from forcetorque.study.selection import Candidate, GenerativeCandidate, assembled
 from forcetorque.study.study_data import StudyData, generative_fits
 

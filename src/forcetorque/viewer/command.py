@@ -76,7 +76,7 @@ def view(
     Python: `experiment.view("view.html", calibration)`, also `"view.rrd"` and `"view.mcap"`
     """
     from forcetorque.experiment.loading import Purpose
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
+    from forcetorque.results.terminal.input import read_calibrations, read_experiment
     from forcetorque.viewer.scene_builder import View, scene_of, view_source
     from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
     from forcetorque.viewer.view_file import require_writer, view_files, write_view

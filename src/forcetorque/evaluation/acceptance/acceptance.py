@@ -18,7 +18,12 @@ from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdi
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, readings_outside, sentences
+from forcetorque.experiment.seen_and_outside_samples import (
+    SamplesOutside,
+    doubts_about_choice,
+    readings_outside,
+    sentences,
+)
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
