@@ -50,10 +50,10 @@ def write_study_folder(
             (fresh / name).mkdir()
             files = [*_write_tables(study.study, fresh / name), *_write_calibrations(study, fresh / name)]
             warnings += study_warnings(study)
-            if progress is not None:
-                progress("drawing figures")
+            say = progress or (lambda _: None)
+            say("drawing figures")
             try:
-                files += write_figures(study, fresh / name)
+                files += write_figures(study, fresh / name, say)
             except MissingExtraError as error:
                 warnings.append(f"no figures: {error}")
             written = {"folder": str(output / name), "files": tuple(files)}

@@ -254,7 +254,8 @@ def study_sensor(
         )
     drawing = data.sphere if sphere is None else tuple(sphere)
     named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)
-    generative = generative_fits(data, named, code_version=code_version, created=created)
+    say = progress or (lambda _: None)
+    generative = generative_fits(data, named, code_version=code_version, created=created, progress=say)
     study = run_study(
         [interval.data_set for interval in data.calibration],
         named,

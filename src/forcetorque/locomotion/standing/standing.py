@@ -198,11 +198,11 @@ def balance(
         if by_motion and isinstance(content, Experiment) and (unused := unused_forces(content)) is not None:
             warnings.append(unused)
         biased = [sensor for sensor, correction in reading.items() if not correction.removes_offset]
-        warnings += [
-            f"{content.name}: {sensor}: no offset was removed, so that forces and points include its offset; "
-            "give a calibration, or an interval for calibration"
-            for sensor in biased
-        ]
+        if biased:
+            warnings.append(
+                f"{content.name}: {', '.join(biased)}: no offset was removed, so that forces and points include the "
+                "offsets of these sensors; give a calibration, or an interval for calibration"
+            )
         if not by_motion:
             untested = {
                 foot.sole.frame for one in intervals for foot in one.feet if not set(biased).isdisjoint(foot.sensors)
