@@ -61,6 +61,15 @@ def test_a_file_twice_is_refused(days: Path, run: Run) -> None:
     assert "expected every experiment file once, it comes twice" in error
 
 
+def test_memory_of_all_samples_is_stated(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a fit holds them all and that is much; a fit of segments says nothing."""
+    thesis = ("calibrate", CALIBRATION[0], "--lambda", "5", "-o", "a.json", "--force")
+    assert "GB of memory" not in run(*thesis).err
+    monkeypatch.setattr("forcetorque.calibration.calibrate_command._LARGE_BYTES", 1)
+    assert "samples at once, about 0.5 GB of memory; without it" in run(*thesis).err
+    assert "GB of memory" not in run("calibrate", CALIBRATION[0], "-o", "b.json").err
+
+
 @pytest.mark.parametrize("options", [[], ["--lambda", "5"], ["--jointly"]], ids=["default", "thesis", "jointly"])
 def test_a_copy_of_a_log_is_refused(days: Path, run: Run, options: list[str]) -> None:
     """Under another name its samples would count twice; another log is fitted."""
