@@ -80,7 +80,7 @@ def _left(windows: PartWindows, fit: JointFit | None) -> FloatArray:
     """Root mean square residual of force and moment with the best offsets for these windows; shape (2,); N, N m."""
     right = windows.right
     if fit is not None:
-        known = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
+        known = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.slopes, windows.terms)]
         right = right - windows.columns @ known
     offsets = windows.offsets.reshape(-1, windows.offsets.shape[2])
     best = np.linalg.lstsq(offsets, right.ravel(), rcond=None)[0]

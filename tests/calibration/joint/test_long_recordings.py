@@ -24,7 +24,7 @@ from tests.scenes.studies import CALIBRATION, SENSOR
 
 _OF_ERROR = 1e-3
 """The grid on which joints are differentiated begins elsewhere in a segment: part of a standard error."""
-_OF_RESIDUAL = 5e-3
+_OF_RESIDUAL = 1e-2
 """The same of what is left in windows of a quarter of a second."""
 
 

@@ -38,7 +38,7 @@ def test_the_mean_reads_what_the_fit_reads() -> None:
     fit, posterior = _fit(), _posterior()
     factor, offset = np.eye(6) + posterior.mean[:, :6], posterior.mean[:, 6]
     reading = factor @ LOADS[1] + offset  # by the prior matrix
-    np.testing.assert_allclose(fit.wrench(SENSOR, "day", reading[None])[0], LOADS[1], atol=1e-9)
+    np.testing.assert_allclose(fit.wrench(SENSOR, "day", reading[None], {})[0], LOADS[1], atol=1e-9)
     np.testing.assert_allclose(posterior.to_wrench, fit.change(SENSOR))
 
 

@@ -3,24 +3,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
-from forcetorque.calibration.joint.untouched_interval import JointInterval, required_prior
+from forcetorque.calibration.joint.untouched_interval import JointInterval, expected_slope, required_prior
 from forcetorque.calibration.thesis.calibrate import validity_of
-from forcetorque.experiment.calibration.artefact import JOINT, Calibration, Prior, SessionOffset
+from forcetorque.experiment.calibration.artefact import (
+    JOINT,
+    CalibratedVariable,
+    Calibration,
+    Prior,
+    SessionOffset,
+)
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
-from forcetorque.experiment.calibration.joint_posterior import JointOffset, JointPosterior, JointSensor, JointTerm
+from forcetorque.experiment.calibration.joint_posterior import (
+    JointOffset,
+    JointPosterior,
+    JointSensor,
+    JointSlope,
+    JointTerm,
+)
 from forcetorque.experiment.calibration.moments import Moments, pooled
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection
 from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
@@ -39,6 +53,7 @@ def joint_posterior(fit: JointFit, serials: dict[str, str]) -> JointPosterior:
     return JointPosterior(
         sensors=tuple(JointSensor(name=name, serial=serials[name]) for name in places.sensors),
         offsets=tuple(JointOffset(sensor=sensor, session=session) for sensor, session in places.offsets),
+        slopes=tuple(JointSlope(sensor=sensor, variable=variable) for sensor, variable in places.slopes),
         terms=tuple(JointTerm(name=term.name, unit=term.unit, prior_deviation=term.deviation) for term in places.terms),
         mean=fit.mean,
         covariance=fit.covariance,
@@ -50,6 +65,7 @@ def sensor_posterior(
     sensor: str,
     sessions: Sequence[str],
     *,
+    slopes: Mapping[str, FloatArray] = MappingProxyType({}),
     noise: FloatArray,
     repeatability: float,
     mean_loads: FloatArray,
@@ -60,6 +76,8 @@ def sensor_posterior(
         fit: The fit of all sensors.
         sensor: One of them.
         sessions: Its sessions, the last of them last.
+        slopes: Its variables, with what a unit of each was expected to add to its readings; shape (6,) each; N, N m per
+            unit.
         noise: Noise of means over a second; shape (6,); N, N m.
         repeatability: Share of its response by which the sensor differs from one motion to the next.
         mean_loads: Mean load of every session; shape (sessions, 6); N, N m.
@@ -68,28 +86,31 @@ def sensor_posterior(
         The same by rows, in wrench space.
     """
     factor = np.asarray(np.linalg.inv(fit.change(sensor)), dtype=np.float64)
-    offsets = np.stack([fit.offset(sensor, session) for session in sessions])
-    jacobian = _jacobian(factor, offsets)
+    offsets = [fit.offset(sensor, session) for session in sessions]
+    added = np.stack([*(fit.slope(sensor, name) for name in slopes), *offsets])
+    jacobian = _jacobian(factor, added)
     places = fit.places
-    spans = (places.changes(sensor), *(places.offset(sensor, session) for session in sessions))
+    spans = [places.changes(sensor), *(places.slope(sensor, name) for name in slopes)]
+    spans += [places.offset(sensor, session) for session in sessions]
     own = np.concatenate([np.arange(span.start, span.stop) for span in spans])
     size = np.outer(UNITS, 1.0 / UNITS).ravel()
-    units = np.concatenate([size, np.tile(UNITS, len(sessions))])
+    units = np.concatenate([size, np.tile(UNITS, len(added))])
     joint = jacobian @ (fit.covariance[np.ix_(own, own)] * np.outer(units, units)) @ jacobian.T
-    rows = [_places_of_row(row, len(sessions)) for row in range(LOADS)]
+    rows = [_places_of_row(row, len(added)) for row in range(LOADS)]
     covariance = np.stack([joint[np.ix_(row, row)] for row in rows])
     learnt = covariance[:, :LOADS, :LOADS].copy()
     before = fit.prior_covariance(sensor) * np.outer(size, size)
     of_terms = fit.covariance[places.errors, places.errors]
     by_model = jacobian @ (units[:, None] * fit.covariance[own, places.errors]) @ np.linalg.pinv(of_terms)
+    expected = np.column_stack([*slopes.values(), np.zeros((LOADS, len(sessions)))])
     model = ModelPart(terms=places.terms, term_covariance=of_terms, response=np.stack([by_model[row] for row in rows]))
     return Posterior(
         space="wrench",
-        variables=(),
+        variables=tuple(slopes),
         sessions=tuple(sessions),
         drift=False,
-        mean=np.c_[factor - np.eye(LOADS), -factor @ offsets.T],
-        covariance=covariance + _repeatability(repeatability, mean_loads),
+        mean=np.c_[factor - np.eye(LOADS), -factor @ added.T - expected],
+        covariance=covariance + _repeatability(repeatability, len(slopes), mean_loads),
         mean_covariance=learnt,
         prior_covariance=np.stack([before[np.ix_(row[:LOADS], row[:LOADS])] for row in rows]),
         to_wrench=fit.change(sensor),
@@ -102,7 +123,7 @@ def sensor_posterior(
 
 
 def _jacobian(factor: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Derivative of [E row by row, e of every session] by [D row by row, o of every session]."""
+    """Derivative of [E row by row, e of what is added] by [D row by row, o of slopes and sessions]."""
     changes, sessions = LOADS * LOADS, len(offsets)
     jacobian = np.zeros((changes + LOADS * sessions,) * 2)
     jacobian[:changes, :changes] = -np.kron(factor, factor.T)
@@ -114,14 +135,14 @@ def _jacobian(factor: FloatArray, offsets: FloatArray) -> FloatArray:
     return jacobian
 
 
-def _places_of_row(row: int, sessions: int) -> list[int]:
+def _places_of_row(row: int, added: int) -> list[int]:
     changes = LOADS * LOADS
-    return [*range(LOADS * row, LOADS * (row + 1)), *(changes + LOADS * k + row for k in range(sessions))]
+    return [*range(LOADS * row, LOADS * (row + 1)), *(changes + LOADS * k + row for k in range(added))]
 
 
-def _repeatability(share: float, mean_loads: FloatArray) -> FloatArray:
+def _repeatability(share: float, slopes: int, mean_loads: FloatArray) -> FloatArray:
     """Covariance by motions in which the sensor answers otherwise, about the mean load of each session."""
-    jacobian = np.r_[np.eye(LOADS), -mean_loads]
+    jacobian = np.r_[np.eye(LOADS), np.zeros((slopes, LOADS)), -mean_loads]
     return np.stack([jacobian @ np.diag(row**2) @ jacobian.T for row in share * np.outer(UNITS, 1.0 / UNITS)])
 
 
@@ -144,6 +165,8 @@ class SensorWindows:
     """Wrench by the other sensors of its parts and their motion; shape (w, 6); N, N m."""
     rest: FloatArray
     """What it reads beyond that; shape (w, 6); N, N m."""
+    variables: FloatArray
+    """Means of its linear variables less their reference values; shape (w, v); in their units."""
 
 
 def sensor_artefact(
@@ -152,6 +175,7 @@ def sensor_artefact(
     intervals: Sequence[JointInterval],
     result: JointResult,
     *,
+    references: Mapping[str, float],
     joint_file: str | None,
     code_version: str,
     created: str,
@@ -163,6 +187,7 @@ def sensor_artefact(
         campaign: The sensor in all experiments.
         intervals: All fitted intervals.
         result: The fit.
+        references: Its linear variables, with the value at which each adds nothing.
         joint_file: Name of the file beside it that holds the covariance of all sensors; None where there is none.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
@@ -174,7 +199,11 @@ def sensor_artefact(
     prior = required_prior(described)
     matrix = fit.change(sensor) @ prior
     own = [one for one in intervals if sensor in one.raw]
-    data = [window for one in own if (window := _windows(sensor, campaign, one, result, matrix)) is not None]
+    data = [
+        window
+        for one in own
+        if (window := _windows(sensor, tuple(references), campaign, one, result, matrix)) is not None
+    ]
     names = tuple(dict.fromkeys(one.session for one in data))
     rest = np.concatenate([one.rest for one in data])
     residual = np.sqrt((rest**2).mean(axis=0))
@@ -183,6 +212,7 @@ def sensor_artefact(
         fit,
         sensor,
         names,
+        slopes={name: expected_slope(described, name) for name in references},
         noise=residual,
         repeatability=campaign.runs[0].experiment.fit_options.repeatability,
         mean_loads=np.stack([moments[name].reference_mean for name in names]),
@@ -196,6 +226,7 @@ def sensor_artefact(
         matrix=matrix,
         offset=last.offset,
         sessions=sessions,
+        variables=tuple(_variables(described, references, fit, np.concatenate([one.variables for one in data]))),
         estimation_type=JOINT,
         joint=joint_file,
         posterior=posterior,
@@ -211,7 +242,6 @@ def sensor_artefact(
             [one.reference + one.rest for one in data],
         ),
         selection=Selection(rule=_RULE),
-        warnings=tuple(_unfitted_variables(campaign)),
         provenance=Provenance(
             code_version=code_version,
             created=created,
@@ -234,14 +264,23 @@ def _session(sensor: str, fit: JointFit, posterior: Posterior, name: str, prior_
 
 
 def _windows(
-    sensor: str, campaign: Campaign, interval: JointInterval, result: JointResult, matrix: FloatArray
+    sensor: str,
+    variables: Sequence[str],
+    campaign: Campaign,
+    interval: JointInterval,
+    result: JointResult,
+    matrix: FloatArray,
 ) -> SensorWindows | None:
     stretch, raw = interval.untouched.stretch, interval.raw[sensor]
     rest = _rest(sensor, raw.time_s, [one for one in result.residuals if one.label == stretch.label])
     used = np.isfinite(rest).all(axis=1) & np.isfinite(raw.means).all(axis=1)
     if not used.any():
         return None
-    wrench = raw.means[used] @ matrix.T + result.fit.offset(sensor, stretch.session)
+    fit = result.fit
+    moved = {(sensor, name): interval.variables[sensor, name][used, None] for name in variables}
+    wrench = raw.means[used] @ matrix.T + fit.added(sensor, stretch.session, moved)
+    for (_, name), values in moved.items():
+        wrench = wrench + values * (fit.change(sensor) @ expected_slope(campaign.sensor, name))
     experiment = next(run.experiment for run in campaign.runs if campaign.recording(run) == stretch.recording)
     return SensorWindows(
         interval=FittedInterval(
@@ -256,7 +295,26 @@ def _windows(
         raw=raw.means[used],
         reference=wrench - rest[used],
         rest=rest[used],
+        variables=np.concatenate([np.empty((len(wrench), 0)), *moved.values()], axis=1),
     )
+
+
+def _variables(
+    sensor: ExperimentSensor, references: Mapping[str, float], fit: JointFit, moved: FloatArray
+) -> Iterator[CalibratedVariable]:
+    """What variables add; `moved` are they less their reference values; shape (w, v)."""
+    for k, (name, reference) in enumerate(references.items()):
+        linear, own = sensor.variable(name).linear, fit.places.slope(sensor.name, name)
+        yield CalibratedVariable(
+            name=name,
+            unit=linear.unit,
+            reference_value=reference,
+            coefficients=fit.change(sensor.name) @ expected_slope(sensor, name) + fit.slope(sensor.name, name),
+            standard_error=np.sqrt(np.diag(fit.covariance)[own]) * UNITS,
+            prior=linear.prior,
+            minimum=float(moved[:, k].min() + reference),
+            maximum=float(moved[:, k].max() + reference),
+        )
 
 
 def _rest(sensor: str, time_s: FloatArray, residuals: Sequence[PartResidual]) -> FloatArray:
@@ -274,9 +332,3 @@ def _rest(sensor: str, time_s: FloatArray, residuals: Sequence[PartResidual]) ->
 
 def _moments(windows: SensorWindows) -> Moments:
     return Moments.of(windows.raw, windows.reference)
-
-
-def _unfitted_variables(campaign: Campaign) -> Iterator[str]:
-    if campaign.sensor.variables:
-        names = ", ".join(variable.linear.name for variable in campaign.sensor.variables)
-        yield f"a joint calibration takes {names} as constant; record while it hardly changes, or calibrate alone"

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Final, Self
 from urllib.parse import quote
 
+import numpy as np
+
 from forcetorque.base.errors import EstimationError, ExperimentError, FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.joint.artefact import sensor_artefact
@@ -43,6 +45,8 @@ class JointData:
     """Every sensor in all recordings, by its name."""
     intervals: tuple[JointInterval, ...]
     """The intervals."""
+    references: Mapping[tuple[str, str], float]
+    """By sensor and name of its linear variables, the value at which each adds nothing."""
     left_out: tuple[str, ...] = ()
     """Intervals in which every part is touched, in words."""
 
@@ -69,8 +73,9 @@ class JointData:
         campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
         for message in readings_twice(_contents(campaigns[names[0]])).values():
             raise ExperimentError(f"{message}; leave one of the two out")
+        references = {pair: value for one in campaigns.values() for pair, value in _references(one)}
         intervals, touched = [], []
-        for label, outcome in _intervals(campaigns[names[0]], names, progress):
+        for label, outcome in _intervals(campaigns[names[0]], names, references, progress):
             if isinstance(outcome, JointInterval):
                 intervals.append(outcome)
             else:
@@ -78,7 +83,7 @@ class JointData:
         if not intervals:
             raise touched[0][1]
         left_out = tuple(f"interval {label!r} is left out: {error}" for label, error in touched)
-        return cls(campaigns=campaigns, intervals=tuple(intervals), left_out=left_out)
+        return cls(campaigns=campaigns, intervals=tuple(intervals), references=references, left_out=left_out)
 
     @property
     def recordings(self) -> tuple[str, ...]:
@@ -116,7 +121,7 @@ class JointData:
             FitError: If there are no equations.
         """
         specified = ModelTolerance() if tolerance is None else tolerance
-        priors = {name: _prior(campaign, specified) for name, campaign in self.campaigns.items()}
+        priors = {name: _prior(campaign, specified, intervals) for name, campaign in self.campaigns.items()}
         return fit_stretches([one.untouched for one in intervals], specified, priors=priors, progress=progress)
 
     def calibrations(
@@ -142,6 +147,9 @@ class JointData:
                 campaign,
                 intervals,
                 result,
+                references={
+                    variable: self.references[owner, variable] for owner, variable in self.references if owner == name
+                },
                 joint_file=JOINT_FILE,
                 code_version=code_version,
                 created=created,
@@ -151,10 +159,38 @@ class JointData:
         }
 
 
-def _prior(campaign: Campaign, tolerance: ModelTolerance) -> SensorPrior:
+def _prior(campaign: Campaign, tolerance: ModelTolerance, intervals: Sequence[JointInterval]) -> SensorPrior:
+    sensor = campaign.sensor
     assumptions = assumptions_of(CampaignRecording.of(campaign.runs[0]))
-    mount = tolerance.mount_of(campaign.sensor.name)
-    return SensorPrior.of(required_prior(campaign.sensor), replace(assumptions, mount=mount))
+    extents = []
+    for variable in sensor.variables:
+        seen = [one.variables.get((sensor.name, variable.linear.name), np.zeros(0)) for one in intervals]
+        values = np.concatenate(seen)
+        finite = values[np.isfinite(values)]
+        extents.append((variable.linear, float(np.ptp(finite)) if len(finite) else 0.0))
+    assumptions = replace(assumptions, mount=tolerance.mount_of(sensor.name))
+    return SensorPrior.of(required_prior(sensor), assumptions, extents)
+
+
+def _references(campaign: Campaign) -> Iterator[tuple[tuple[str, str], float]]:
+    """Values at which the variables of a sensor add nothing: as stated, or the first of its calibration intervals."""
+    for variable in campaign.sensor.variables:
+        name, stated = variable.linear.name, variable.linear.reference_value
+        value = next(_values(campaign, name), None) if stated is None else stated
+        if value is not None:  # without calibration data the first recording says itself what it lacks
+            yield (campaign.sensor.name, name), value
+
+
+def _values(campaign: Campaign, variable: str) -> Iterator[float]:
+    """A variable at the instants of the calibration intervals."""
+    for run in campaign.runs:
+        source = run.sensor.variable(variable).source
+        for part in segment_experiments(run.experiment) or (run.experiment,):
+            stamps = part.recording.stream(campaign.sensor.stream).stamp_ns
+            for interval in part.recording.intervals:
+                if interval.use is Use.CALIBRATION:
+                    values = source.at(part.recording, stamps[interval.holds(stamps)])
+                    yield from values[np.isfinite(values)].tolist()
 
 
 def _contents(campaign: Campaign) -> Iterator[tuple[str, Content | None]]:
@@ -165,7 +201,10 @@ def _contents(campaign: Campaign) -> Iterator[tuple[str, Content | None]]:
 
 
 def _intervals(
-    campaign: Campaign, sensors: Sequence[str], progress: Callable[[str], None]
+    campaign: Campaign,
+    sensors: Sequence[str],
+    references: Mapping[tuple[str, str], float],
+    progress: Callable[[str], None],
 ) -> Iterator[tuple[str, JointInterval | EstimationError]]:
     """Each with its label: what it says, or why no part of it does."""
     runs = [
@@ -186,6 +225,7 @@ def _intervals(
                         recording=campaign.recording(run),
                         session=campaign.session(run, interval.label),
                         segments=segments,
+                        references=references,
                     )
             except EstimationError as error:
                 outcome = error

@@ -5,12 +5,13 @@ The rows of the inference are the components of the equation of every group in e
 those of a fit of one sensor, of all sensors of the group: coefficients, gains, rotation and shift of the frame, and
 errors of the robot model; offsets besides.
 
-    sum over sensors of X (D reading + offset) + J nu = demand - sum of X reading
-    wrench = (1 + D) reading + offset
+    sum over sensors of X (D reading + offset + slopes variables) + J nu = demand - sum of X reading
+    wrench = (1 + D) reading + offset + slopes variables
 
 The reading that stands beside D is the one that the last fit expects: that of the wrenches that are nearest to the
-fitted ones and add up to what the bodies demand. Of a group with one sensor that is the demand itself, as in the fit of
-one sensor. With measured readings in its place, noise in them would shrink all sensors alike.
+fitted ones and add up to what the bodies of all groups demand. Beyond which nothing is touched, that is what the bodies
+demand, as in the fit of one sensor. With measured readings in its place, noise in them would shrink all sensors alike,
+and in directions that loads hardly move draw sensors and zeros of joints far away.
 
 The noise of a row is white, and four windows count as one, because residuals of neighbouring windows are alike. Sizes
 of changes are held at the expected ones: on a real robot misfit of its model passes for changes of the matrices, and
@@ -41,6 +42,8 @@ _OFFSET: Final = Scale(expected=1e3, weight=np.inf)
 Much more would cost the digits that directions need which only the prior tells, such as a joint's zero from the frame
 of the sensor beside it.
 """
+_SLOPE: Final = Scale(expected=1.0, weight=np.inf)
+"""A slope, over what it may be."""
 _WHITE: Final = CANDIDATES[0]
 _REPEATS: Final = 4.0
 """Windows that count as one."""
@@ -78,7 +81,8 @@ def fit_jointly(
     used = [one for one in windows if len(one)]
     if not used:
         raise FitError("joint calibration: no window of any part has readings and motion; look for gaps in the log")
-    places = Places.of([(name, one.stretch.session) for one in used for name in one.sensors], terms)
+    offsets = [(name, one.stretch.session) for one in used for name in one.sensors]
+    places = Places.of(offsets, terms, [pair for one in used for pair in one.slopes])
     unknowns = _Unknowns.of(places, [(priors or {}).get(name, EVEN) for name in places.sensors])
     rows = [row for one in used for row in _rows(one, unknowns, about)]
     data, sizes = [row for row, _ in rows], unknowns.sizes([own for _, own in rows])
@@ -90,7 +94,7 @@ def fit_jointly(
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Unknowns:
-    """Where the unknowns of the inference stand: those of every sensor, offsets by session, errors of the model."""
+    """Where the unknowns of the inference stand: those of every sensor, offsets, slopes, errors of the model."""
 
     places: Places
     """The same by changes of the sensors in place of their unknowns."""
@@ -109,28 +113,36 @@ class _Unknowns:
         return int(self.starts[-1]) - CHANGES * len(self.priors)
 
     def of_part(self, windows: PartWindows) -> tuple[FloatArray, IntArray]:
-        """What changes and offsets of the sensors of a part are in unknowns, and where these and its terms stand."""
+        """What changes, offsets and slopes of a part are in unknowns, and where these and its terms stand."""
         numbers = [self.places.sensors.index(name) for name in windows.sensors]
         sizes = [self.priors[number].basis.shape[1] for number in numbers]
-        k, offsets = len(numbers), LOADS * len(numbers)
-        basis = np.zeros((CHANGES * k + offsets, sum(sizes) + offsets))
+        k, added = len(numbers), LOADS * (len(numbers) + len(windows.slopes))
+        basis = np.zeros((CHANGES * k + added, sum(sizes) + added))
         ends = np.cumsum([0, *sizes])
         for place, number in enumerate(numbers):
             basis[CHANGES * place : CHANGES * (place + 1), ends[place] : ends[place + 1]] = self.priors[number].basis
-        basis[CHANGES * k :, ends[-1] :] = np.eye(offsets)
-        rest = self.places.of_part(windows.sensors, windows.stretch.session, windows.terms)[CHANGES * k :]
+        scales = [np.ones(LOADS * k), *(self.deviation(pair) for pair in windows.slopes)]
+        basis[CHANGES * k :, ends[-1] :] = np.diag(np.concatenate(scales))
+        rest = self.places.of_part(windows.sensors, windows.stretch.session, windows.slopes, windows.terms)
+        rest = rest[CHANGES * k :]
         own = [np.arange(self.starts[number], self.starts[number + 1]) for number in numbers]
         return basis, np.concatenate([*own, rest + self._shift])
 
+    def deviation(self, slope: tuple[str, str]) -> FloatArray:
+        """What a slope may be; shape (6,); in `UNITS` per unit."""
+        sensor, variable = slope
+        return self.priors[self.places.sensors.index(sensor)].slopes[variable]
+
     def sizes(self, rows: Sequence[IntArray]) -> Sizes:
-        """Kinds of the unknowns: of every sensor its own, offsets, and errors of the model of one kind."""
+        """Kinds of the unknowns: of every sensor its own, offsets, slopes, and errors of the model of one kind."""
         scales: list[Scale] = []
         size: list[int] = []
         for prior in self.priors:
             size += [len(scales) + kind for kind in prior.kinds]
             scales += prior.scales
         size += [len(scales)] * (LOADS * len(self.places.offsets))
-        scales.append(_OFFSET)
+        size += [len(scales) + 1] * (LOADS * len(self.places.slopes))
+        scales += [_OFFSET, _SLOPE]
         kinds = list(dict.fromkeys(term.kind for term in self.places.terms))
         size += [len(scales) + kinds.index(term.kind) for term in self.places.terms]
         scales += [MODEL] * len(kinds)
@@ -148,13 +160,19 @@ class _Unknowns:
         return np.arange(len(sizes.expected)) < sum(len(prior.scales) for prior in self.priors)
 
     def fit(self, best: Maximum, deviations: FloatArray) -> JointFit:
-        """Give changes, offsets and errors of the model, if unknowns scatter by `deviations`, no less than taken."""
+        """Give what the places are of, if unknowns scatter by `deviations`, no less than taken."""
         places = self.places
         basis = np.zeros((len(places), len(deviations)))
         for number, (name, prior) in enumerate(zip(places.sensors, self.priors, strict=True)):
             basis[places.changes(name), self.starts[number] : self.starts[number + 1]] = prior.basis
-        first, scales = self.starts[-1], np.ones(len(deviations) - self.starts[-1])
-        scales[len(scales) - len(places.terms) :] = [term.deviation for term in places.terms]
+        first = self.starts[-1]
+        scales = np.concatenate(
+            [
+                np.ones(LOADS * len(places.offsets)),
+                *(self.deviation(pair) for pair in places.slopes),
+                [term.deviation for term in places.terms],
+            ]
+        )
         basis[first - self._shift :, first:] = np.diag(scales)
         covariance = best.solution.covariance()
         pulled = covariance / best.deviations**2 * np.sqrt(deviations**2 - best.deviations**2)
@@ -170,7 +188,7 @@ def _rows(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> 
     """The rows of one part in one interval, with the places of their unknowns."""
     basis, own = unknowns.of_part(windows)
     products = _products(windows, unknowns.places.terms, about)
-    offsets = np.arange(len(basis) - LOADS * len(windows.sensors), len(basis))
+    offsets = CHANGES * len(windows.sensors) + np.arange(LOADS * len(windows.sensors))
     return [
         (
             RowData(
@@ -198,7 +216,8 @@ def _products(windows: PartWindows, terms: Sequence[ErrorTerm], about: JointFit 
         if about is not None:
             known = np.concatenate([about.mean[about.places.changes(name)] for name in windows.sensors])
             right = right - (block.changes - expected) @ known
-        stacked = np.concatenate([expected, block.offsets, block.errors * size, right[:, :, None]], axis=2)
+        columns = [expected, block.offsets, block.of_slopes, block.errors * size, right[:, :, None]]
+        stacked = np.concatenate(columns, axis=2)
         by_row = stacked.transpose(1, 2, 0)
         total = total + by_row @ by_row.transpose(0, 2, 1)
     return np.asarray(total, dtype=np.float64) / _REPEATS

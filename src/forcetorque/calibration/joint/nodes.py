@@ -47,6 +47,9 @@ class Stretch(ArrayRecord):
     """Wrenches of the sensors by their prior matrices, without offset; shape (n, 6) each; N, N m; NaN in gaps."""
     touched: tuple[str, ...] = field(metadata=names())
     """Links that touch, or may touch, the world: nothing is asked of the parts that they are of."""
+    variables: Mapping[tuple[str, str], FloatArray] = field(default_factory=dict, metadata=mapping("n", 1))
+    """By sensor and name, linear variables such as the temperature less their reference values; shape (n, 1) each; in
+    their units; NaN in gaps."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -72,6 +75,7 @@ class Stretch(ArrayRecord):
             joints=self.joints.samples(rows),
             root=self.root.samples(rows),
             readings={name: values[rows] for name, values in self.readings.items()},
+            variables={name: values[rows] for name, values in self.variables.items()},
         )
 
     def pieces(self, length_s: float) -> Iterator[Stretch]:
@@ -99,12 +103,13 @@ _MOTION: Final = ("position", "velocity", "acceleration")
 _OF_ROOT: Final = ("proper_acceleration", "angular_velocity", "angular_acceleration")
 
 
-def _columns(stretch: Stretch) -> dict[tuple[str, str], FloatArray]:
+def _columns(stretch: Stretch) -> dict[tuple[str, Any], FloatArray]:
     """Arrays of a stretch with a row per sample, by what has them and their names."""
-    arrays = {("time", ""): stretch.time_s}
+    arrays: dict[tuple[str, Any], FloatArray] = {("time", ""): stretch.time_s}
     arrays |= {("joints", name): getattr(stretch.joints, name) for name in _MOTION}
     arrays |= {("root", name): getattr(stretch.root, name) for name in _OF_ROOT}
     arrays |= {("readings", name): values for name, values in stretch.readings.items()}
+    arrays |= {("variables", name): values for name, values in stretch.variables.items()}
     return {key: values for key, values in arrays.items() if key[0] == "time" or values.ndim == 2}
 
 
@@ -119,7 +124,7 @@ class StretchRows:
             beside: What else was logged at its instants, by name; shape (n, c) each.
         """
         self._first = stretch.samples(np.arange(0))  # a copy, without the memory of the part
-        self._rows: dict[tuple[str, str], RowsOnDisk] = {}
+        self._rows: dict[tuple[str, Any], RowsOnDisk] = {}
         self.append(stretch, beside)
 
     def append(self, stretch: Stretch, beside: Mapping[str, FloatArray]) -> None:
@@ -139,7 +144,7 @@ class StretchRows:
         Returns:
             The stretch, and what else was logged at its instants.
         """
-        groups: dict[str, dict[str, Any]] = {}
+        groups: dict[str, dict[Any, Any]] = {}
         for (group, name), rows in self._rows.items():
             groups.setdefault(group, {})[name] = rows.mapped()
         stretch = replace(
@@ -148,6 +153,7 @@ class StretchRows:
             joints=replace(self._first.joints, **groups["joints"]),
             root=replace(self._first.root, **groups.get("root", {})),
             readings=groups.get("readings", {}),
+            variables=groups.get("variables", {}),
         )
         return stretch, groups.get("beside", {})
 
@@ -236,6 +242,7 @@ class WindowNodes:
             root=RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate),
             readings={name: self._at_nodes(values) for name, values in stretch.readings.items()},
             touched=stretch.touched,
+            variables={name: self._at_nodes(values) for name, values in stretch.variables.items()},
         )
 
     def rates(self, values: FloatArray) -> FloatArray:

@@ -52,12 +52,16 @@ def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
     """
     if fit is None:
         return residuals_by(windows, {name: np.eye(LOADS) for name in windows.sensors}, None)
-    unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
+    places = fit.places.of_part(windows.sensors, windows.stretch.session, windows.slopes, windows.terms)
+    unknowns = fit.mean[places]
     return np.concatenate([block.columns @ unknowns - block.right for block in windows.blocks()])
 
 
 def residuals_by(
-    windows: PartWindows, factors: Mapping[str, FloatArray], offsets: Mapping[str, FloatArray] | None
+    windows: PartWindows,
+    factors: Mapping[str, FloatArray],
+    offsets: Mapping[str, FloatArray] | None,
+    slopes: Mapping[tuple[str, str], FloatArray] | None = None,
 ) -> FloatArray:
     """Give what is left of the equations of a part by given calibrations, of a model that is taken for exact.
 
@@ -65,12 +69,17 @@ def residuals_by(
         windows: Its windows.
         factors: What wrenches by the prior matrix of a sensor are to be multiplied by; shape (6, 6); N, N m.
         offsets: What is to be added to them; shape (6,); N, N m; None for what suits these windows best.
+        slopes: What is to be added besides per unit of every variable of the windows, by sensor and variable; shape
+            (6,) each; N, N m per unit; None for nothing.
 
     Returns:
         Left side less right side; shape (w, 6); in `UNITS`.
     """
     changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(LOADS)).ravel() for name in windows.sensors]
     left = np.concatenate([block.changes @ np.concatenate(changes) - block.right for block in windows.blocks()])
+    if slopes:
+        per_unit = np.concatenate([slopes[pair] / UNITS for pair in windows.slopes])
+        left = left + np.concatenate([block.of_slopes @ per_unit for block in windows.blocks()])
     of_offsets = np.concatenate([block.offsets for block in windows.blocks()])
     if offsets is None:
         columns = of_offsets.reshape(-1, of_offsets.shape[2])

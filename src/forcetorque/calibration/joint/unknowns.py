@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final, Self
 
 import numpy as np
@@ -20,9 +20,11 @@ from forcetorque.experiment.calibration.expected_sensor_errors import (
     Scale,
     mount_scales,
     sensor_root,
+    variable_deviation,
 )
 from forcetorque.experiment.calibration.joint_posterior import LENGTH_M
 from forcetorque.experiment.calibration.robot_model_error import ZERO, ErrorTerm
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 UNITS: Final = np.array([1.0, 1.0, 1.0, LENGTH_M, LENGTH_M, LENGTH_M])
 """Unit of every component; N, N m."""
@@ -32,7 +34,7 @@ CHANGES: Final = 36
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Places:
-    """Where the unknowns stand: changes of every sensor, offsets by session, errors of the model."""
+    """Where the unknowns stand: changes of every sensor, offsets by session, slopes, errors of the model."""
 
     sensors: tuple[str, ...]
     """Sensors."""
@@ -40,14 +42,22 @@ class Places:
     """Number of the offset of a sensor in a session."""
     terms: tuple[ErrorTerm, ...]
     """Errors of the model."""
+    slopes: Mapping[tuple[str, str], int]
+    """Number of the slope of a sensor by a variable."""
 
     @classmethod
-    def of(cls, offsets: Iterable[tuple[str, str]], terms: Sequence[ErrorTerm]) -> Places:
+    def of(
+        cls,
+        offsets: Iterable[tuple[str, str]],
+        terms: Sequence[ErrorTerm],
+        slopes: Iterable[tuple[str, str]] = (),
+    ) -> Places:
         """Lay out the unknowns of equations.
 
         Args:
             offsets: Sensor and session of every offset in the equations; repeated pairs count once.
             terms: Errors of the model.
+            slopes: Sensor and variable of every slope in the equations; repeated pairs count once.
 
         Returns:
             The places.
@@ -57,10 +67,11 @@ class Places:
             sensors=tuple(dict.fromkeys(name for name, _ in pairs)),
             offsets={pair: number for number, pair in enumerate(pairs)},
             terms=tuple(terms),
+            slopes={pair: number for number, pair in enumerate(dict.fromkeys(slopes))},
         )
 
     def __len__(self) -> int:
-        return CHANGES * len(self.sensors) + LOADS * len(self.offsets) + len(self.terms)
+        return CHANGES * len(self.sensors) + LOADS * (len(self.offsets) + len(self.slopes)) + len(self.terms)
 
     def changes(self, sensor: str) -> slice:
         """Give the places of the changes of a sensor, row by row.
@@ -80,17 +91,29 @@ class Places:
         start = CHANGES * len(self.sensors) + LOADS * self.offsets[sensor, session]
         return slice(start, start + LOADS)
 
+    def slope(self, sensor: str, variable: str) -> slice:
+        """Give the places of a slope.
+
+        Returns:
+            Six places.
+        """
+        start = CHANGES * len(self.sensors) + LOADS * (len(self.offsets) + self.slopes[sensor, variable])
+        return slice(start, start + LOADS)
+
     @property
     def errors(self) -> slice:
         """The places of the errors of the model."""
         return slice(len(self) - len(self.terms), len(self))
 
-    def of_part(self, sensors: Sequence[str], session: str, terms: Sequence[str]) -> IntArray:
+    def of_part(
+        self, sensors: Sequence[str], session: str, slopes: Sequence[tuple[str, str]], terms: Sequence[str]
+    ) -> IntArray:
         """Give the places of the coefficients of a part.
 
         Args:
             sensors: Its sensors.
             session: The session.
+            slopes: Sensor and variable of its slopes.
             terms: Names of the errors of the model that it depends on.
 
         Returns:
@@ -98,6 +121,7 @@ class Places:
         """
         own = [self.changes(name) for name in sensors]
         own += [self.offset(name, session) for name in sensors]
+        own += [self.slope(*pair) for pair in slopes]
         numbers = {term.name: number for number, term in enumerate(self.terms, start=self.errors.start)}
         return np.concatenate(
             [*(np.arange(s.start, s.stop) for s in own), np.array([numbers[name] for name in terms], dtype=np.int64)]
@@ -134,31 +158,62 @@ class JointFit:
         """
         return self.mean[self.places.offset(sensor, session)] * UNITS
 
-    def wrench(self, sensor: str, session: str, readings: FloatArray) -> FloatArray:
+    def slope(self, sensor: str, variable: str) -> FloatArray:
+        """Give what is to be added to the wrenches of a sensor per unit of a variable.
+
+        Returns:
+            Slope; shape (6,); N, N m per unit.
+        """
+        return self.mean[self.places.slope(sensor, variable)] * UNITS
+
+    def added(self, sensor: str, session: str, variables: Mapping[tuple[str, str], FloatArray]) -> FloatArray:
+        """Give what is to be added to the wrenches of a sensor at some instants.
+
+        Args:
+            sensor: The sensor.
+            session: The session.
+            variables: By sensor and name, variables less their reference values; shape (n, 1) each.
+
+        Returns:
+            Offset and what the variables add; shape (6,), or (n, 6) where the sensor has variables; N, N m.
+        """
+        total = self.offset(sensor, session)
+        for (owner, name), values in variables.items():
+            if owner == sensor:
+                total = total + values * self.slope(sensor, name)
+        return total
+
+    def wrench(
+        self, sensor: str, session: str, readings: FloatArray, variables: Mapping[tuple[str, str], FloatArray]
+    ) -> FloatArray:
         """Correct what a sensor reads by its prior matrix.
 
         Args:
             sensor: The sensor.
             session: The session.
             readings: Wrenches by the prior matrix, without offset; shape (n, 6); N, N m.
+            variables: As of `added`.
 
         Returns:
             Wrenches; shape (n, 6); N, N m.
         """
-        return readings @ self.change(sensor).T + self.offset(sensor, session)
+        return readings @ self.change(sensor).T + self.added(sensor, session, variables)
 
-    def reading(self, sensor: str, session: str, wrenches: FloatArray) -> FloatArray:
+    def reading(
+        self, sensor: str, session: str, wrenches: FloatArray, variables: Mapping[tuple[str, str], FloatArray]
+    ) -> FloatArray:
         """Give what a sensor reads of wrenches by its prior matrix.
 
         Args:
             sensor: The sensor.
             session: The session.
             wrenches: Wrenches; shape (n, 6); N, N m.
+            variables: As of `added`.
 
         Returns:
             Readings without offset; shape (n, 6); N, N m.
         """
-        readings = np.linalg.solve(self.change(sensor), (wrenches - self.offset(sensor, session)).T).T
+        readings = np.linalg.solve(self.change(sensor), (wrenches - self.added(sensor, session, variables)).T).T
         return np.asarray(readings, dtype=np.float64)
 
     def joint_zeros(self) -> dict[str, float]:
@@ -217,18 +272,26 @@ class SensorPrior:
     """Expected sizes of their kinds."""
     kinds: tuple[int, ...]
     """Number of the kind of every unknown; q of them."""
+    slopes: Mapping[str, FloatArray] = field(default_factory=dict)
+    """Standard deviation of what a unit of every variable may add; shape (6,) each; in `UNITS` per unit."""
 
     @classmethod
-    def of(cls, matrix: FloatArray, assumptions: Assumptions) -> Self:
+    def of(
+        cls, matrix: FloatArray, assumptions: Assumptions, extents: Sequence[tuple[LinearVariable, float]] = ()
+    ) -> Self:
         """Tell it from a prior matrix.
 
         Args:
             matrix: Prior matrix; shape (6, c); N/count, N m/count.
             assumptions: Full scales of the channels, and how far matrix and frame may be off.
+            extents: Linear variables, and over which range each was seen.
 
         Returns:
             The prior distribution: every coefficient relative to the root mean square of its row, gains of channels,
-            rotation (rad) and shift (m) of the frame.
+            rotation (rad) and shift (m) of the frame; slopes by what is stated, or of all channels together.
+
+        Raises:
+            FitError: If nothing is known of a slope, and its variable never moved.
         """
         channels = matrix.shape[1]
         require_shape(assumptions.full_scale, name="full_scale", shape=(channels,))
@@ -247,6 +310,10 @@ class SensorPrior:
             basis=basis.reshape(CHANGES, -1),
             scales=(expected, expected, GAIN, *mount_scales(assumptions.mount)),
             kinds=tuple(np.repeat(np.arange(5), [CHANGES // 2, CHANGES // 2, channels, 3, 3]).tolist()),
+            slopes={
+                variable.name: variable_deviation(variable, np.sqrt((scaled**2).sum(axis=1)), extent) / UNITS
+                for variable, extent in extents
+            },
         )
 
 

@@ -148,6 +148,8 @@ class JointInterval:
     """Its equations, and what is needed for them."""
     raw: Mapping[str, RawWindows]
     """Raw readings by the names of the sensors."""
+    variables: Mapping[tuple[str, str], FloatArray]
+    """By sensor and name, means of linear variables less their reference values; shape (w,) each; in their units."""
 
 
 def joint_interval(
@@ -159,6 +161,7 @@ def joint_interval(
     recording: str | None = None,
     session: str | None = None,
     segments: Sequence[Experiment] = (),
+    references: Mapping[tuple[str, str], float] | None = None,
 ) -> JointInterval:
     """Take what an interval says of several sensors at once.
 
@@ -171,6 +174,7 @@ def joint_interval(
         session: Session that the interval is of, among those of other recordings; by its file if None.
         segments: The experiment in the segments of a long recording, which are read one after the other; samples are
             then in temporary files.
+        references: Linear variables to take by sensor and name, and the value at which each adds nothing; none if None.
 
     Returns:
         Readings by the prior matrices, at the instants of the first sensor, and the motion of the robot. Parts whose
@@ -180,7 +184,7 @@ def joint_interval(
         ExperimentError: If the interval has no support, or of no untouched part all joints are in the log.
         RecordingError: If no sample of the interval can be used.
     """
-    setup = _Setup.of(experiment, interval, sensors)
+    setup = _Setup.of(experiment, interval, sensors, {} if references is None else references)
     parts = _parts(experiment, interval, setup, segments)
     untouched, raw, counts = next(parts)
     unusable = {sensor.name: [counts[sensor.name]] if sensor.name in counts else [] for sensor in setup.used}
@@ -206,6 +210,7 @@ def joint_interval(
         raw={
             name: RawWindows.of(stretch, values, UnusableCounts.total(unusable[name])) for name, values in raw.items()
         },
+        variables={pair: window_means(stretch, values)[1][:, 0] for pair, values in stretch.variables.items()},
     )
 
 
@@ -217,9 +222,16 @@ class _Setup(NamedTuple):
     tree: BodyTree
     logged: LoggedParts
     used: list[ExperimentSensor]
+    references: Mapping[tuple[str, str], float]
 
     @classmethod
-    def of(cls, experiment: Experiment, interval: Interval, sensors: Sequence[str]) -> Self:
+    def of(
+        cls,
+        experiment: Experiment,
+        interval: Interval,
+        sensors: Sequence[str],
+        references: Mapping[tuple[str, str], float],
+    ) -> Self:
         support = interval.support
         if support is None:
             raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
@@ -242,7 +254,7 @@ class _Setup(NamedTuple):
             require_overlap(source, other)
         joints = (*logged.joints(tree), *joints_to_support(experiment.model, experiment.recording, support))
         require_motion_overlap(experiment.recording, support, joints, source, processing=experiment.processing)
-        return cls(support, touched, tree, logged, used)
+        return cls(support, touched, tree, logged, used, references)
 
 
 class _LoggedPart(NamedTuple):
@@ -285,7 +297,7 @@ def _has_sample(experiment: Experiment, sensor: ExperimentSensor, interval: Inte
 
 def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Sequence[ExperimentSensor]) -> _LoggedPart:
     """A part, in which the sensors that are read have samples; the others are NaN."""
-    support, touched, tree, logged, used = setup
+    support, touched, tree, logged, used, references = setup
     source = experiment.recording.stream(used[0].stream)
     samples = padded_samples(experiment.recording, source, interval, None)
     joints, root = robot_motion_at(
@@ -300,6 +312,16 @@ def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Seque
     )
     priors = {sensor.name: required_prior(sensor) for sensor in used}
     raw = {sensor.name: readings_at(experiment, sensor, (), samples.stamp_ns).raw for sensor in used}
+    readings = {name: raw[name] @ prior.T for name, prior in priors.items()}
+    variables = {}
+    for sensor in used:
+        for variable in sensor.variables:
+            pair = sensor.name, variable.linear.name
+            if pair in references:
+                values = variable.source.at(experiment.recording, samples.stamp_ns)
+                variables[pair] = values[:, None] - references[pair]
+                if variable.linear.prior is not None:
+                    readings[sensor.name] = readings[sensor.name] + variables[pair] * variable.linear.prior
     stretch = Stretch(
         label=interval.label,
         recording=experiment.name,
@@ -308,8 +330,9 @@ def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Seque
         tree=tree,
         joints=joints,
         root=root,
-        readings={name: raw[name] @ prior.T for name, prior in priors.items()},
+        readings=readings,
         touched=touched,
+        variables=variables,
     )
     return _LoggedPart(
         untouched=UntouchedStretch(
@@ -336,6 +359,16 @@ def required_prior(sensor: ExperimentSensor) -> FloatArray:
             'its data sheet as `prior`, or "identity" for a log of wrenches'
         )
     return sensor.prior
+
+
+def expected_slope(sensor: ExperimentSensor, variable: str) -> FloatArray:
+    """Give what the experiment file expects a unit of a variable to add to the readings of a sensor.
+
+    Returns:
+        Slope; shape (6,); N, N m per unit.
+    """
+    prior = sensor.variable(variable).linear.prior
+    return np.zeros(6) if prior is None else prior
 
 
 def part_residuals(experiment: Experiment, calibrations: Mapping[str, Calibration], use: Use) -> list[PartResidual]:
@@ -369,8 +402,12 @@ def _residuals(
     calibrations: Mapping[str, Calibration],
     segments: Sequence[Experiment],
 ) -> Iterator[PartResidual]:
+    variables = {(name, own.name): own for name, one in calibrations.items() for own in one.variables}
+    references = {pair: own.reference_value for pair, own in variables.items()}
     try:
-        one = joint_interval(experiment, interval, list(calibrations), segments=segments).untouched
+        one = joint_interval(
+            experiment, interval, list(calibrations), segments=segments, references=references
+        ).untouched
     except OutputError:
         raise
     except ForceTorqueError:  # no support, or something touches every part: then there is nothing to add up
@@ -390,5 +427,10 @@ def _residuals(
             name: calibration.matrix @ np.linalg.pinv(required_prior(experiment.sensor(name)))
             for name, calibration in own.items()
         }
-        left = residuals_by(windows, factors, offsets if len(offsets) == len(own) else None)
+        # the readings hold what the file expects of the variables already
+        slopes = {
+            pair: variables[pair].coefficients - factors[pair[0]] @ expected_slope(experiment.sensor(pair[0]), pair[1])
+            for pair in windows.slopes
+        }
+        left = residuals_by(windows, factors, offsets if len(offsets) == len(own) else None, slopes)
         yield PartResidual.of(windows, left, np.ones(len(windows), dtype=bool))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Equations of parts as means over windows, linear in what is unknown of the sensors and of the model.
 
-    sum over sensors of X (D y + o) + J nu = demand - sum of X y           calibrated wrench = (1 + D) y + o
+    sum over sensors of X (D y + o + S v) + J nu = demand - sum of X y     calibrated wrench = (1 + D) y + o + S v
 
 Equations are averaged, not signals: a mean of equations is an equation, whatever moves meanwhile. Readings carry noise,
 which stands in their own coefficients; what it adds to the products of these is kept beside them.
@@ -58,6 +58,8 @@ class PartWindows:
     """The k sensors of the part."""
     terms: tuple[str, ...]
     """Names of the errors of the model that the part depends on."""
+    slopes: tuple[tuple[str, str], ...]
+    """Sensor and name of the m linear variables of its sensors."""
     time_s: FloatArray
     """Mean instants; shape (w,); s."""
     counts: IntArray
@@ -69,6 +71,8 @@ class PartWindows:
     expected: FloatArray
     """Readings of wrenches that are nearest to those of the fit that is known and make the equation hold; shape
     (w, 3, k, 6)."""
+    variables: FloatArray
+    """Variables less their reference values, at the nodes; shape (w, 3, m)."""
     errors: FloatArray
     """Coefficients of the errors of the model; shape (w, 6, terms)."""
     right: FloatArray
@@ -104,6 +108,13 @@ class PartWindows:
         return means.reshape(len(self), LOADS, LOADS * len(self.sensors))
 
     @property
+    def of_slopes(self) -> FloatArray:
+        """Coefficients of what a unit of every variable adds; shape (w, 6, 6 m)."""
+        own = self.transmission[:, :, [self.sensors.index(sensor) for sensor, _ in self.slopes]]
+        means = np.einsum("wnmia,wnm->wima", own, WEIGHTS[:, None] * self.variables)
+        return means.reshape(len(self), LOADS, LOADS * len(self.slopes))
+
+    @property
     def spread(self) -> FloatArray:
         """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
         weighted = (WEIGHTS / self.counts[:, None])[:, :, None, None, None] * self.transmission
@@ -111,8 +122,8 @@ class PartWindows:
 
     @property
     def columns(self) -> FloatArray:
-        """Coefficients of all that is unknown: changes, offsets, errors of the model; shape (w, 6, p)."""
-        return np.concatenate([self.changes, self.offsets, self.errors], axis=2)
+        """Coefficients of all that is unknown: changes, offsets, slopes, errors of the model; shape (w, 6, p)."""
+        return np.concatenate([self.changes, self.offsets, self.of_slopes, self.errors], axis=2)
 
     def blocks(self) -> Iterator[PartWindows]:
         """Cut the windows into blocks, whose coefficients take little room.
@@ -138,7 +149,7 @@ class PartWindows:
         return replace(self, **dict(zip(_BY_WINDOW, kept, strict=True)))
 
 
-_BY_WINDOW = ("time_s", "counts", "transmission", "readings", "expected", "errors", "right")
+_BY_WINDOW = ("time_s", "counts", "transmission", "readings", "expected", "variables", "errors", "right")
 
 
 def part_windows(
@@ -234,7 +245,8 @@ def _piece_windows(
         for name, values in demanded.items():
             turned = equation.turned(tree, name.removeprefix(ZERO), through)
             own[name] = windows.node_means(turned) + values
-        result = _averaged(stretch, _Terms.of(equation, terms, own), windows, nodes, wrenches, about)
+        result = _averaged(_Terms.of(equation, terms, own), windows, nodes, wrenches, about)
+        result = replace(result, stretch=stretch)
         touched = equation.part not in parts
         yield result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)])) if touched else result
 
@@ -310,7 +322,7 @@ def _balanced(equations: Sequence[_Terms], nodes: Stretch, about: JointFit | Non
         By sensor.
     """
     wrenches = {
-        name: values if about is None else about.wrench(name, nodes.session, values)
+        name: values if about is None else about.wrench(name, nodes.session, values, nodes.variables)
         for name, values in nodes.readings.items()
     }
     if not equations:
@@ -339,7 +351,6 @@ def _balanced(equations: Sequence[_Terms], nodes: Stretch, about: JointFit | Non
 
 
 def _averaged(
-    stretch: Stretch,
     terms: _Terms,
     windows: WindowNodes,
     nodes: Stretch,
@@ -352,33 +363,37 @@ def _averaged(
     known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms.terms])
     transmission = equation.transmission * (UNITS / UNITS[:, None])
     readings = np.stack([nodes.readings[name] for name in equation.sensors], axis=1) / UNITS
+    slopes = tuple(pair for pair in nodes.variables if pair[0] in equation.sensors)
+    variables = np.concatenate([np.empty((len(nodes), 0)), *(nodes.variables[pair] for pair in slopes)], axis=1)
+    variables = variables.reshape(w, NODES, len(slopes))
     right = equation.demand / UNITS - np.einsum("nkij,nkj->ni", transmission, readings)
     result = PartWindows(
         part=equation.part.name,
-        stretch=stretch,
+        stretch=nodes,
         sensors=equation.sensors,
         terms=tuple(term.name for term in terms.terms),
+        slopes=slopes,
         time_s=windows.time_s,
         counts=windows.counts,
         transmission=transmission.reshape(w, NODES, k, LOADS, LOADS),
         readings=readings.reshape(w, NODES, k, LOADS),
-        expected=_expected(stretch, terms, wrenches, about).reshape(w, NODES, k, LOADS),
+        expected=_expected(terms, nodes, wrenches, about).reshape(w, NODES, k, LOADS),
+        variables=variables,
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.node_means(right) + errors @ known,
         rows=equation.rows,
-        mass_kg=sum(stretch.tree.bodies[k].inertia.mass for k in equation.part.bodies),
-        mass_shares=mass_shares(stretch.tree, equation.part, terms.terms),
+        mass_kg=sum(nodes.tree.bodies[k].inertia.mass for k in equation.part.bodies),
+        mass_shares=mass_shares(nodes.tree, equation.part, terms.terms),
     )
     whole = [
-        np.isfinite(values).reshape(w, -1).all(axis=1) for values in (result.right, transmission, readings, errors)
+        np.isfinite(values).reshape(w, -1).all(axis=1)
+        for values in (result.right, transmission, readings, variables, errors)
     ]
     return result.kept(np.logical_and.reduce(whole))
 
 
-def _expected(
-    stretch: Stretch, terms: _Terms, wrenches: Mapping[str, FloatArray], about: JointFit | None
-) -> FloatArray:
+def _expected(terms: _Terms, nodes: Stretch, wrenches: Mapping[str, FloatArray], about: JointFit | None) -> FloatArray:
     """Readings by the prior matrices of wrenches that add up to what the bodies demand; shape (n, k, 6); in `UNITS`."""
     transmission, missing = terms.transmission, terms.missing(wrenches, about)
     # the least change of all wrenches; by a row that is left out none
@@ -389,7 +404,7 @@ def _expected(
     ]
     if about is not None:
         balanced = [
-            about.reading(name, stretch.session, one)
+            about.reading(name, nodes.session, one, nodes.variables)
             for name, one in zip(terms.equation.sensors, balanced, strict=True)
         ]
     return np.stack(balanced, axis=1) / UNITS

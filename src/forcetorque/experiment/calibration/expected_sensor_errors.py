@@ -101,6 +101,32 @@ def variable_size(variable: LinearVariable, from_load: FloatArray) -> float | No
     return DRIFT_SHARE_PER_DEGREE if variable.unit in _DEGREES else None
 
 
+def variable_deviation(variable: LinearVariable, full_scale: FloatArray, extent: float) -> FloatArray:
+    """Say what a unit of a variable may add to every component of the wrench.
+
+    Args:
+        variable: The variable.
+        full_scale: Wrench of all channels at full scale; shape (6,); N, N m.
+        extent: Range over which the variable was seen.
+
+    Returns:
+        Standard deviation; shape (6,); N, N m per unit.
+
+    Raises:
+        FitError: If nothing is stated and a variable in no unit of temperature never moved.
+    """
+    if variable.prior_deviation is not None:
+        return variable.prior_deviation
+    if variable.unit in _DEGREES:
+        return DRIFT_SHARE_PER_DEGREE * full_scale
+    if extent == 0.0:
+        raise FitError(
+            f"variable {variable.name!r}: its value is the same throughout the fitted data, which says nothing of its "
+            "coefficients; fit data at several values, state prior_deviation, or leave it out"
+        )
+    return VARIABLE_SHARE / extent * full_scale
+
+
 def mount_scales(mount: MountTolerance) -> tuple[Scale, Scale]:
     """Give the expected sizes of rotation (rad) and shift (m) of the frame of a sensor.
 

@@ -19,7 +19,7 @@ LENGTH_M: Final = 0.1
 
 
 class JointSensor(StoredTable):
-    """A sensor of a joint fit: 36 unknowns D row by row, with `wrench = (1 + D) prior raw + offset`."""
+    """A sensor of a joint fit: 36 unknowns D row by row, with `wrench = (1 + D) prior raw + offset`, and slopes."""
 
     name: str
     """Name in the robot model."""
@@ -36,6 +36,15 @@ class JointOffset(StoredTable):
     """Session."""
 
 
+class JointSlope(StoredTable):
+    """What a unit of a variable adds in a joint fit: six unknowns, beside what is expected of it in the file."""
+
+    sensor: str
+    """Name of the sensor."""
+    variable: str
+    """Name of the variable."""
+
+
 class JointTerm(StoredTable):
     """An error of the robot model or of the IMU: one unknown."""
 
@@ -48,7 +57,7 @@ class JointTerm(StoredTable):
 
 
 class JointPosterior(StoredTable):
-    """Mean and covariance of all that was unknown: changes of the sensors, then offsets, then errors of the model."""
+    """Mean and covariance of all that was unknown: changes of the sensors, offsets, slopes, errors of the model."""
 
     model_config = ConfigDict(
         defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
@@ -60,6 +69,8 @@ class JointPosterior(StoredTable):
     """Sensors."""
     offsets: tuple[JointOffset, ...]
     """Offsets."""
+    slopes: tuple[JointSlope, ...] = ()
+    """Slopes by linear variables such as the temperature."""
     terms: tuple[JointTerm, ...]
     """Errors of the model."""
     length_m: float = LENGTH_M

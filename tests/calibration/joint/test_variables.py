@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Linear variables such as the temperature among the unknowns of a joint fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.joint.calibrate import calibrate_jointly
+from forcetorque.calibration.joint.fit import fit_jointly
+from forcetorque.calibration.joint.nodes import Stretch
+from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit, SensorPrior
+from forcetorque.calibration.joint.windows import part_windows
+from forcetorque.experiment.calibration.expected_sensor_errors import variable_deviation
+from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
+from tests.calibration.joint.swaying import FEET, SENSORS, swaying
+from tests.scenes.studies import CALIBRATION, SENSOR, scenario
+
+SLOPE = np.array([0.8, -0.5, 0.3, 0.04, 0.0, -0.06])
+"""N, N m per degree."""
+
+
+def _fitted(stretch: Stretch, priors: Mapping[str, SensorPrior]) -> JointFit:
+    parts = untouched_parts(stretch.tree, SENSORS, FEET)
+    fit = None
+    for _ in range(2):
+        fit = fit_jointly(part_windows(stretch, parts, (), about=fit), priors=priors, about=fit)
+    assert fit is not None
+    return fit
+
+
+def test_a_slope_is_found_and_no_change_of_the_matrix_stands_for_it() -> None:
+    """A sensor that warms up by 8 degrees: within four standard deviations, and its matrix as well known as cold."""
+    cold, (sensor, *_) = swaying(11), SENSORS
+    warmer = 8.0 * (1.0 - np.exp(-cold.stretch.time_s / 6.0))[:, None]
+    drifting = cold.stretch.readings[sensor] - warmer * np.linalg.solve(cold.change[sensor], SLOPE)
+    readings = {**cold.stretch.readings, sensor: drifting}
+    stretch = replace(cold.stretch, readings=readings, variables={(sensor, "temperature"): warmer})
+    priors = {sensor: replace(EVEN, slopes={"temperature": np.ones(6)})}
+    fit = _fitted(stretch, priors)
+    deviation = np.sqrt(np.diag(fit.covariance)[fit.places.slope(sensor, "temperature")]) * UNITS
+    assert (np.abs(fit.slope(sensor, "temperature") - SLOPE) < 4.0 * deviation).all()
+    assert (deviation < 0.02 * np.abs(SLOPE).max()).all()
+
+    def off(other: JointFit) -> float:
+        return float(np.linalg.norm((other.change(sensor) - cold.change[sensor]) / UNITS[:, None] * UNITS))
+
+    steady = off(_fitted(cold.stretch, {}))
+    assert off(fit) < 1.5 * steady
+    # negative control: taken as constant the warming passes for a change of the matrix
+    assert off(_fitted(replace(stretch, variables={}), {})) > 3.0 * steady
+
+
+def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path) -> None:
+    """The channels drift by some 10 counts per degree in the study that is simulated: found within four deviations."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    (entry,) = calibrate_jointly([experiment], "joint", [SENSOR], code_version="1", created="2020").calibrations
+    calibration = entry.calibration
+    (temperature,) = calibration.variables
+    drift = scenario().specimens[SENSOR].sensor.drift
+    assert drift is not None
+    error = temperature.coefficients + calibration.matrix @ drift.slope
+    assert temperature.standard_error is not None
+    assert (np.abs(error) < 4.0 * temperature.standard_error).all()
+    largest = np.argmax(np.abs(temperature.coefficients))
+    assert temperature.standard_error[largest] < 0.2 * abs(temperature.coefficients[largest])
+    assert calibration.posterior is not None
+    assert calibration.posterior.variables == ("temperature",)
+    # what it adds stands in the posterior too, of readings in the same units
+    added = -calibration.posterior.to_wrench @ calibration.posterior.mean[:, 6]
+    np.testing.assert_allclose(added, temperature.coefficients, rtol=1e-9)
+
+
+def test_a_slope_of_which_nothing_is_known_needs_a_variable_that_moves() -> None:
+    """A temperature has an expected size; of a voltage only the range that was seen tells one."""
+    full_scale, voltage = np.full(6, 100.0), LinearVariable(name="supply", unit="V")
+    degrees = LinearVariable(name="temperature", unit="degC")
+    np.testing.assert_allclose(variable_deviation(degrees, full_scale, 0.0), 0.5)
+    np.testing.assert_allclose(variable_deviation(voltage, full_scale, 4.0), 25.0)
+    with pytest.raises(FitError, match="'supply'.*at several values"):
+        variable_deviation(voltage, full_scale, 0.0)
