@@ -254,6 +254,16 @@ def test_rounding_is_told_from_a_negative_variance_in_any_unit(size: float) -> N
         wrench_covariances(size * shape, name="skin", samples=1)
 
 
+@pytest.mark.parametrize("size", [1e-8, 1.0, 1e8])
+def test_rounding_is_told_from_an_asymmetry_in_any_unit(size: float) -> None:
+    """A covariance of any size may be as unsymmetric as rounding makes it, and no more."""
+    shape = np.eye(6) + 1e-13 * np.eye(6, k=1)
+    np.testing.assert_array_equal(wrench_covariances(size * shape, name="skin", samples=1)[0], size * shape)
+    shape[0, 1] = 1e-4
+    with pytest.raises(EstimationError, match="a symmetric matrix"):
+        wrench_covariances(size * shape, name="skin", samples=1)
+
+
 def test_the_residual_is_what_neither_unknowns_nor_errors_explain() -> None:
     """All parts add up to what is needed, and no change of the unknowns would make the residual smaller."""
     rng = np.random.default_rng(8)

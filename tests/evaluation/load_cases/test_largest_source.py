@@ -3,11 +3,19 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 import pytest
 
 from forcetorque.evaluation.load_cases.predicted_error import ErrorMagnitude, ErrorSource, PredictedError
-from forcetorque.evaluation.load_cases.verdict import ADVICE_BY_SOURCE, error_reduction_advice, largest_source
+from forcetorque.evaluation.load_cases.verdict import (
+    ADVICE_BY_SOURCE,
+    LoadCaseAssessment,
+    error_reduction_advice,
+    largest_source,
+)
 
 
 def _magnitude(at_most: float, largest: ErrorSource) -> ErrorMagnitude:
@@ -41,3 +49,19 @@ def test_advice_is_about_the_largest_share_of_what_is_allowed(
     assert (
         error_reduction_advice(error, allowed) == f"Most of the {quantity} error comes from {ADVICE_BY_SOURCE[source]}"
     )
+
+
+@pytest.mark.parametrize(("error_N", "is_unmeasured"), [(2.7, True), (2.9, False)])
+def test_an_error_is_of_the_loads_that_are_not_measured_if_half_of_its_square_is(
+    error_N: float, is_unmeasured: bool
+) -> None:
+    """10 N m about x that nothing measures add 2 N along y: 4 of 7.3 or of 8.4 N^2, and nothing to the moment."""
+    cross_talk = np.zeros((6, 6))
+    cross_talk[1, 3] = 0.2
+    loads = np.zeros((50, 6))
+    loads[:, 3] = np.tile([10.0, -10.0], 25)
+    assessment = cast("LoadCaseAssessment", SimpleNamespace(posterior=SimpleNamespace(cross_talk=cross_talk)))
+    assert LoadCaseAssessment._is_unmeasured(assessment, loads, slice(3), error_N) == is_unmeasured
+    assert not LoadCaseAssessment._is_unmeasured(assessment, loads, slice(3, 6), 0.1)
+    unknown = cast("LoadCaseAssessment", SimpleNamespace(posterior=None))
+    assert not LoadCaseAssessment._is_unmeasured(unknown, loads, slice(3), 0.1)

@@ -151,12 +151,14 @@ CASES: dict[str, tuple[Callable[[], LoadProblem], str, str]] = {
 
 @pytest.mark.parametrize("name", CASES)
 def test_bad_input_is_named(name: str) -> None:
-    """The first hypothesis is the fault, and says what to change."""
+    """The first hypothesis is the fault, and says what to change; a unit explains no residual."""
     make, wanted, words = CASES[name]
     named = solve(make()).hypotheses
     assert named
     assert named[0].name == wanted
     assert words in named[0].description
+    if wanted in ("mixed units", "unit of gravity", "frozen log", "no load"):
+        assert named[0].residual_share == 1.0  # a factor of all rows leaves as much as before
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import pytest
@@ -16,10 +18,13 @@ from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.pad_lags import PadFilter
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
-from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
+from forcetorque.skin.temperature.warm_up_calibration import _warnings, fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of, late_pads
 from tests.skin.contact_trials import chamber_table
+
+if TYPE_CHECKING:
+    from forcetorque.skin.experiment import ExperimentPatch
 
 SHANK = WarmShank.drawn()
 LAYOUT = SHANK.layout
@@ -93,9 +98,14 @@ def test_one_late_pad_is_told_from_the_others() -> None:
 
 
 def test_pads_that_lead_are_held_back() -> None:
-    """They feel heat before the taxels do."""
-    lags = HeatGains.learned(fit_warm_up("warm", *_shifted(-15 * RATE_HZ), LAYOUT).taxels).lags
+    """They feel heat before the taxels do, which is said in number and in seconds."""
+    learned = fit_warm_up("warm", *_shifted(-15 * RATE_HZ), LAYOUT)
+    lags = HeatGains.learned(learned.taxels).lags
     assert np.median(lags) == pytest.approx(-LAG_S, abs=4.0)
+    assert (lags < 0.0).all()
+    patch = cast("ExperimentPatch", SimpleNamespace(taxels=range(len(learned.taxels))))
+    (words,) = (one for one in _warnings(learned, patch) if "feel heat" in one)
+    assert f"0 of {len(lags)} thermal pads feel heat later than their taxels and {len(lags)} sooner, by -" in words
 
 
 def test_a_delay_that_no_trend_makes_up_for_is_refused() -> None:

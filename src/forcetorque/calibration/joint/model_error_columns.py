@@ -185,22 +185,6 @@ def demand_columns(
     return columns
 
 
-def mass_shares(tree: BodyTree, part: SubModel, terms: Sequence[ErrorTerm]) -> FloatArray:
-    """Say which share of the mass of a part every error scales.
-
-    Args:
-        tree: The robot.
-        part: The part.
-        terms: Errors of the model.
-
-    Returns:
-        Shares, of errors of masses of its bodies; zero for all others; shape (terms,).
-    """
-    masses = {_mass(tree, k): tree.bodies[k].inertia.mass for k in heavy_bodies(tree, part)}
-    total = sum(masses.values())
-    return np.array([masses.get(term.name, 0.0) / total if total else 0.0 for term in terms])
-
-
 def terms_of_body(tree: BodyTree, k: int) -> tuple[str, ...]:
     """Name the errors of a body: of its mass, then of its centre along three axes.
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages, rows_where
-from forcetorque.calibration.joint.model_error_columns import body_columns, demand_columns, mass_shares
+from forcetorque.calibration.joint.model_error_columns import body_columns, demand_columns
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
@@ -81,8 +81,6 @@ class PartWindows:
     """1 for a row that the equation has, 0 for one that is left out; shape (6,)."""
     mass_kg: float
     """Mass of the bodies of the part."""
-    mass_shares: FloatArray
-    """Of every error of the model the share of the mass of the part that it scales; shape (terms,)."""
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -384,7 +382,6 @@ def _averaged(
         right=windows.node_means(right) + errors @ known,
         rows=equation.rows,
         mass_kg=sum(nodes.tree.bodies[k].inertia.mass for k in equation.part.bodies),
-        mass_shares=mass_shares(nodes.tree, equation.part, terms.terms),
     )
     whole = [
         np.isfinite(values).reshape(w, -1).all(axis=1)
