@@ -52,6 +52,8 @@ def test_public_names_are_there_and_typed(package: str) -> None:
     homes = _typed_homes(package)
     assert sorted(homes) == sorted(module.__all__)
     assert set(module.__all__) <= set(dir(module))
+    foreign = {"TYPE_CHECKING", "lazy_names"} & set(dir(module))
+    assert not foreign, "completion offers names that the package only imported"
     for name, home in homes.items():
         assert getattr(module, name) is getattr(import_module(home), name)
 

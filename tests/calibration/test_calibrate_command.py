@@ -7,13 +7,18 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
+from forcetorque.calibration.calibrate import calibrate_for_file, channel_names
 from forcetorque.calibration.summary import calibration_answer
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.storage import read_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
@@ -126,6 +131,32 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     np.testing.assert_allclose(shown[:6], 1000.0 * fitted.matrix[2], rtol=5.001e-4)  # half of the fourth digit
     assert "information gained: error that a unit load makes" in made.out
     assert run("calibrate", PARQUET, "-o", "other.json", "--type", "OnTdTO", "--details").out.count(" yes ") == 6
+
+
+def test_channels_are_called_as_the_logs_call_them(arm: Path) -> None:
+    """Counts that are recovered from a wrench have numbers, and so have those of logs that call them differently."""
+
+    def logged(quantity: str, prior: str, *columns: str) -> SimpleNamespace:
+        sensor = SimpleNamespace(quantity=quantity, prior_source=prior)
+        return SimpleNamespace(
+            sensor=sensor, stream=SimpleNamespace(signal=lambda of: SimpleNamespace(columns=columns))
+        )
+
+    gauges, others = logged("raw", "m.txt", "g1", "g2"), logged("raw", "m.txt", "a", "b")
+    measured, recovered = logged("wrench", "identity", *COMPONENTS), logged("wrench", "m.txt", *COMPONENTS)
+    for runs, names in (
+        ([gauges, gauges], ("g1", "g2")),
+        ([measured], COMPONENTS),
+        ([recovered], ()),
+        ([gauges, others], ()),
+        ([gauges, recovered], ()),
+    ):
+        assert channel_names(cast(Any, SimpleNamespace(runs=runs))) == tuple(names)
+    result = calibrate_for_file(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), "a", code_version="1", created="")
+    (entry,) = result.calibrations
+    assert entry.channels == tuple(f"ch{k}" for k in range(6))
+    named = result.model_copy(update={"calibrations": (entry.model_copy(update={"channels": tuple("ABCDEF")}),)})
+    assert re.search(r"per 1000 counts +A +B +C +D +E +F ", named.text(200)) is not None
 
 
 @pytest.mark.long

@@ -6,6 +6,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from types import ModuleType
 from typing import Any
 
 
@@ -33,7 +34,9 @@ def lazy_names(
         return value
 
     def names() -> list[str]:
-        return sorted({*vars(sys.modules[package]), *modules})
+        held = vars(sys.modules[package]).items()
+        own = {name for name, value in held if name.startswith("_") or isinstance(value, ModuleType)}
+        return sorted({*own, *modules})  # without what the package itself imported for its names
 
     return list(modules), get, names
 

@@ -259,6 +259,8 @@ class SensorCalibration(Row):
     """`C C_prior^-1`, for a stream that is calibrated with the prior."""
     information_gain: tuple[InformationGain, ...] | None
     """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
+    channels: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
+    """Names of its channels in the logs; none where they have none, or several."""
 
 
 class SensorCalibrations(DrawnResult):
@@ -338,7 +340,7 @@ class SensorCalibrations(DrawnResult):
             Tables and sentences.
         """
         for entry in self.calibrations:
-            yield from calibration_blocks(entry.calibration)
+            yield from calibration_blocks(entry.calibration, entry.channels)
             if entry.information_gain:
                 yield table_of(
                     entry.information_gain, "information gained: error that a unit load makes, one standard deviation"
@@ -404,6 +406,7 @@ def calibrate_for_file(
         calibration=calibration,
         secondary_matrix=calibration.secondary_matrix(),
         information_gain=information_gains(calibration),
+        channels=() if campaign is None else channel_names(campaign),
     )
     left_out = () if campaign is None else campaign.left_out
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
@@ -414,6 +417,24 @@ def calibrate_for_file(
         has_validation=campaign is None or any(run.has(Use.VALIDATION) for run in campaign.runs),
         warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts)),
     )
+
+
+def channel_names(campaign: Campaign) -> tuple[str, ...]:
+    """Give the names of the channels of a sensor, as its logs have them.
+
+    Args:
+        campaign: The sensor.
+
+    Returns:
+        A name per channel; none where counts are recovered from wrenches, or recordings have other names.
+    """
+    names = {
+        run.stream.signal(run.sensor.quantity).columns
+        if run.sensor.quantity == "raw" or run.sensor.prior_source == "identity"
+        else ()
+        for run in campaign.runs
+    }
+    return names.pop() if len(names) == 1 else ()
 
 
 def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:

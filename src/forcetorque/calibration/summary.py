@@ -74,8 +74,12 @@ def calibration_answer(
     )
 
 
-def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
+def calibration_blocks(calibration: Calibration, channels: Sequence[str] = ()) -> Iterator[Table | str]:
     """Show a calibration.
+
+    Args:
+        calibration: The calibration.
+        channels: Names of its channels; numbers if empty.
 
     Yields:
         A sentence and tables.
@@ -89,7 +93,7 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
     )
     if calibration.mount is not None:
         yield calibration.mount.text
-    yield _matrix_table(calibration)
+    yield _matrix_table(calibration, channels)
     if calibration.variables:
         yield _variable_table(calibration)
     if calibration.linearity is not None:
@@ -178,12 +182,12 @@ def _lambda_text(calibration: Calibration) -> str:
     return f"{text} ({'given' if calibration.selection.rule == 'given' else 'chosen on held-out blocks'})"
 
 
-def _matrix_table(calibration: Calibration) -> Table:
-    channels = (f"ch{j}" for j in range(calibration.matrix.shape[1]))
+def _matrix_table(calibration: Calibration, channels: Sequence[str]) -> Table:
+    names = channels or [f"ch{j}" for j in range(calibration.matrix.shape[1])]
     spread = calibration.offset_standard_error
     return Table(
         caption=f"matrix and offset, ± {_error_words(calibration)}",
-        headings=("per 1000 counts", *channels, "offset", "±", "residual RMS"),
+        headings=("per 1000 counts", *names, "offset", "±", "residual RMS"),
         rows=tuple(
             (
                 component,

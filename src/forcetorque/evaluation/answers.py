@@ -152,7 +152,8 @@ def next_step(use: LoadCaseVerdict) -> tuple[str, str]:
     """
     if _states_loads(use):
         such = ", such as these, which it can read," if use.readable_load_case else ""
-        return f"state your loads{such} in the experiment file", typed("evaluate", EXPERIMENT, "-c", use.calibration)
+        command = to_evaluate(use.calibration)[1]
+        return f"state your loads{such} in the experiment file", command
     remedy = next((reason.remedy for reason in use.reasons if reason.remedy is not None), None)
     if remedy is None and use.decision == "use":
         return to_export(use.calibration, use.sensor)
@@ -188,8 +189,10 @@ def to_plan(calibration: str) -> str:
         calibration: File of the calibration.
 
     Returns:
-        The command, with a distance from joint limits, which it needs.
+        The command, with a distance from joint limits, which it needs; empty for a calibration that is in no file.
     """
+    if not _is_file(calibration):
+        return ""
     return typed("plan", EXPERIMENT, "-c", calibration, "--clearance-deg", "10")
 
 
@@ -214,7 +217,8 @@ def to_evaluate(calibration: str) -> tuple[str, str]:
     Returns:
         The step and its command.
     """
-    return "evaluate its errors at the loads to come", typed("evaluate", EXPERIMENT, "-c", calibration)
+    command = typed("evaluate", EXPERIMENT, "-c", calibration) if _is_file(calibration) else ""
+    return "evaluate its errors at the loads to come", command
 
 
 def to_export(calibration: str, sensor: str) -> tuple[str, str]:
@@ -227,7 +231,14 @@ def to_export(calibration: str, sensor: str) -> tuple[str, str]:
     Returns:
         The step and its command.
     """
+    if not _is_file(calibration):
+        return "save the calibration, and export its matrix to the robot", ""
     return "export the matrix to the robot", typed("export", calibration, "--to", "csv", "-o", f"{sensor}.csv")
+
+
+def _is_file(calibration: str) -> bool:
+    """Whether a calibration is called by its file, which commands take; from Python it may have any name."""
+    return calibration.endswith(".json")
 
 
 _OF_RECORDINGS = frozenset({"recording", "offset"})
@@ -295,7 +306,9 @@ def _step_to_decide(use: LoadCaseVerdict, specification: str | None) -> tuple[st
     step, command = next_step(use)
     if command and not _states_loads(use):
         return step, command
-    return step, typed("accept", EXPERIMENT, "--spec", specification, "-c", use.calibration) if specification else ""
+    if specification is None or not _is_file(use.calibration):
+        return step, ""
+    return step, typed("accept", EXPERIMENT, "--spec", specification, "-c", use.calibration)
 
 
 def _after_acceptance(criterion: Criterion) -> tuple[str, str]:
@@ -313,4 +326,5 @@ def _acceptance_step(worst: Criterion) -> tuple[str, str]:
         return to_calibrate(worst.sensor)
     if table in _OF_INFORMATION:
         return _RECORD_MORE, to_plan(calibration)
-    return "see where the errors come from", typed("evaluate", EXPERIMENT, "-c", calibration, "--details")
+    command = typed("evaluate", EXPERIMENT, "-c", calibration, "--details") if _is_file(calibration) else ""
+    return "see where the errors come from", command

@@ -352,7 +352,7 @@ def _offset(
     count = int(chosen.sum())
     if count < FEWEST:
         raise FitError(
-            f"interval {interval.label!r}: expected at least {FEWEST} samples to tell an offset, got {count}"
+            f"interval {interval.label!r}: expected at least {FEWEST} samples to determine an offset, got {count}"
         )
     expected = samples.samples.reference[chosen]
     lacking = run.sensor.expected_reading(expected) - samples.readings.at(chosen).wrench(correction.bare)

@@ -74,6 +74,16 @@ def test_a_sensor_without_enough_data_is_undecided() -> None:
     assert answer.command == f"accept {EXPERIMENT} --spec limits.toml -c old/leg.json"
 
 
+def test_no_command_names_a_calibration_that_is_in_no_file() -> None:
+    """From Python a calibration may have any name, which no command finds: the step is to save it first."""
+    (answer,) = _accepted(_criterion("evaluate.force_error_mean_N", 0.9, 1.0, calibration="mine")).answers()
+    assert (answer.step, answer.command) == ("save the calibration, and export its matrix to the robot", "")
+    for name in ("excitation.condition", "evaluate.rmse.fz"):
+        (answer,) = _accepted(_criterion(name, 6.0, 5.0, calibration="mine")).answers()
+        assert answer.step
+        assert answer.command == ""
+
+
 def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:
     """In multiples of the limit, on either side of it; the others are named."""
     small = _criterion("evaluate.rmse.fz", 0.6, 0.5)

@@ -60,7 +60,7 @@ def test_it_says_when_the_stretch_is_not_at_rest(tmp_path: Path) -> None:
     assert "the load moves by" in doubt
     assert "expected an interval at rest" in doubt
     (tmp_path / "short.toml").write_text(text.replace("end_s = 60.0", "end_s = 0.2"))
-    with pytest.raises(FitError, match="expected at least 10 samples to tell an offset, got 4"):
+    with pytest.raises(FitError, match="expected at least 10 samples to determine an offset, got 4"):
         tare(_run(tmp_path / "short.toml"), "first")
 
 

@@ -12,7 +12,13 @@ from urllib.parse import quote
 import numpy as np
 
 from forcetorque.base.errors import EstimationError, ExperimentError, FitError, ForceTorqueError
-from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
+from forcetorque.calibration.calibrate import (
+    SensorCalibration,
+    SensorCalibrations,
+    channel_names,
+    data_doubts,
+    fit_doubts,
+)
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
@@ -331,8 +337,9 @@ def calibrate_jointly(
                 calibration=calibration,
                 secondary_matrix=calibration.secondary_matrix(),
                 information_gain=information_gains(calibration),
+                channels=channel_names(data.campaigns[name]),
             )
-            for calibration in calibrations.values()
+            for name, calibration in calibrations.items()
         ),
         joint=joint,
         has_validation=any(run.has(Use.VALIDATION) for one in data.campaigns.values() for run in one.runs),
