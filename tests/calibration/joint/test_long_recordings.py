@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +11,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FitError, OutputError, RecordingError
+from forcetorque.base.errors import ExperimentError, FitError, OutputError, RecordingError
 from forcetorque.calibration.calibrate import SensorCalibrations
 from forcetorque.calibration.joint import untouched_interval
-from forcetorque.calibration.joint.calibrate import calibrate_jointly
+from forcetorque.calibration.joint.calibrate import JointData, calibrate_jointly
 from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -132,3 +133,23 @@ def test_a_sensor_without_a_sample_in_the_interval_is_refused(tmp_path: Path) ->
     with short_segments(3.0), pytest.raises(RecordingError) as segmented:
         _both(experiment)
     assert str(segmented.value) == str(whole.value)
+
+
+def test_readings_that_come_again_in_a_long_log_are_refused(recorded: Path) -> None:
+    """They would count twice; the log as it was recorded is read to its intervals."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    stream = experiment.recording.stream(experiment.sensor(SENSOR).stream)
+    raw = stream.signals["raw"]
+    period = round(2 * SEGMENT_S * 1e9 / float(np.median(np.diff(stream.stamp_ns))))
+    again = replace(raw, values=np.resize(raw.values[:period], raw.values.shape))
+    repeated = replace(stream, signals={**stream.signals, "raw": again})
+    recording = replace(
+        experiment.recording,
+        streams={**experiment.recording.streams, stream.name: repeated},
+    )
+    with short_segments():
+        JointData.of([experiment], [SENSOR], lambda _: None)
+        with pytest.raises(
+            ExperimentError, match=r"from \d+ s' has readings of '.* from \d+ s' again, and readings count"
+        ):
+            JointData.of([replace(experiment, recording=recording)], [SENSOR], lambda _: None)

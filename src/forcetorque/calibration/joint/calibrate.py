@@ -200,10 +200,15 @@ def _values(campaign: Campaign, variable: str) -> Iterator[float]:
 
 
 def _contents(campaign: Campaign) -> Iterator[tuple[str, Content | None]]:
-    """By what the readings of every calibration interval are known again, with the name of its recording."""
-    for run in campaign.runs if len(campaign.runs) > 1 else ():
-        for interval in run.experiment.intervals(Use.CALIBRATION):
-            yield campaign.recording(run), logged_content(run.experiment, run.sensor, interval)
+    """By what calibration readings are known again, with the name of their recording, or of a segment of a long one."""
+    for run in campaign.runs:
+        segments = segment_experiments(run.experiment)
+        for part in segments or (run.experiment,):
+            for interval in part.recording.intervals if len(segments) + len(campaign.runs) > 1 else ():
+                start_s = round((interval.start_ns - run.experiment.recording.start_ns) * 1e-9)
+                name = campaign.recording(run) + (f" from {start_s} s" if segments else "")
+                if interval.use is Use.CALIBRATION:
+                    yield name, logged_content(part, run.sensor, interval)
 
 
 def _intervals(
