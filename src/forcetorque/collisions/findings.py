@@ -15,6 +15,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.residual_findings import UNEXPLAINED
 from forcetorque.recording.recording import Finding, Use
 from forcetorque.results.number_text import plus_minus
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 ALARMS_PER_HOUR = 1.0
 """Rate of false alarms that they are for, that of `robot collisions`."""
@@ -70,8 +71,9 @@ def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration])
         for stream in dict.fromkeys(sensor.stream for sensor in experiment.sensors):
             yield Finding(stream=stream, kind="not_compared", message=text, count=0)
         return
+    shared = SharedWrenches(recording, {sensor.name: sensor.stream for sensor in experiment.sensors})
     for sensor in experiment.sensors:
-        run = SensorRun(experiment, sensor)
+        run = SensorRun(experiment, sensor, shared=shared)
         try:
             correction = run.read_by(None, calibrations.get(sensor.name)).bare
             rows = find_collisions(run, correction, (), (), ALARMS_PER_HOUR).collisions

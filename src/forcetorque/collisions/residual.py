@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from typing import Final
 
@@ -187,21 +188,18 @@ class Level:
         Returns:
             Columns of the windows less their level, shape (w, 6, 1 + p), and whether the level is known; shape (w,).
         """
-        # a level is the one before `first` and the windows since then, each with its weight
-        weights, known = np.zeros((end - first + 1, 1 + end - first)), np.zeros(end - first, dtype=np.bool_)
-        weights[0, 0] = 1.0
-        for k in range(end - first):
-            if self._starts[first + k]:
+        known, gains = np.zeros(end - first, dtype=np.bool_), []
+        for k, starts in enumerate(self._starts[first:end].tolist()):
+            if starts:
                 self._count = 0
             known[k] = self._count * WINDOW_S >= WARM_UP_S
             gain = 0.0
             if not held or not known[k]:
                 self._count += 1
                 gain = max(WINDOW_S / LEVEL_S, 1.0 / self._count)
-            np.multiply(weights[k], 1.0 - gain, out=weights[k + 1])
-            weights[k + 1, 1 + k] = gain
+            gains.append(gain)
         values = self._values[first:end]
-        levels = weights @ np.vstack([self._level, values])
+        levels = _weights(tuple(gains)) @ np.vstack([self._level, values])
         # a new array: a copy of this object keeps the level that it was made with
         self._level = levels[-1].copy()
         return (values - levels[:-1]).reshape(-1, *self._shape), known
@@ -209,6 +207,17 @@ class Level:
     def restart(self) -> None:
         """Take the level anew from the next windows on."""
         self._count = 0
+
+
+@lru_cache(maxsize=4)
+def _weights(gains: tuple[float, ...]) -> FloatArray:
+    """Weights of the level before the first window and of w windows in each level since then; shape (w + 1, 1 + w)."""
+    weights = np.zeros((len(gains) + 1, 1 + len(gains)))
+    weights[0, 0] = 1.0
+    for k, gain in enumerate(gains):
+        np.multiply(weights[k], 1.0 - gain, out=weights[k + 1])
+        weights[k + 1, 1 + k] = gain
+    return weights
 
 
 def changes_of(signals: Signals) -> FloatArray:
