@@ -132,13 +132,14 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
     rates = np.gradient(load, time_s, axis=0) if len(time_s) > 1 else np.zeros_like(load)
     terms, derivatives = derivatives_at(run, interval, "", at_ns, rates)
     known = np.isfinite(derivatives).all(axis=(1, 2))
+    derivatives = derivatives if known.all() else derivatives[known]
     of_load = _of_load(run, correction.model.matrix)
     columns = np.empty((int(np.count_nonzero(known)), LOADS, 1 + of_load.shape[2] + len(terms)))
     columns[:, :, 0] = means[known, :LOADS]
     of_matrix, of_model = np.split(columns[:, :, 1:], [of_load.shape[2]], axis=2)
     of_matrix[:] = (load[known] @ of_load.reshape(LOADS, -1)).reshape(of_matrix.shape)
     # a residual falls by what the expected wrench rises
-    np.multiply(derivatives[known], [-term.deviation for term in terms], out=of_model)
+    np.multiply(derivatives, [-term.deviation for term in terms], out=of_model)
     return Signals(
         time_s=time_s[known],
         columns=columns,
