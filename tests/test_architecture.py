@@ -6,8 +6,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from tests.test_import_order import KERNEL, NEEDS, TOP
-from tests.test_import_order import ROOT as LIBRARY
+from tests.test_import_order import KERNEL, NEEDS, ROOT as LIBRARY, TOP
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")

@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, is_hypothesis_test, settings
-from hypothesis import strategies as st
+from hypothesis import given, is_hypothesis_test, settings, strategies as st
 
 from tests import fuzzing
 from tests.cases import some_cases

@@ -20,7 +20,7 @@ from forcetorque.calibration.thesis.regression import solve
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, Estimation
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
-from forcetorque.study.one_sensor import fit_candidates
+from forcetorque.study.candidate_fits import fit_candidates
 from forcetorque.study.selection import SWEEP_LAMBDAS
 
 DATA_SETS, TYPES = 3, len(ESTIMATION_TYPES)

@@ -14,17 +14,11 @@ if TYPE_CHECKING:
     from forcetorque.app.python.arrays import experiment_of_arrays as experiment_of_arrays
     from forcetorque.app.python.experiment import (
         Experiment as Experiment,
-    )
-    from forcetorque.app.python.experiment import (
         calibrate_jointly as calibrate_jointly,
-    )
-    from forcetorque.app.python.experiment import (
         load_experiment as load_experiment,
     )
     from forcetorque.app.python.tables import (
         experiment_of_tables as experiment_of_tables,
-    )
-    from forcetorque.app.python.tables import (
         stream_of_arrays as stream_of_arrays,
     )
     from forcetorque.app.run.run import run as run
@@ -35,11 +29,7 @@ if TYPE_CHECKING:
     from forcetorque.evaluation.commands import evaluate as evaluate
     from forcetorque.experiment.calibration.artefact import (
         Calibration as Calibration,
-    )
-    from forcetorque.experiment.calibration.artefact import (
         read_calibration as read_calibration,
-    )
-    from forcetorque.experiment.calibration.artefact import (
         write_calibration as write_calibration,
     )
     from forcetorque.experiment.calibration.moments import DataSet as DataSet
@@ -47,13 +37,11 @@ if TYPE_CHECKING:
     from forcetorque.experiment.sensor_run import SensorRun as SensorRun
     from forcetorque.planning.joint_calibration_plan import plan_jointly as plan_jointly
     from forcetorque.recording.recording import Recording as Recording
-    from forcetorque.recording.storage import read_recording as read_recording
-    from forcetorque.recording.storage import write_recording as write_recording
+    from forcetorque.recording.storage import read_recording as read_recording, write_recording as write_recording
     from forcetorque.robot.dynamics import expected_wrenches as expected_wrenches
     from forcetorque.robot.model import RobotModel as RobotModel
     from forcetorque.robot.urdf import read_urdf as read_urdf
-    from forcetorque.skin.commands import calibrate_skin as calibrate_skin
-    from forcetorque.skin.commands import skin_wrench as skin_wrench
+    from forcetorque.skin.commands import calibrate_skin as calibrate_skin, skin_wrench as skin_wrench
 
 
 CAPABILITIES = (

@@ -38,7 +38,7 @@ from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.loading import fit_options
 from forcetorque.experiment.core_tables import CalibrationTable
-from forcetorque.study.one_sensor import fit_candidates
+from forcetorque.study.candidate_fits import fit_candidates
 
 rng = np.random.default_rng(1)
 matrix, raw = rng.normal(size=(6, 6)), 100.0 * rng.normal(size=(200, 6)) + 50.0

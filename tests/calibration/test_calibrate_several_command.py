@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +59,26 @@ def test_a_file_twice_is_refused(days: Path, run: Run) -> None:
     """Its samples would count twice."""
     error = run("calibrate", CALIBRATION[0], CALIBRATION[0], "-o", "a.json").error()
     assert "expected every experiment file once, it comes twice" in error
+
+
+def test_memory_of_all_samples_is_stated(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a fit holds them all and that is much; a fit of segments says nothing."""
+    thesis = ("calibrate", CALIBRATION[0], "--lambda", "5", "-o", "a.json", "--force")
+    assert "GB of memory" not in run(*thesis).err
+    monkeypatch.setattr("forcetorque.calibration.calibrate_command._LARGE_BYTES", 1)
+    assert "samples at once, about 0.5 GB of memory; without it" in run(*thesis).err
+    assert "GB of memory" not in run("calibrate", CALIBRATION[0], "-o", "b.json").err
+
+
+@pytest.mark.parametrize("options", [[], ["--lambda", "5"], ["--jointly"]], ids=["default", "thesis", "jointly"])
+def test_a_copy_of_a_log_is_refused(days: Path, run: Run, options: list[str]) -> None:
+    """Under another name its samples would count twice; another log is fitted."""
+    text = (days / CALIBRATION[0]).read_text()
+    (days / "copy.toml").write_text(re.sub(r'(?m)^name = ".*"', 'name = "copy"', text, count=1))
+    error = run("calibrate", CALIBRATION[0], "copy.toml", *options, "-o", "fit" if options else "fit.json").error()
+    assert re.search(r"'copy' has readings of '.*' again, and readings count once; leave one of the two out", error)
+    assert not (days / "fit").exists()
+    assert not (days / "fit.json").exists()
 
 
 @pytest.mark.long

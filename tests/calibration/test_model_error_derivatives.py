@@ -29,8 +29,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors
-from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, read_by
-from tests.calibration.synthetic import assumptions as assumed
+from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, assumptions as assumed, read_by
 from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET
 

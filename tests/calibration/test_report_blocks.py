@@ -14,7 +14,7 @@ from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.report.assessment import Assessment
+from forcetorque.report.sensor_assessment import Assessment
 from forcetorque.results.document.content import Figure, Text
 from forcetorque.results.table import Table
 from tests.scenes.experiments import PARQUET, write_experiments

@@ -329,7 +329,7 @@ def test_a_slow_stream_is_refused(folder: Path, tmp_path: Path) -> None:
 
 
 def test_an_interval_that_ends_before_there_is_a_level_is_refused(tmp_path: Path) -> None:
-    """Below one second nothing is looked at; beside a longer interval it does not count."""
+    """Below one second nothing is looked at; beside a longer interval it does not count, and a warning names it."""
     write_experiments(tmp_path)
     edit(tmp_path / PARQUET, "end_s = 23.5", "end_s = 15.1")
     run = _run(tmp_path)
@@ -338,3 +338,6 @@ def test_an_interval_that_ends_before_there_is_a_level_is_refused(tmp_path: Path
         find_collisions(run, correction, ["judge"], (), 1.0)
     alone, both = (find_collisions(run, correction, labels, (), 1.0) for labels in (["fit"], ()))
     assert both.sensitivity == alone.sensitivity
+    said = "arm_ft: not looked at: judge, of 1 s or less, in which the level is found first"
+    assert [warning for warning in both.warnings if "not looked at" in warning] == [said]
+    assert said not in alone.warnings

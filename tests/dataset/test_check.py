@@ -162,7 +162,7 @@ def test_fields_are_found_by_names(tmp_path: Path) -> None:
 
 def test_page_and_csv(tmp_path: Path) -> None:
     """The page has the verdict and every finding; records have the keys of the columns."""
-    from forcetorque.dataset.page import write_page
+    from forcetorque.dataset.check import write_page
 
     check = _checked(tmp_path, _stuck)
     write_page(check, tmp_path / "check.html")

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.device.excitation import FAMILY, NOISE_COUNTS, SAMPLES, held_out_loads
+from forcetorque.device.excitation_options import FAMILY, NOISE_COUNTS, SAMPLES, held_out_loads
 from forcetorque.device.tolerances import Poses, Tolerances
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.bench import Placement

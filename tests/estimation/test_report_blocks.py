@@ -15,8 +15,8 @@ from forcetorque.estimation.torque.experiment_fusion import fuse_experiment, tor
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
-from forcetorque.report.assessment import Demands
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
+from forcetorque.report.sensor_assessment import Demands
 from forcetorque.results.document.content import Figure, List, Section
 from forcetorque.results.table import Table
 from tests.scenes.experiments import PARQUET

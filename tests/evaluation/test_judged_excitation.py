@@ -19,7 +19,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.report.assessment import assess
+from forcetorque.report.sensor_assessment import assess
 from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, add
 
 NAME = "turned.json"

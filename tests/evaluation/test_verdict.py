@@ -14,7 +14,7 @@ from forcetorque.calibration.summary import InformationGain
 from forcetorque.evaluation.evaluation import CalibrationErrors
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.report.assessment import Assessment, verdict
+from forcetorque.report.sensor_assessment import Assessment, verdict
 
 BETTER: Conclusion = "better"
 WORSE: Conclusion = "worse"

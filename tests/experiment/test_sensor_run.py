@@ -15,13 +15,12 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate, validate
-from forcetorque.experiment import sensor_run as run_module
-from forcetorque.experiment import sensor_samples as samples_module
+from forcetorque.experiment import sensor_run as run_module, sensor_samples as samples_module
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from forcetorque.report.assessment import assess
+from forcetorque.report.sensor_assessment import assess
 from tests.scenes.experiments import PARQUET
 
 

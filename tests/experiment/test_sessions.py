@@ -15,7 +15,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.validation.contact_forces import contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.loading import load_experiment

@@ -14,7 +14,7 @@ from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.limits import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.validation_evidence import compare_with_prior
-from forcetorque.evaluation.validation.contact_forces import contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use

@@ -30,8 +30,7 @@ from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, pa
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
 from tests.app.outcome import Run
-from tests.scenes.studies import CALIBRATION as _ALL_CALIBRATION
-from tests.scenes.studies import SERIAL, VALIDATION
+from tests.scenes.studies import CALIBRATION as _ALL_CALIBRATION, SERIAL, VALIDATION
 
 CALIBRATION = _ALL_CALIBRATION[2:]
 FILES = (*CALIBRATION, *VALIDATION)
@@ -398,6 +397,28 @@ def test_commands(added: Path, recorded: Path, tmp_path: Path, run: Run, monkeyp
     assert "needs samples" in run("calibrate", str(added), "-o", "d.json", "--type", "SnTdTO").error()
     assert "a dataset alone" in run("evaluate", str(added), log, "-c", "c.json").error()
     assert 'expected an interval with use = "calibration"' in run("calibrate", "mine", "-o", "d.json").err
+
+
+def test_a_copy_of_a_recording_counts_once(added: Path, days: Path, tmp_path: Path) -> None:
+    """Under another name: it is left out and named, and matrix and errors are those without it."""
+    shutil.copytree(added, tmp_path / "dataset")
+    for number, name in enumerate((CALIBRATION[0], VALIDATION[0])):
+        text = (days / name).read_text()
+        (days / f"copy_{number}.toml").write_text(re.sub(r'(?m)^name = ".*"', f'name = "copy {number}"', text, count=1))
+        add_recording(_source(days / f"copy_{number}.toml"), tmp_path / "dataset", OPTIONS)
+    once, twice = Dataset.opened(added), Dataset.opened(tmp_path / "dataset")
+    assert len(twice.files) == len(once.files) + 2
+    first, second = (
+        calibrate_sensor(None, code_version="1", created="now", moments=one.moments(one.records(one.files)))
+        for one in (once, twice)
+    )
+    np.testing.assert_allclose(second.matrix, first.matrix, rtol=SAME)
+    copies = set(second.warnings) - set(first.warnings)
+    assert len(copies) == 1
+    assert re.search(r"copy 0.* again, and readings count once; it is left out", copies.pop())
+    alone, both = (evaluate_dataset(one, {"new": first}) for one in (once, twice))
+    assert [row.samples for row in both.errors] == [row.samples for row in alone.errors]
+    assert any("copy 1" in text and "it is left out" in text for text in both.warnings)
 
 
 def test_quadratic_terms_need_samples(added: Path) -> None:

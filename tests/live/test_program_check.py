@@ -24,8 +24,8 @@ from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.program_check import program_checks
 from forcetorque.live.result import LiveRun
 from forcetorque.live.run import LiveLoop
+from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.settings import Settings
-from forcetorque.live.stated_source import make_run
 from forcetorque.live.tool import Tool
 from forcetorque.payload.robot_files.export import export_load
 from forcetorque.payload.robot_files.formats import LoadFormat

@@ -31,9 +31,9 @@ from forcetorque.live.ros_topics import (
     topic_key,
 )
 from forcetorque.live.run import LiveLoop
+from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings
-from forcetorque.live.stated_source import make_run
 from forcetorque.live.zenoh_session import zenoh_session
 from forcetorque.simulation.robots import ARM_URDF
 from tests.scenes.calibrations import FACTORY, make_calibration

@@ -30,10 +30,10 @@ from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, parquet_f
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.result import LiveRun
 from forcetorque.live.run import LiveLoop
+from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings
 from forcetorque.live.sources import LONGEST_LINE, LineSource
-from forcetorque.live.stated_source import make_run
 from forcetorque.live.text_lines import LineForm, MeasuresLines, RosCsvLines, SensorColumns, YarpLines, stamp_of
 from tests.scenes.calibrations import FACTORY, OFFSET, make_calibration, make_variable
 

@@ -14,8 +14,7 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.locomotion.section import SOLES as SECTION
-from forcetorque.locomotion.section import ExperimentSole
+from forcetorque.locomotion.section import SOLES as SECTION, ExperimentSole
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Interval, Recording, Support, Use

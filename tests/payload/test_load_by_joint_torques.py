@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.stats import t as student
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
@@ -235,3 +236,27 @@ def test_intervals_hold_the_truth(tmp_path: Path) -> None:
         centre += int((error <= np.array(load.centre_of_mass_half_width_95_m, dtype=np.float64)).sum())
     assert 90 <= mass <= 99
     assert centre >= 270
+
+
+@pytest.mark.parametrize(("turned_rad", "postures"), [(0.019, 8), (0.021, 9)])
+def test_postures_are_told_apart_from_a_fiftieth_of_a_radian(tmp_path: Path, turned_rad: float, postures: int) -> None:
+    """The last posture is the first one, with one joint turned a little."""
+    arm = held(5, postures=9)
+    position = arm.position.copy()
+    position[8] = position[0] + turned_rad * np.eye(7)[5]
+    log = write_table(tmp_path / "log.csv", replace(arm, position=position).states())
+    assert _weighed(log).postures == postures
+
+
+def test_intervals_are_those_of_student_where_every_joint_errs_alike(tmp_path: Path) -> None:
+    """Half-widths over standard deviations of weighted least squares, by the errors that the result states."""
+    arm = held(6, postures=20)
+    whole = _weighed(write_table(tmp_path / "log.csv", arm.states()))
+    unit = np.stack(
+        [holding(arm.position, 1.0, np.zeros(3))]
+        + [holding(arm.position, 1.0, axis) - holding(arm.position, 1.0, np.zeros(3)) for axis in np.eye(3)],
+        axis=2,
+    )
+    weighted = (unit - unit.mean(axis=0)) / np.array([row.residual_rms_Nm for row in whole.joints])[:, None]
+    sd = np.sqrt(np.linalg.inv(np.einsum("nda,ndb->ab", weighted, weighted))[0, 0])
+    assert whole.load.mass_half_width_95_kg == pytest.approx(student.ppf(0.975, 19) * sd, rel=1e-6)

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FormatError, UnitError
-from forcetorque.recording.frames import (
+from forcetorque.recording.orientation import (
     ROLL_PITCH_YAW,
     EulerAxes,
     OrientationForm,

@@ -50,7 +50,7 @@ from forcetorque.locomotion.logged_signals import motion_signals_of_arrays
 from forcetorque.locomotion.motion_quality import motion
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance
+from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance, RobotBalance
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
 from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
 from forcetorque.results.figures import png_bytes

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from forcetorque.evaluation.load_cases.verdict import Reason
-from forcetorque.report.assessment import VerdictLine
 from forcetorque.report.decision_page import all_sensors_page, decision_page
 from forcetorque.report.pooled_verdicts import NextSteps, Undecided
+from forcetorque.report.sensor_assessment import VerdictLine
 from forcetorque.results.document.content import Block, List, Verdict
 from forcetorque.results.table import Table
 from tests.report.drawing import use_of

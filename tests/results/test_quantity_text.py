@@ -6,8 +6,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from forcetorque.results.document.pdf_layout import lines_of
 from forcetorque.results.number_text import NO_BREAK, with_joined_units

@@ -6,8 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, RobotError
 from forcetorque.robot.model import RobotModel

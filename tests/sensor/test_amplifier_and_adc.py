@@ -7,8 +7,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.sensor.electronics import Adc, Amplifier, Rounding

@@ -16,8 +16,8 @@ from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
-from forcetorque.skin.wrench.frames import touched_at_rest
 from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.pressures_over_recording import touched_at_rest
 from tests.scenes.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 from tests.skin.contact_trials import chamber_table
 

@@ -14,8 +14,8 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.estimation.figures import torque_figure
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Recording
-from forcetorque.report.assessment import Demands
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
+from forcetorque.report.sensor_assessment import Demands
 from forcetorque.results.document.content import Figure, List, Section, Text
 from forcetorque.results.table import Table
 from forcetorque.skin.experiment import PATCHES

@@ -11,7 +11,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 from forcetorque.experiment.validation_offset import Offset, ValidationSet
-from forcetorque.study.one_sensor import Study, run_study
+from forcetorque.study.candidate_fits import Study, run_study
 
 RATE_HZ = 100.0
 NOISE = np.array([0.3, 0.3, 0.3, 0.01, 0.01, 0.01])

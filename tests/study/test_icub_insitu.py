@@ -28,7 +28,7 @@ from forcetorque.simulation.scenario.scenario import (
     simulate,
     trace_recordings,
 )
-from forcetorque.study.one_sensor import Study, run_study
+from forcetorque.study.candidate_fits import Study, run_study
 from forcetorque.study.selection import evaluate_models
 
 LEG = "l_leg_ft"

@@ -100,7 +100,7 @@ def quick(quick_days: tuple[Path, Outcome], monkeypatch: pytest.MonkeyPatch) -> 
     return outcome
 
 
-def _undrawn(made: SensorStudy, folder: Path) -> list[str]:
+def _undrawn(made: SensorStudy, folder: Path, progress: object) -> list[str]:
     return []
 
 
@@ -176,7 +176,7 @@ def test_figures_over_lambda_need_lambdas_and_a_prior(days: Path, run: Run, monk
 def test_without_the_drawing_library_the_rest_is_made(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A warning says what is missing."""
 
-    def missing(made: SensorStudy, folder: Path) -> list[str]:
+    def missing(made: SensorStudy, folder: Path, progress: object) -> list[str]:
         raise MissingExtraError(f"figures are drawn by matplotlib: {install_line('report')}")
 
     monkeypatch.setattr("forcetorque.study.folder.write_figures", missing)
@@ -405,8 +405,9 @@ def test_the_log_tells_every_step(quick: Outcome) -> None:
     """Files, fits and judging, on standard error."""
     log = quick.log
     assert log[: len(FILES)] == [f"INFO: reading {file}" for file in FILES]
-    assert log[len(FILES) : len(FILES) + 2] == [
+    assert log[len(FILES) : len(FILES) + 3] == [
         "INFO: studying arm_ft (SIM001)",
+        "INFO: fitting 3 combinations of data sets by the generative model",
         "INFO: fitting 3 combinations of data sets, 2 types, 2 lambdas",
     ]
     assert "INFO: evaluating 16 matrices on 2 intervals, offset fitted" in log

@@ -51,7 +51,7 @@ def test_a_study_that_fails_leaves_no_folder(
     study: SensorStudy, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where a first sensor was written already; a folder that is there stays as it is."""
-    monkeypatch.setattr(study_folder, "write_figures", lambda study, folder: [])
+    monkeypatch.setattr(study_folder, "write_figures", lambda study, folder, progress: [])
 
     def studies() -> Iterator[SensorStudy]:
         yield study

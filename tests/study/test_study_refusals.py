@@ -97,7 +97,7 @@ def test_a_folder_that_is_there_is_refused_before_any_work(days: Path, run: Run)
 def test_an_error_at_the_very_end_leaves_nothing_behind(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Tables and calibrations of a study that broke off are not there; folders that were, are."""
 
-    def broken(made: SensorStudy, folder: Path) -> list[str]:
+    def broken(made: SensorStudy, folder: Path, progress: object) -> list[str]:
         assert len(list(folder.iterdir())) == TABLES_AND_CALIBRATIONS
         raise ForceTorqueError("the figures cannot be drawn")
 

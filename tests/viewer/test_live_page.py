@@ -22,8 +22,8 @@ from forcetorque.formats.ros.messages import JOINT_TYPE
 from forcetorque.live.choices import OffsetSource
 from forcetorque.live.ros_topics import RosSource, attachment
 from forcetorque.live.run import LiveLoop
+from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.settings import Settings
-from forcetorque.live.stated_source import make_run
 from forcetorque.simulation.robots import ARM_URDF
 from forcetorque.viewer.arrays import Block
 from forcetorque.viewer.live_page import ServedRun, live_page, live_scene, shown_robot

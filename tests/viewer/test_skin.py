@@ -22,8 +22,7 @@ from forcetorque.skin.simulation.contact import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.result import skin_event_rows
 from forcetorque.skin.wrench.wrench import skin_wrench
-from forcetorque.viewer import skin as viewer_events
-from forcetorque.viewer import skin as viewer_skin
+from forcetorque.viewer import skin as viewer_events, skin as viewer_skin
 from forcetorque.viewer.arrays import SceneDraft, read_array
 from forcetorque.viewer.scene import SkinContactFrames
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of

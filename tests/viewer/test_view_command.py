@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.viewer.packing import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
@@ -179,6 +180,27 @@ def test_what_cannot_be_shown_is_refused(run: Run, arm: Path, words: list[str], 
     before = snapshot(arm)
     assert message in run("view", *words).error()
     assert snapshot(arm) == before
+
+
+def test_too_many_samples_are_refused_before_they_are_computed(
+    run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For a page in one file; where they are served, the memory is stated."""
+    reached: list[str] = []
+
+    def computed(*_: object) -> None:
+        reached.append("computed")
+        raise ForceTorqueError("computed")
+
+    monkeypatch.setattr("forcetorque.viewer.scene_builder.differentiated", computed)
+    assert "computed" in run("view", PARQUET, "-o", "view.html").error()
+    monkeypatch.setattr("forcetorque.viewer.page.MOST_SAMPLES", 10)
+    assert "expected at most 10 samples for one file" in run("view", PARQUET, "-o", "view.html").error()
+    assert reached == ["computed"]
+    assert not (arm / "view.html").exists()
+    assert "GB of memory" not in run("view", PARQUET, "--no-browser").err
+    monkeypatch.setattr("forcetorque.viewer.command._LARGE_BYTES", 1)
+    assert re.search(r"\d+ samples are shown at once, in about \d", run("view", PARQUET, "--no-browser").err)
 
 
 def test_a_span_without_samples_is_refused(run: Run, arm: Path) -> None:

@@ -10,7 +10,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection, wrench_matrix
-from forcetorque.device.excitation import least_excitation
+from forcetorque.device.excitation_options import least_excitation
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span, UncertainLoads
 from forcetorque.workbench.loads import THESIS_TABLE, read_loads

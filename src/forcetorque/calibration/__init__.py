@@ -9,16 +9,12 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.calibration.calibrate import (
         calibrate_for_file as calibrate_for_file,
-    )
-    from forcetorque.calibration.calibrate import (
         calibrate_sensor as calibrate_sensor,
     )
     from forcetorque.calibration.export.command import export_calibrations as export_calibrations
     from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly
     from forcetorque.calibration.reduced_recordings import (
         recording_moments as recording_moments,
-    )
-    from forcetorque.calibration.reduced_recordings import (
         store_moments as store_moments,
     )
     from forcetorque.calibration.summary import information_figure as information_figure

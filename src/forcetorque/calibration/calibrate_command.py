@@ -112,8 +112,8 @@ def calibrate(
     from forcetorque.calibration.reduced_recordings import store_moments
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.results.result import created_now
+    from forcetorque.results.terminal.input import campaign_of, readable_experiments, stored_moments
     from forcetorque.results.terminal.output import refuse_figure
-    from forcetorque.results.terminal.reading import campaign_of, readable_experiments, stored_moments
 
     log = start_logging()
     refuse_standard_output("--output", output)
@@ -149,6 +149,8 @@ def calibrate(
         try:
             with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
                 campaign = None if campaign is None else campaign.usable()
+                if campaign is not None:
+                    _state_memory(campaign, log, thesis=kind not in (None, "generative") or regularisation is not None)
                 if moments is not None and campaign is not None:
                     store_moments(campaign, moments, force=force)
                 results.append(fit(campaign, file, moments=own))
@@ -168,6 +170,36 @@ def calibrate(
             write_corrected_urdf(next(iter(contents.values())), files[0], write_urdf, force=force)
             log.info("corrected robot model written to %s", write_urdf)
     end_with(refusals)
+
+
+_THESIS_BYTES, _WHOLE_BYTES, _OTHER_BYTES = 640, 1400, 500_000_000
+"""Memory of a fit that holds all samples: for each by a type of the thesis, for each by the generative model, and for
+all else; of one sensor in a leg of a biped, two thirds fitted, docs/measured.md."""
+_LARGE_BYTES = 1_000_000_000
+"""Memory that is stated before it is taken."""
+
+
+def _state_memory(campaign: Campaign, log: logging.Logger, *, thesis: bool) -> None:
+    """Say how much memory a fit takes that holds all samples at once, before it does."""
+    experiments = [run.experiment for run in campaign.runs]
+    thesis = thesis or not experiments[0].fit_options.generative
+    estimated = campaign.sensor.mount_is_unknown or any(
+        one.loads is not None and not one.loads.are_stated for one in experiments
+    )
+    if not thesis and not estimated:
+        return
+    samples = sum(len(run.stream.stamp_ns) for run in campaign.runs)
+    size = _OTHER_BYTES + samples * (_THESIS_BYTES if thesis else _WHOLE_BYTES)
+    if size > _LARGE_BYTES:
+        why = "an estimation type or lambda" if thesis else "a mount or load that is estimated"
+        instead = "without it the recording is" if thesis else "stated in the experiment file, the recording is"
+        log.warning(
+            "%s takes all %d samples at once, about %.1f GB of memory; %s read in segments",
+            why,
+            samples,
+            size * 1e-9,
+            instead,
+        )
 
 
 def _require_one_fit(write_urdf: Path, sensors: Sequence[object], contents: Mapping[Path, Experiment]) -> None:
@@ -220,7 +252,7 @@ def _sensors(
     contents: Mapping[Path, Experiment], stored: Mapping[Path, RecordingMoments], wanted: Sequence[str] | None
 ) -> list[tuple[str, str]]:
     """Names and serial numbers of the sensors that are meant: those of the first file, or of the moments."""
-    from forcetorque.results.terminal.reading import sensors_named
+    from forcetorque.results.terminal.input import sensors_named
 
     for content in contents.values():
         sensors = [(sensor.name, sensor.serial) for sensor in sensors_named(content, wanted)]

@@ -12,7 +12,7 @@ from forcetorque.calibration.summary import learnt_words, session_table
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.report import record_tables as tables
-from forcetorque.report.assessment import Assessment
+from forcetorque.report.sensor_assessment import Assessment
 from forcetorque.results.document.content import Block, Figure, Picture, Text
 from forcetorque.results.table import short_names
 

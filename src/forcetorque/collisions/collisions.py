@@ -97,8 +97,9 @@ def find_collisions(
     names = tuple(dict.fromkeys(name for one in signals.values() for name in one.of_model))
     signals = {label: one.with_terms(names) for label, one in signals.items()}
     model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
-    looked = [_looked(one, signals[one.label], model, threshold) for one in watched]
-    looked = [one for one in looked if len(one.detected.covariances)]
+    every = [_looked(one, signals[one.label], model, threshold) for one in watched]
+    looked = [one for one in every if len(one.detected.covariances)]
+    short = [one.interval.label for one in every if not len(one.detected.covariances)]
     if not looked:
         lengths = ", ".join(f"{one.label!r} of {1e-9 * (one.end_ns - one.start_ns):.2g} s" for one in watched)
         raise ExperimentError(
@@ -114,7 +115,7 @@ def find_collisions(
         sensitivity=(_sensitivity(run, looked, threshold),),
         by_link=tuple(_by_link(run, looked, threshold)),
         curves=(_curve(run, looked),),
-        warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt])),
+        warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt], short)),
     )
 
 
@@ -255,8 +256,15 @@ def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:
     return CollisionCurve(sensor=run.sensor.name, time_s=known[:, 0], force_N=known[:, 1])
 
 
-def _warnings(run: SensorRun, rows: Sequence[CollisionRow], threshold: Threshold, free: Sequence[str]) -> list[str]:
+def _warnings(
+    run: SensorRun, rows: Sequence[CollisionRow], threshold: Threshold, free: Sequence[str], short: Sequence[str]
+) -> list[str]:
     warnings = []
+    if short:
+        warnings.append(
+            f"{run.sensor.name}: not looked at: {', '.join(short)}, of {WARM_UP_S:g} s or less, in which the level is "
+            "found first"
+        )
     touched = [label for label in free if any(row.interval == label for row in rows)]
     if touched:
         warnings.append(

@@ -89,7 +89,7 @@ def joint_collisions(
     from forcetorque.collisions.by_torques import find_joint_collisions
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.loading import Purpose
-    from forcetorque.results.terminal.reading import read_experiment
+    from forcetorque.results.terminal.input import read_experiment
 
     if isinstance(experiment, Path | str):
         experiment = read_experiment(Path(experiment), _LOG, Purpose.MOTION)

@@ -15,7 +15,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.section import SOLES, ExperimentSole
 from forcetorque.locomotion.standing.foot_wrenches import balance_of_sensors
-from forcetorque.locomotion.standing.interval import BalanceOptions
+from forcetorque.locomotion.standing.interval_balance import BalanceOptions
 from forcetorque.locomotion.standing.sole_limits import SoleEventRow, sole_events
 from forcetorque.robot.tree import build_tree, sub_models
 

@@ -18,10 +18,10 @@ from forcetorque.contests.phases import MotionPath, Trial, trial_by_phase
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.seen_and_outside_samples import require_unseen
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import OFFSET_S, Offset, mean_offset
-from forcetorque.experiment.validity import require_unseen
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.workbench.fit import fit_bench
 from forcetorque.workbench.sensor_fit import bench_calibration

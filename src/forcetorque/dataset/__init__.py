@@ -7,8 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.dataset.commands import check_dataset as check_dataset
-    from forcetorque.dataset.commands import compensate_dataset as compensate_dataset
+    from forcetorque.dataset.commands import check_dataset as check_dataset, compensate_dataset as compensate_dataset
 
 CAPABILITY = Capability(
     page="dataset.md",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examine the forces of a dataset, episode by episode and over all of them."""
+"""Examine the forces of a dataset, episode by episode and over all of them; the check as one HTML page."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import accept_input
+from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.dataset.episode_checks import EpisodeField, examined
 from forcetorque.dataset.force_fields import (
@@ -21,10 +22,14 @@ from forcetorque.dataset.force_fields import (
     orientation_field,
 )
 from forcetorque.dataset.frames import episode_frames
-from forcetorque.dataset.result import DatasetCheck, DatasetFinding, EpisodeFieldRow
+from forcetorque.dataset.result import DatasetCheck, DatasetFinding, EpisodeFieldRow, check_answer
 from forcetorque.dataset.set_checks import set_findings, usual_noise
 from forcetorque.formats.lerobot.dataset import LeRobotDataset, read_dataset
-from forcetorque.recording.frames import OrientationForm, OrientationSense
+from forcetorque.recording.orientation import OrientationForm, OrientationSense
+from forcetorque.results.answer import Concern
+from forcetorque.results.document.content import Document, List, Section, Text, Tone, Verdict, html_bytes
+from forcetorque.results.result import created_now
+from forcetorque.results.table import Table
 
 
 def checked(
@@ -153,3 +158,31 @@ def _rows(field: ForceField, episodes: Sequence[EpisodeField]) -> list[EpisodeFi
             )
         )
     return rows
+
+
+_TONES = {Concern.NONE: Tone.GOOD, Concern.UNCERTAIN: Tone.CAUTION, Concern.BAD: Tone.BAD}
+
+
+def write_page(check: DatasetCheck, path: Path) -> None:
+    """Write a check for a browser.
+
+    Args:
+        check: The check.
+        path: HTML file to write or to replace.
+
+    Raises:
+        MissingExtraError: If the extra `report` is not installed.
+    """
+    answer = check_answer(check)
+    blocks = [block if isinstance(block, Table) else Text(text=block) for block in check.blocks()]
+    summary = Section(
+        title="Result",
+        blocks=(Verdict(tone=_TONES[answer.concern], text=answer.verdict), List(points=answer.why)),
+    )
+    document = Document(
+        title="Forces of a dataset",
+        subtitle=answer.subject,
+        created=created_now(),
+        sections=(summary, Section(title="Findings and episodes", blocks=tuple(blocks))),
+    )
+    write_bytes_atomically(path, html_bytes(document))

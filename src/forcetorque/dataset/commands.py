@@ -28,7 +28,7 @@ def _require_positive(flag: str, value: float | None) -> None:
 
 @command(
     None,
-    Saved(flags=("--html",), help="HTML page of the result.", function="forcetorque.dataset.page:write_page"),
+    Saved(flags=("--html",), help="HTML page of the result.", function="forcetorque.dataset.check:write_page"),
 )
 def check_dataset(
     folder: Annotated["Path | str", Option("Folder of a LeRobot dataset, v2.1 or v3.0.")],

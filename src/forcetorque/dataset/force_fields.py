@@ -16,7 +16,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.lerobot.dataset import INFO, Feature, LeRobotDataset
 from forcetorque.inspection.draft.streams import array_words, column_matches
-from forcetorque.recording.frames import OrientationForm, OrientationLayout, OrientationSense, orientation_signals
+from forcetorque.recording.orientation import OrientationForm, OrientationLayout, OrientationSense, orientation_signals
 
 _WORDS = {"wrench", "force", "forces", "torque", "torques", "moment", "moments", "effort", "ft", "tau"}
 _OF_ERRORS = {"std", "stddev", "sigma", "covariance"}

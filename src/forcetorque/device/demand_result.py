@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from collections.abc import Sequence as Several
+from collections.abc import Iterator, Mapping, Sequence as Several
 from enum import StrEnum
 from typing import Annotated
 
@@ -15,7 +14,7 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import DeviceFile, DeviceHeat
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
-from forcetorque.device.excitation import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads
+from forcetorque.device.excitation_options import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.mechanical_demands import EnvelopeRow
 from forcetorque.device.motion import DeviceTrajectory

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.device.description import Device
-from forcetorque.device.excitation import (
+from forcetorque.device.excitation_options import (
     HELD_OUT_FORCE_N,
     HELD_OUT_MOMENT_NM,
     SAMPLES,

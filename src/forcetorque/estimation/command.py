@@ -88,8 +88,8 @@ def estimate(
     from forcetorque.experiment.kept_experiments import experiment_finished
     from forcetorque.experiment.loading import Purpose
     from forcetorque.formats.sample_table import SUFFIXES
+    from forcetorque.results.terminal.input import read_calibrations, read_experiment
     from forcetorque.results.terminal.output import refuse_ending, refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
 
     log = start_logging()
     refuse_ending("--output", output, SUFFIXES)

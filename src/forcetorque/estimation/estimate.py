@@ -24,8 +24,8 @@ from forcetorque.estimation.skin_contacts import (
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
+from forcetorque.experiment.seen_and_outside_samples import AppliedReadings, applied_readings
 from forcetorque.experiment.sensor_reading import Correction, Readings, readings_at, wrench_at
-from forcetorque.experiment.validity import AppliedReadings, applied_readings
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches

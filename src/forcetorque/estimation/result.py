@@ -24,8 +24,8 @@ from forcetorque.estimation.torque.experiment_fusion import (
 from forcetorque.estimation.torque.motor import Friction
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.seen_and_outside_samples import SamplesOutside, outside_row, sentences
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.experiment.validity import SamplesOutside, outside_row, sentences
 from forcetorque.inspection.diagnosis import reversed_sensors
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use

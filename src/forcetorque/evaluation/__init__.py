@@ -9,13 +9,10 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept as accept
     from forcetorque.evaluation.acceptance.limits import read_acceptance as read_acceptance
-    from forcetorque.evaluation.commands import compare as compare
-    from forcetorque.evaluation.commands import evaluate as evaluate
-    from forcetorque.evaluation.commands import validate as validate
+    from forcetorque.evaluation.commands import compare as compare, evaluate as evaluate, validate as validate
     from forcetorque.evaluation.evaluation import Evaluation as Evaluation
     from forcetorque.evaluation.load_cases.verdict import use_verdicts as use_verdicts
-    from forcetorque.evaluation.sphere.sphere import spheres as spheres
-    from forcetorque.evaluation.sphere.sphere import spheres_of_sensors as spheres_of_sensors
+    from forcetorque.evaluation.sphere.sphere import spheres as spheres, spheres_of_sensors as spheres_of_sensors
     from forcetorque.evaluation.validation.validation import Validation as Validation
     from forcetorque.experiment.calibrations_under_test import wrench_errors as wrench_errors
 

@@ -255,9 +255,12 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
         worst = ordered[0]
         name = short_names([worst.calibration])[worst.calibration]
         unsure = acceptance.unsure(sensor)
-        step, command = (
-            _acceptance_step(worst) if failed else next_step(unsure[0]) if unsure else _after_acceptance(worst)
-        )
+        if failed:
+            step, command = _acceptance_step(worst)
+        elif unsure:
+            step, command = _step_to_decide(unsure[0], acceptance.specification_file)
+        else:
+            step, command = _after_acceptance(worst)
         yield Answer(
             subject=f"{worst.sensor} ({worst.serial}), {name}, by {acceptance.specification!r}",
             verdict="REJECTED" if failed else "UNDECIDED" if unsure else "ACCEPTED",
@@ -285,6 +288,14 @@ def _compared(criterion: Criterion) -> str:
     unit = f" {criterion.unit}" if criterion.unit else ""
     where = f" ({criterion.note})" if criterion.note else ""
     return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
+
+
+def _step_to_decide(use: LoadCaseVerdict, specification: str | None) -> tuple[str, str]:
+    """What gives an undecided sensor a verdict: where it is a change of a file, `accept` again."""
+    step, command = next_step(use)
+    if command and not _states_loads(use):
+        return step, command
+    return step, typed("accept", EXPERIMENT, "--spec", specification, "-c", use.calibration) if specification else ""
 
 
 def _after_acceptance(criterion: Criterion) -> tuple[str, str]:

@@ -30,7 +30,7 @@ _COMPARED_CALIBRATIONS = Option(
     "--calibration",
     "-c",
     typed=list[Path],
-    reads="forcetorque.results.terminal.reading:read_calibrations",
+    reads="forcetorque.results.terminal.input:read_calibrations",
 )
 _SPHERE_INTERVALS = Option(
     "Label or kind of an interval whose motion draws a sphere. Default: the sphere intervals of each file, else all.",
@@ -119,7 +119,9 @@ def accept(
     name, reader = one_named(calibration)
     chosen = None if name is None or reader is None else (name, reader)
     with nullcontext() if isinstance(spec, AcceptanceFile) else stated_in(str(spec)):
-        return accept(run, limits, chosen, others=others, population=population)
+        accepted = accept(run, limits, chosen, others=others, population=population)
+    file = None if isinstance(spec, AcceptanceFile) else str(spec)
+    return accepted.model_copy(update={"specification_file": file})
 
 
 @command("contact force and joint torques by calibration, with their intervals")
@@ -247,7 +249,7 @@ def sphere(
             sensor can be analysed.
     """
     from forcetorque.evaluation.sphere.sphere import spheres_of_sensors
-    from forcetorque.results.terminal.reading import refuse_left_out, sensors_named
+    from forcetorque.results.terminal.input import refuse_left_out, sensors_named
 
     chosen, by_name = sensors_named(experiment, sensors), dict(calibrations or {})
     refuse_left_out(experiment, chosen, by_name)

@@ -32,14 +32,14 @@ from forcetorque.experiment.calibrations_under_test import (
 )
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
-from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import (
+from forcetorque.experiment.seen_and_outside_samples import (
     SamplesOutside,
     doubts_about_choice,
     readings_outside,
     require_unseen,
     sentences,
 )
+from forcetorque.experiment.validation_offset import Offset
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none

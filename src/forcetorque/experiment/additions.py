@@ -18,7 +18,7 @@ from forcetorque.experiment import file as schema
 from forcetorque.experiment.clocks import aligned_clocks
 from forcetorque.experiment.core_tables import PoseTable, TransformTable
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.recording.frames import orientation_at, pose_at, wrench_in_frame
+from forcetorque.recording.orientation import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.results.result import Result, UnusableSamples
 from forcetorque.robot.model import RobotModel

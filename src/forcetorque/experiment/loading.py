@@ -33,12 +33,10 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor, Role
 from forcetorque.experiment.file import (
     ExperimentFile,
     Robot,
+    Support as SupportTable,
     experiment_file,
     parse_experiment,
     section_fields,
-)
-from forcetorque.experiment.file import (
-    Support as SupportTable,
 )
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, Final, Self
@@ -261,26 +261,33 @@ class EvaluatedInstants:
         return self.start.offsets[of]
 
 
-def nothing_left(instants: EvaluatedInstants, interval: Interval) -> str | None:
-    """Tell whether an interval is too short to be evaluated.
-
-    Returns:
-        What is left out, in words; None where there are samples to evaluate.
-    """
-    if not instants.first.all():
-        return None
-    return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be evaluated"
-
-
-class EvaluatedGaps:
-    """Whether gaps leave nothing to evaluate in intervals, with either offset."""
+class LeftOut:
+    """What cannot be evaluated of intervals: short ones, and those of which gaps leave nothing, with either offset."""
 
     def __init__(self) -> None:
         """Begin."""
+        self._stated: dict[str, None] = {}
         self._known: dict[tuple[str, str], dict[Offset, bool]] = {}
 
-    def add(self, what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> None:
-        """Look at an interval, or the next part of one.
+    def add(self, texts: Iterable[str]) -> None:
+        """State what else is left out.
+
+        Args:
+            texts: Each once, however often it is stated.
+        """
+        self._stated |= dict.fromkeys(texts)
+
+    def is_short(self, instants: EvaluatedInstants, interval: Interval) -> bool:
+        """Whether an interval is too short to be evaluated, which is then stated."""
+        if not instants.first.all():
+            return False
+        self.add(
+            [f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be evaluated"]
+        )
+        return True
+
+    def add_errors(self, what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> None:
+        """Look for gaps in an interval, or in the next part of one.
 
         Args:
             what: What is evaluated, in words.
@@ -291,12 +298,11 @@ class EvaluatedGaps:
         for offset, errors in judged.items():
             known[offset] |= not np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()
 
-    def words(self) -> Iterator[str]:
-        """Say what gaps leave out.
+    def texts(self) -> tuple[str, ...]:
+        """Give what was stated, then what gaps leave out; nothing of what can be evaluated with both offsets."""
+        return (*self._stated, *dict.fromkeys(self._gaps()))
 
-        Yields:
-            Sentences; none of what can be evaluated with both offsets.
-        """
+    def _gaps(self) -> Iterator[str]:
         for (what, label), known in self._known.items():
             if not known.get(Offset.FITTED, True):
                 yield f"{what} over {label!r}: every evaluated sample has a gap"

@@ -9,14 +9,8 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.fleet.commands import (
         fleet_add as fleet_add,
-    )
-    from forcetorque.fleet.commands import (
         fleet_report as fleet_report,
-    )
-    from forcetorque.fleet.commands import (
         fleet_run as fleet_run,
-    )
-    from forcetorque.fleet.commands import (
         fleet_table as fleet_table,
     )
     from forcetorque.fleet.dataset import Dataset as Dataset

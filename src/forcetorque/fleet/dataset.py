@@ -28,7 +28,7 @@ from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
-from forcetorque.experiment.calibration.provenance import SensorIdentity
+from forcetorque.experiment.calibration.provenance import SensorIdentity, readings_twice
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.input_files import distinct_files, recording_name
 from forcetorque.fleet.columns import columns_of, rows_of, schema_of
@@ -324,7 +324,8 @@ class Dataset:
             records: Records of one sensor, in the order of time.
 
         Returns:
-            Moments of those that have calibration intervals.
+            Moments of those that have calibration intervals. A copy of an earlier recording is left out, which the
+            warnings of the first one name.
 
         Raises:
             ExperimentError: If none has any.
@@ -334,7 +335,10 @@ class Dataset:
         if not found:
             logs = ", ".join(record.file for record in records[:3])
             raise ExperimentError(f'{self.folder}: expected an interval with use = "calibration", got none in {logs}')
-        return found
+        copies = readings_twice((one.recording, one.interval.content) for part in found for one in part.intervals)
+        distinct = [part for part in found if part.intervals[0].recording not in copies]
+        warnings = (*distinct[0].warnings, *(f"{message}; it is left out" for message in copies.values()))
+        return [distinct[0].model_copy(update={"warnings": warnings}), *distinct[1:]]
 
     def write(self, record: SensorRecord, options: AddOptions) -> Path:
         """Write a record to its file; readers see all of it or nothing.

@@ -19,8 +19,8 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.results.result import created_now
+from forcetorque.results.terminal.input import read_calibrations
 from forcetorque.results.terminal.output import end_with, refuse_figure, refuse_standard_output, show, start_logging
-from forcetorque.results.terminal.reading import read_calibrations
 
 _MOST_LOGS: Final = 3
 """Logs that a refusal names."""

@@ -28,7 +28,7 @@ from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
-from forcetorque.results.terminal.reading import read_calibrations
+from forcetorque.results.terminal.input import read_calibrations
 
 DECISIONS: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, reverse=True)
 """Verdicts, the one that asks most for attention first."""

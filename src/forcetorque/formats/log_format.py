@@ -15,7 +15,6 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.toml_file import Table
 from forcetorque.formats.logged_torques import LoggedTorques
 from forcetorque.formats.logged_wrist import LoggedWrist
-from forcetorque.formats.namespaces import namespace_depth
 from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream
 
@@ -160,6 +159,20 @@ class LoggedRobot:
             elif before is not None and nearer == 0 and not frame.has_pose_of(before):
                 unclear.add(frame.child)
         return {name: frame for name, frame in frames.items() if name not in unclear}, tuple(sorted(unclear))
+
+
+def namespace_depth(topic: str, other: str) -> int:
+    """Measure how near another topic is to a topic, by the namespaces of several robots in one log.
+
+    Args:
+        topic: The topic.
+        other: The other topic.
+
+    Returns:
+        Length of the namespace of the other topic, such as of `/right` in `/right/tf`; -1 if the topic is not in it.
+    """
+    namespace = f"/{other.strip('/')}".rpartition("/")[0]
+    return len(namespace) if f"/{topic.strip('/')}".startswith(f"{namespace}/") else -1
 
 
 def _nearer(stream: str, frame: FixedFrame, other: FixedFrame) -> int:

@@ -15,7 +15,13 @@ from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, UnitError, known_names
 from forcetorque.base.toml_file import Finite, Positive, Table, Text
 from forcetorque.base.units import STANDARD_GRAVITY, si_factor
-from forcetorque.recording.frames import ROLL_PITCH_YAW, EulerAxes, OrientationForm, OrientationLayout, OrientationSense
+from forcetorque.recording.orientation import (
+    ROLL_PITCH_YAW,
+    EulerAxes,
+    OrientationForm,
+    OrientationLayout,
+    OrientationSense,
+)
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Labels, Quantity
 

@@ -9,8 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.inspection.draft.draft import draft_experiment as draft_experiment
     from forcetorque.inspection.draft.questions import resume_experiment as resume_experiment
-    from forcetorque.inspection.inspect import inspect_log as inspect_log
-    from forcetorque.inspection.inspect import inspected as inspected
+    from forcetorque.inspection.inspect import inspect_log as inspect_log, inspected as inspected
 
 CAPABILITY = Capability(
     page="recording.md",

@@ -8,15 +8,10 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.live.bias_tracking import Tracking as Tracking
-    from forcetorque.live.choices import FaultPolicy as FaultPolicy
-    from forcetorque.live.choices import OffsetSource as OffsetSource
+    from forcetorque.live.choices import FaultPolicy as FaultPolicy, OffsetSource as OffsetSource
     from forcetorque.live.corrector import (
         Corrected as Corrected,
-    )
-    from forcetorque.live.corrector import (
         Corrector as Corrector,
-    )
-    from forcetorque.live.corrector import (
         CorrectorOptions as CorrectorOptions,
     )
     from forcetorque.live.sample_status import Status as Status

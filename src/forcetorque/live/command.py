@@ -216,11 +216,11 @@ def live(
     from forcetorque.live.program_check import program_checks
     from forcetorque.live.ros_topics import RosOutput
     from forcetorque.live.run import LiveLoop
+    from forcetorque.live.run_from_settings import make_run, ros_topics
     from forcetorque.live.settings import by_sensor, read_settings
-    from forcetorque.live.stated_source import make_run, ros_topics
     from forcetorque.live.watch import Watch
     from forcetorque.live.zenoh_session import zenoh_session
-    from forcetorque.results.terminal.reading import read_calibrations
+    from forcetorque.results.terminal.input import read_calibrations
 
     log = start_logging()
     refuse_standard_output("--output", output)

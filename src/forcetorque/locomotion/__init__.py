@@ -9,20 +9,12 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.locomotion.commands import (
         balance as balance,
-    )
-    from forcetorque.locomotion.commands import (
         coherence as coherence,
-    )
-    from forcetorque.locomotion.commands import (
         oscillation_causes as oscillation_causes,
-    )
-    from forcetorque.locomotion.commands import (
         torque_loop as torque_loop,
     )
     from forcetorque.locomotion.logged_signals import (
         motion_signals as motion_signals,
-    )
-    from forcetorque.locomotion.logged_signals import (
         motion_signals_of_arrays as motion_signals_of_arrays,
     )
     from forcetorque.locomotion.motion_quality import motion as motion

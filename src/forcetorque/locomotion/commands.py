@@ -31,7 +31,7 @@ _CALIBRATIONS = Option(
     "--calibration",
     "-c",
     typed=list[Path],
-    reads="forcetorque.results.terminal.reading:read_calibrations",
+    reads="forcetorque.results.terminal.input:read_calibrations",
 )
 
 
@@ -104,7 +104,7 @@ def balance(
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
-    from forcetorque.locomotion.standing.interval import BalanceOptions
+    from forcetorque.locomotion.standing.interval_balance import BalanceOptions
     from forcetorque.locomotion.standing.standing import balance
     from forcetorque.locomotion.standing.support_phases import ForceLimit
 
@@ -151,7 +151,7 @@ def _with_corrections(
     from forcetorque.experiment.offsets import corrections_of
     from forcetorque.experiment.validation_offset import Offset
     from forcetorque.locomotion.standing.foot_wrenches import FootForces, has_foot_forces, load_foot_forces
-    from forcetorque.results.terminal.reading import read_experiment
+    from forcetorque.results.terminal.input import read_experiment
 
     if by_motion and not isinstance(experiment, FootForces):
         return (

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.locomotion.motion_quality import Motion, MotionCurve
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, policy_words
-from forcetorque.locomotion.standing.interval import IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import IntervalBalance
 from forcetorque.locomotion.torque_control.causes import OscillationCauses
 from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
 from forcetorque.results.figures import (

@@ -8,8 +8,7 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.payload.identify import weigh_load as weigh_load
-    from forcetorque.payload.robot_files.export import export_load as export_load
-    from forcetorque.payload.robot_files.export import robot_load as robot_load
+    from forcetorque.payload.robot_files.export import export_load as export_load, robot_load as robot_load
     from forcetorque.payload.tare_offset import tare as tare
 
 CAPABILITY = Capability(

@@ -320,7 +320,7 @@ def tare(
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.payload.robot_files.export import robot_load
     from forcetorque.payload.tare_offset import Tare, tare
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
+    from forcetorque.results.terminal.input import read_calibrations, read_experiment, refuse_left_out, sensors_named
 
     log = start_logging()
     refuse_load_file(output, to, output_format, override, force=force)

@@ -75,7 +75,7 @@ def plan(
     from forcetorque.planning.joint_calibration_plan import plan_jointly
     from forcetorque.planning.planning import plan
     from forcetorque.planning.trajectory_files import refuse_full_folder, write_plan
-    from forcetorque.results.terminal.reading import (
+    from forcetorque.results.terminal.input import (
         one_calibration,
         planned_experiments,
         planned_sensor,

@@ -7,8 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.plates.commands import fit_plate as fit_plate
-    from forcetorque.plates.commands import plate as plate
+    from forcetorque.plates.commands import fit_plate as fit_plate, plate as plate
 
 CAPABILITY = Capability(
     page="guides/plates.md",

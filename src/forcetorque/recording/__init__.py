@@ -6,10 +6,8 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.recording.recording import Interval as Interval
-    from forcetorque.recording.recording import Recording as Recording
-    from forcetorque.recording.storage import read_recording as read_recording
-    from forcetorque.recording.storage import write_recording as write_recording
+    from forcetorque.recording.recording import Interval as Interval, Recording as Recording
+    from forcetorque.recording.storage import read_recording as read_recording, write_recording as write_recording
     from forcetorque.recording.stream import Stream as Stream
 
 __all__, __getattr__, __dir__ = lazy_names(

@@ -61,12 +61,12 @@ def report(
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.experiment.applicability import read_population
     from forcetorque.experiment.loading import Purpose
-    from forcetorque.report.assessment import Demands
     from forcetorque.report.report import report, require_writable
     from forcetorque.report.sections import viewer_section
+    from forcetorque.report.sensor_assessment import Demands
     from forcetorque.report.sources import assign_calibrations, sort_sources
     from forcetorque.results.result import created_now
-    from forcetorque.results.terminal.reading import read_experiment
+    from forcetorque.results.terminal.input import read_experiment
 
     log = start_logging()
     require_writable(output)

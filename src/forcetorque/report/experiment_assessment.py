@@ -28,7 +28,7 @@ from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.inspect import FindingRow, finding_rows, inspect_segments
 from forcetorque.recording.recording import Use
-from forcetorque.report.assessment import (
+from forcetorque.report.sensor_assessment import (
     Assessment,
     Demands,
     IntervalOverview,

@@ -15,11 +15,11 @@ from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, LoadCaseVerdic
 from forcetorque.evaluation.section import LOAD_CASES
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.seen_and_outside_samples import require_unseen_if_judged
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.validity import require_unseen_if_judged
 from forcetorque.planning.planning import plan_sentence
 from forcetorque.planning.section import PLAN
-from forcetorque.report.assessment import Demands
+from forcetorque.report.sensor_assessment import Demands
 from forcetorque.results.table import Row, short_names
 
 SensorKey = tuple[str, str]

@@ -23,14 +23,14 @@ from forcetorque.estimation.report_blocks import torque_section
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.evaluation import ERROR_WORDS, error_tables
 from forcetorque.evaluation.sphere.sphere import interval_table, mass_table, moment_table
-from forcetorque.evaluation.validation.contact_forces import WORTH, constant_contact_table
+from forcetorque.evaluation.validation.contact_force_errors import WORTH, constant_contact_table
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.inspection.inspect import finding_table
 from forcetorque.report import record_tables as tables
-from forcetorque.report.assessment import Assessment
 from forcetorque.report.decision_page import prior_comparison_section
 from forcetorque.report.experiment_assessment import ExperimentAssessment
+from forcetorque.report.sensor_assessment import Assessment
 from forcetorque.results.document.content import Block, Document, Figure, List, Page, Picture, Section, Text
 from forcetorque.results.number_text import counted
 from forcetorque.results.table import Table, short_names, table_of, without_vague

@@ -9,8 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.bandwidth import response as response
     from forcetorque.sensor.choice.command import choose_sensor as choose_sensor
-    from forcetorque.sensor.commands import drift as drift
-    from forcetorque.sensor.commands import thermal as thermal
+    from forcetorque.sensor.commands import drift as drift, thermal as thermal
     from forcetorque.sensor.gains.gains import select_gains as select_gains
 
 CAPABILITY = Capability(

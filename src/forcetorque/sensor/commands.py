@@ -128,8 +128,8 @@ def response(
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
+    from forcetorque.results.terminal.input import read_calibrations, read_experiment
     from forcetorque.results.terminal.output import drawn_to, refuse_figure
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
     from forcetorque.sensor.bandwidth.bandwidth import response
 
     log = start_logging()

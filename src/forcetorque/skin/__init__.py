@@ -9,11 +9,7 @@ from forcetorque.results.capability import Capability
 if TYPE_CHECKING:
     from forcetorque.skin.commands import (
         calibrate_skin as calibrate_skin,
-    )
-    from forcetorque.skin.commands import (
         check_skin as check_skin,
-    )
-    from forcetorque.skin.commands import (
         skin_wrench as skin_wrench,
     )
     from forcetorque.skin.taxels.calibrate import read_patches as read_patches

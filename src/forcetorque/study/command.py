@@ -10,7 +10,7 @@ from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.command import SENSORS, Option, command
 from forcetorque.results.number_text import amount, counted, plus_minus, within
-from forcetorque.study.one_sensor import WORKBENCH
+from forcetorque.study.candidate_fits import WORKBENCH
 from forcetorque.study.selection import FAR_SD
 
 if TYPE_CHECKING:

@@ -15,6 +15,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ShapeError, known_names
 from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.figures.lambda_curves import (
     LAMBDA_LABEL,
@@ -41,7 +42,7 @@ from forcetorque.results.figures import (
     shown_name,
 )
 from forcetorque.study import thesis_tables as tables
-from forcetorque.study.one_sensor import WORKBENCH
+from forcetorque.study.candidate_fits import WORKBENCH
 from forcetorque.study.selection import Candidate, with_offset
 from forcetorque.study.study import SensorStudy
 
@@ -56,8 +57,13 @@ _PAUSE_S = 2.0
 """Pause that is drawn between validation intervals; s."""
 
 
-def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
+def write_figures(sensor: SensorStudy, folder: Path, progress: Progress = lambda _: None) -> list[str]:
     """Draw figures 5.2 to 5.7 and 5.9; those over the types are of the best candidate's data set.
+
+    Args:
+        sensor: The study.
+        folder: Folder for the files.
+        progress: Called with a line for people as work goes on.
 
     Returns:
         Names of the files.
@@ -87,7 +93,9 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
         for offset in KNOWN_BEFORE:
             name = f"figure_5_5_mean_forces_offset_{offset.replace('-', '_')}.png"
             draw[name] = partial(_lambda_force_figure, sensor, offset)
-    for name, figure in draw.items():
+    left = TimeLeft(progress, "drawing figures", len(draw))
+    for done, (name, figure) in enumerate(draw.items()):
+        left.at(done)
         write_bytes_atomically(folder / name, png_bytes(figure()))
     return sorted(draw)
 

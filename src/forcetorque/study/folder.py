@@ -14,8 +14,8 @@ from forcetorque.base.output_file import new_folder, write_bytes_atomically
 from forcetorque.experiment.calibration.artefact import write_calibration
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.study import thesis_tables as tables
+from forcetorque.study.candidate_fits import Study
 from forcetorque.study.figures import write_figures
-from forcetorque.study.one_sensor import Study
 from forcetorque.study.result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.study.study import SensorStudy
 
@@ -50,10 +50,10 @@ def write_study_folder(
             (fresh / name).mkdir()
             files = [*_write_tables(study.study, fresh / name), *_write_calibrations(study, fresh / name)]
             warnings += study_warnings(study)
-            if progress is not None:
-                progress("drawing figures")
+            say = progress or (lambda _: None)
+            say("drawing figures")
             try:
-                files += write_figures(study, fresh / name)
+                files += write_figures(study, fresh / name, say)
             except MissingExtraError as error:
                 warnings.append(f"no figures: {error}")
             written = {"folder": str(output / name), "files": tuple(files)}

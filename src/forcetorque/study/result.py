@@ -16,7 +16,7 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
-from forcetorque.study.one_sensor import WORKBENCH, Study
+from forcetorque.study.candidate_fits import WORKBENCH, Study
 from forcetorque.study.selection import CONVENTION, FAR_SD
 from forcetorque.study.study import SensorStudy
 

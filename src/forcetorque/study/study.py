@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.provenance import Selection
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
-from forcetorque.study.one_sensor import Study, run_study
+from forcetorque.study.candidate_fits import Study, run_study
 from forcetorque.study.selection import Candidate, GenerativeCandidate, assembled
 from forcetorque.study.study_data import StudyData, generative_fits
 
@@ -254,7 +254,8 @@ def study_sensor(
         )
     drawing = data.sphere if sphere is None else tuple(sphere)
     named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)
-    generative = generative_fits(data, named, code_version=code_version, created=created)
+    say = progress or (lambda _: None)
+    generative = generative_fits(data, named, code_version=code_version, created=created, progress=say)
     study = run_study(
         [interval.data_set for interval in data.calibration],
         named,

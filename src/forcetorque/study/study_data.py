@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
+from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.moments import agreeing_moments, moments_of
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -171,7 +172,12 @@ class GenerativeFits:
 
 
 def generative_fits(
-    data: StudyData, combinations: Mapping[str, Collection[str]], *, code_version: str, created: str
+    data: StudyData,
+    combinations: Mapping[str, Collection[str]],
+    *,
+    code_version: str,
+    created: str,
+    progress: Progress = lambda _: None,
 ) -> GenerativeFits:
     """Fit every combination by the generative model, as `calibrate` does.
 
@@ -180,15 +186,20 @@ def generative_fits(
         combinations: Labels of the intervals of each combination, by its name.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
+        progress: Called with a line for people as work goes on.
 
     Returns:
         The fits. A combination without a load, with readings that do not follow it, or without a prior and with too few
         loads, is left out.
     """
+    text = f"fitting {len(combinations)} combinations of data sets by the generative model"
+    progress(text)
     kept, doubts = _kept(data)
+    left = TimeLeft(progress, text, len(combinations))
     calibrations: dict[str, Calibration] = {}
     candidates, left_out = [], []
-    for name, labels in combinations.items():
+    for done, (name, labels) in enumerate(combinations.items()):
+        left.at(done)
         intervals = [one for one in data.calibration if one.label in labels and one.label in kept]
         try:
             recordings = _recordings(data, intervals, kept, doubts)

@@ -11,7 +11,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
-from forcetorque.study.one_sensor import WORKBENCH, Study
+from forcetorque.study.candidate_fits import WORKBENCH, Study
 from forcetorque.study.selection import Candidate, GenerativeCandidate, lambda_text
 
 Row = dict[str, str | float]

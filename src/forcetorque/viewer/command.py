@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import logging
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -76,7 +78,7 @@ def view(
     Python: `experiment.view("view.html", calibration)`, also `"view.rrd"` and `"view.mcap"`
     """
     from forcetorque.experiment.loading import Purpose
-    from forcetorque.results.terminal.reading import read_calibrations, read_experiment
+    from forcetorque.results.terminal.input import read_calibrations, read_experiment
     from forcetorque.viewer.scene_builder import View, scene_of, view_source
     from forcetorque.viewer.video import Film, film_between, find_browser, frame_count, require_playwright, write_video
     from forcetorque.viewer.view_file import require_writer, view_files, write_view
@@ -99,6 +101,7 @@ def view(
         sensors=sensor,
         mesh_folders=mesh_dir,
         progress=log.info,
+        accept=partial(_accept, output, log),
     )
     for note in built.scene.notes:
         log.info("%s", note)
@@ -117,6 +120,25 @@ def view(
         _serve(path, built, port or 0, not no_browser, output_format, details=details)
     elif output != STANDARD_OUTPUT:  # else the page itself went there
         show(shown, output_format, details=details)
+
+
+_SAMPLE_BYTES, _LARGE_BYTES = 5_000, 1_000_000_000
+"""Memory of a sample of a biped with six sensors, docs/measured.md, and what is stated before it is taken."""
+
+
+def _accept(output: Path | None, log: logging.Logger, samples: int) -> None:
+    """Refuse a page that would be too large, or say how much memory many samples take, before either costs any."""
+    from forcetorque.viewer.page import require_few_samples
+    from forcetorque.viewer.view_file import MCAP, RRD
+
+    if output is not None and output.suffix.lower() not in (RRD, MCAP):
+        require_few_samples(output, samples)
+    if (size := samples * _SAMPLE_BYTES) > _LARGE_BYTES:
+        log.warning(
+            "%d samples are shown at once, in about %.1f GB of memory; where there is less, give a part of the log",
+            samples,
+            size * 1e-9,
+        )
 
 
 def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None, *, force: bool) -> None:

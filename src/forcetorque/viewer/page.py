@@ -94,6 +94,23 @@ def page_of(
     return "".join(page).encode()
 
 
+def require_few_samples(path: Path, samples: int) -> None:
+    """Refuse a page of so many samples that no browser opens it.
+
+    Args:
+        path: File of the page.
+        samples: Number of samples.
+
+    Raises:
+        ForceTorqueError: If there are too many for one file.
+    """
+    if samples > MOST_SAMPLES:
+        raise ForceTorqueError(
+            f"{path}: expected at most {MOST_SAMPLES} samples for one file, got {samples}; leave out "
+            "--output to look at all of them from this machine"
+        )
+
+
 def write_page(
     path: Path, built: BuiltScene, *, assets: Traversable | None = None, progress: Progress = lambda _: None
 ) -> int:
@@ -111,11 +128,7 @@ def write_page(
     Raises:
         ForceTorqueError: If there are too many samples for one file.
     """
-    if built.scene.samples > MOST_SAMPLES:
-        raise ForceTorqueError(
-            f"{path}: expected at most {MOST_SAMPLES} samples for one file, got {built.scene.samples}; leave out "
-            "--output to look at all of them from this machine"
-        )
+    require_few_samples(path, built.scene.samples)
     page = page_of(packed(built, progress), assets=assets)
     write_bytes_atomically(path, page)
     return len(page)

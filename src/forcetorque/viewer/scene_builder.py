@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import html
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -70,6 +70,7 @@ def build_scene(
     provenance: Sequence[str] = (),
     contact_options: ContactOptions = _AS_STATED,
     progress: Progress = lambda _: None,
+    accept: Callable[[int], None] = lambda _: None,
 ) -> BuiltScene:
     """Collect everything that the viewer shows of an experiment.
 
@@ -86,6 +87,7 @@ def build_scene(
         provenance: Lines to add to the list of inputs.
         contact_options: How contacts are estimated.
         progress: Called with the time that is left, of a log that takes longer than a few seconds.
+        accept: Called with the number of samples before most is computed; raises where they are too many.
 
     Returns:
         The scene.
@@ -112,6 +114,7 @@ def build_scene(
         progress, f"reading {experiment.name}", _POSTURE + _SENSOR * len(shown) + _CONTACTS + _FINDINGS
     )
     posture = posture_at(recording, model, clock)
+    accept(len(posture.stamp_ns))
     root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     computed = differentiated(usable)
     priors = Priors(computed)
@@ -243,6 +246,7 @@ def scene_of(
     mesh_folders: Sequence[Path] | None = None,
     contact_options: ContactOptions = _AS_STATED,
     progress: Progress = lambda _: None,
+    accept: Callable[[int], None] = lambda _: None,
 ) -> BuiltScene:
     """Build the scene of an experiment.
 
@@ -254,6 +258,7 @@ def scene_of(
         mesh_folders: Folders with packages of meshes.
         contact_options: As of `build_scene`.
         progress: As of `build_scene`.
+        accept: As of `build_scene`.
 
     Returns:
         The scene, which states the hashes of the calibrations.
@@ -273,6 +278,7 @@ def scene_of(
         mesh_folders=mesh_folders or (),
         contact_options=contact_options,
         progress=progress,
+        accept=accept,
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
     )
 

@@ -15,7 +15,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.skin.contact.tracking import followed_places
 from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.wrench.frames import AVERAGED
+from forcetorque.skin.wrench.pressures_over_recording import AVERAGED
 from forcetorque.skin.wrench.wrench import PatchFrames, WrenchChoice, patch_frames
 from forcetorque.viewer.arrays import Block, SceneDraft
 from forcetorque.viewer.scene import SkinContactFrames, SkinEventSeries, SkinPatch

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.means import means_of_parts, means_over

@@ -4,9 +4,16 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.generative.agreement import disagreements
+from forcetorque.base.errors import FitError
+from forcetorque.calibration.generative.agreement import (
+    disagreements,
+    require_response,
+    require_sensor,
+    unmoved_directions,
+)
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 
@@ -62,3 +69,36 @@ def test_a_short_recording_is_given_the_benefit_of_the_doubt() -> None:
     """A line through ten means leaves nothing to compare with."""
     stretches = [_recording("a"), _recording("b", 1.05 * TRUTH, means=10)]
     assert disagreements(stretches, _model(), ACCURACY) == ()
+
+
+@pytest.mark.parametrize(("gain", "is_refused"), [(0.31, False), (0.29, True)])
+def test_a_sensor_answers_with_three_tenths_of_its_prior(gain: float, is_refused: bool) -> None:
+    """Less of it is refused, with the direction."""
+    response = np.diag([1.0, gain, 1.0, 1.2, 1.0, 0.9])
+    if is_refused:
+        with pytest.raises(FitError, match=r"the sensor answers to fy with 0\.29 of what its prior says"):
+            require_sensor(response)
+    else:
+        require_sensor(response)
+
+
+@pytest.mark.parametrize(("share", "is_refused"), [(0.49, False), (0.51, True)])
+def test_a_response_is_known_by_half(share: float, is_refused: bool) -> None:
+    """The standard deviation of the response to one load over that response, over all rows together."""
+    wrench = np.random.default_rng(1).normal(size=(200, 6)) * [30.0, 30.0, 30.0, 2.0, 2.0, 2.0]
+    covariance = np.zeros((6, 6, 6))
+    covariance[:, 2, 2] = (share * 4.0) ** 2 / 6.0
+    if is_refused:
+        with pytest.raises(FitError, match="the loads hardly move fz, the response to it is not known by half"):
+            require_response(4.0 * np.eye(6), covariance, wrench)
+    else:
+        require_response(4.0 * np.eye(6), covariance, wrench)
+
+
+def test_directions_that_do_not_move_are_those_of_no_interval() -> None:
+    """A load that differs between intervals alone moves nothing: their offsets may differ as well."""
+    rng = np.random.default_rng(2)
+    wrench = rng.normal(size=(60, 6)) * [30.0, 30.0, 30.0, 2.0, 2.0, 2.0]
+    wrench[:, 5] = np.repeat([1.0, -1.0], 30)
+    assert unmoved_directions(wrench, [30, 30]) == ("tz",)
+    assert unmoved_directions(wrench, [60]) == ()

@@ -14,8 +14,7 @@ from forcetorque.experiment.calibration import expected_sensor_errors
 from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
-from tests.calibration.synthetic import LIMIT_COUNTS, OFFSET, PRIOR, anyhow, hanging, read_by
-from tests.calibration.synthetic import assumptions as assumed
+from tests.calibration.synthetic import LIMIT_COUNTS, OFFSET, PRIOR, anyhow, assumptions as assumed, hanging, read_by
 
 SLOPE = np.array([[0.5], [-0.3], [1.0], [0.01], [0.02], [-0.01]])
 SENSOR, FRAME, QUADRATIC, FLATTENING, DEGREE, LEVER_M = 0.06, 0.02, 0.05, 0.03, 0.005, 0.1

@@ -7,8 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.pose import make_pose, rotation_from_rpy

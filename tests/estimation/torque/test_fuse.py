@@ -10,7 +10,14 @@ import pytest
 from scipy.stats import chi2
 
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.torque.covariance_fusion import WindowMeans, disagreement, fuse, means_in_windows
+from forcetorque.estimation.torque.covariance_fusion import (
+    Disagreement,
+    Innovation,
+    WindowMeans,
+    disagreement,
+    fuse,
+    means_in_windows,
+)
 from forcetorque.estimation.torque.source import TorqueSource
 from tests.estimation.torque.sources import JOINTS, SAMPLES, shifted, source, stamps, three, truth
 
@@ -346,3 +353,14 @@ def test_other_joints_names_and_options_are_refused() -> None:
         replace(ft, stamp_ns=ft.stamp_ns[::-1])
     with pytest.raises(EstimationError, match="noise_time_s"):
         replace(ft, noise_time_s=np.inf)
+
+
+@pytest.mark.parametrize(("lasting", "passing", "alarm"), [(0.99, 0.99, False), (1.01, 0.99, True), (0.99, 1.01, True)])
+def test_an_alarm_is_at_the_quantile_of_each_part(lasting: float, passing: float, alarm: bool) -> None:
+    """Of two independent parts together 1 %; what passes may be larger by a quarter, which lags of sources make."""
+    quantile = chi2.ppf(np.sqrt(0.99), [3, 40])
+    parts = Disagreement(
+        lasting=Innovation(chi2=float(lasting * quantile[0]), degrees_of_freedom=3),
+        passing=Innovation(chi2=float(1.25 * passing * quantile[1]), degrees_of_freedom=40),
+    )
+    assert parts.alarms(0.01) == alarm

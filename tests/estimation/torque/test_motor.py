@@ -207,3 +207,15 @@ def test_motions_that_do_not_tell_friction_are_refused() -> None:
         fit_friction("knee", drive, trusted, nearly_one, rng.standard_normal(n), period_s=0.02, standstill=0.02)
     with pytest.raises(FitError, match="standstill: expected a positive speed"):
         fit_friction("knee", drive, trusted, one_speed, np.zeros(n), period_s=0.02, standstill=0.0)
+
+
+def test_errors_that_change_every_second_repeat_themselves_for_a_second() -> None:
+    """All fifty samples of a second are as good as one, and the noise is as correlated as half of a second."""
+    rng = np.random.default_rng(8)
+    velocity, acceleration = _motion(rng, 20000)
+    left = np.repeat(rng.choice([-0.3, 0.3], 400), 50)
+    friction = fit_friction(
+        "knee", left, np.zeros(len(left)), velocity, acceleration, period_s=1.0 / RATE_HZ, standstill=1e-9
+    )
+    assert friction.noise_time_s == pytest.approx(0.5 * 49.0 / RATE_HZ, rel=0.03)
+    assert friction.variance == pytest.approx(0.09, rel=0.03)

@@ -367,3 +367,15 @@ def test_stated_errors_of_a_contact_hold_in_every_direction(leg: Shin) -> None:
 def leg(data_dir: Path) -> Shin:
     """A lower leg of iCub."""
     return Shin(leg_layout(data_dir), objects=LEG_OBJECTS)
+
+
+@pytest.mark.parametrize(("age_ms", "is_used"), [(0, True), (499, True), (501, False)])
+def test_a_frame_is_used_for_half_a_second(age_ms: int, is_used: bool) -> None:
+    """The newest one before a pose, and not the one after it; an older one is refused with its age."""
+    frames = np.array([0, 1_000_000_000, 3_000_000_000], dtype=np.int64)
+    at_ns = frames[1:2] + age_ms * 1_000_000
+    if is_used:
+        np.testing.assert_array_equal(frames_before(frames, at_ns, patch="shin"), [1])
+    else:
+        with pytest.raises(EstimationError, match=r"at most 0\.5 s older than the pose, got 0\.501 s \(1 of 1 samples"):
+            frames_before(frames, at_ns, patch="shin")

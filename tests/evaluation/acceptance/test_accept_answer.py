@@ -7,7 +7,7 @@ import pytest
 
 from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
-from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Reason
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Concern
 
 
@@ -65,6 +65,13 @@ def test_a_sensor_without_enough_data_is_undecided() -> None:
     assert (answer.verdict, answer.concern) == ("UNDECIDED", Concern.UNCERTAIN)
     assert answer.why[1:] == (use.message,)
     assert answer.command == f"plan {EXPERIMENT} -c old/leg.json --clearance-deg 10"
+
+    tare = Reason(against="data", text="the offset", remedy='tare it and state offset = "tared" in [[load_case]]')
+    tared = _accepted(GOOD, load_cases=(use.model_copy(update={"reasons": (tare,)}),))
+    (answer,) = tared.answers()
+    assert (answer.step, answer.command) == (tare.remedy, "")  # limits of Python have no file to name
+    (answer,) = tared.model_copy(update={"specification_file": "limits.toml"}).answers()
+    assert answer.command == f"accept {EXPERIMENT} --spec limits.toml -c old/leg.json"
 
 
 def test_the_worst_criterion_is_the_reason_of_a_rejection() -> None:

@@ -20,14 +20,14 @@ from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.acceptance.limits import AcceptanceFile, read_acceptance
 from forcetorque.evaluation.acceptance.static_checks import check
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.evaluation.validation.contact_forces import contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval, Selection
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.seen_and_outside_samples import sentences
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import sentences
 from forcetorque.recording.recording import Use
 from tests.scenes.experiments import MOUNTED, PARQUET, TWO, YARP, edit, holed
 from tests.scenes.warm_experiments import TEMPERATURE, with_variables

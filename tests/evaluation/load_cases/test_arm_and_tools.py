@@ -214,7 +214,7 @@ def test_a_tool_weighed_by_a_wrong_sensor_hides_that_it_is_wrong(example: Simple
             assert warned == [one for one in evaluate(run, {"new": calibration}).warnings if one in warned]
             sizes.append(float(np.linalg.norm(gain * calibration.matrix @ weight) / np.linalg.norm(weight)))
     circular, right = np.reshape(sizes, (2, 2)).T
-    np.testing.assert_allclose(right, 1.0, atol=0.015)
+    np.testing.assert_allclose(right, 1.0, atol=0.01)
     assert circular[1] / circular[0] == pytest.approx(1.03 / 0.97, abs=0.01)
 
 

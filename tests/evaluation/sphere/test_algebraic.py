@@ -6,8 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import scipy.linalg
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from scipy.spatial.transform import Rotation
 
 from forcetorque.evaluation.sphere.algebraic_fit import Quadrics, direct_fit, gradient_weighted_fit

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError, UnitError
 from forcetorque.evaluation.sphere.cloud import share_of_directions

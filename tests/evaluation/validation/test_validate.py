@@ -9,13 +9,13 @@ import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import validate
-from forcetorque.evaluation.validation.contact_forces import contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import contact_forces
 from forcetorque.evaluation.validation.validation import Validation, joint_torques
 from forcetorque.experiment import sensor_run
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.seen_and_outside_samples import sentences
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.validity import sentences
 from forcetorque.robot.mechanics.samples import robot_motion_at
 from tests.scenes.experiments import PARQUET, TWO, add
 

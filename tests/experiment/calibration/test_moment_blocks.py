@@ -7,8 +7,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from forcetorque.experiment.calibration.moment_blocks import in_blocks, joined, pairwise_sum
 from forcetorque.experiment.calibration.moments import DataSet, Moments

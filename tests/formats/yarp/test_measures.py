@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.formats.log_format import StreamReading

@@ -18,7 +18,7 @@ from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.formats.yarp.writing import DevicePort, StreamPort, write_ports
-from forcetorque.recording.frames import ROLL_PITCH_YAW
+from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from tests.formats.yarp.port_logs import parse_nested, parse_slowly, read_text

@@ -18,7 +18,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.locomotion.answers import balance_answer
 from forcetorque.locomotion.section import SOLES
 from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
-from forcetorque.locomotion.standing.interval import BalanceOptions
+from forcetorque.locomotion.standing.interval_balance import BalanceOptions
 from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, ContactThresholds, ForceLimit, support_phases
 from forcetorque.results.answer import Concern
@@ -342,3 +342,11 @@ def test_no_event_is_claimed_while_an_offset_is_unknown(standing: Standing) -> N
     assert len(untested) == 1
     assert "on l_sole: " in untested[0]
     assert not any("no look for slips" in warning for warning in known.warnings)
+
+
+def test_sensors_without_an_offset_share_one_warning(standing: Standing) -> None:
+    """A robot of twenty sensors has one line, in which all are named."""
+    unknown = {name: replace(one, removes_offset=False) for name, one in standing.corrections.items()}
+    said = [one for one in balance([standing.experiment], [unknown]).warnings if "no offset was removed" in one]
+    assert len(said) == 1
+    assert all(name in said[0] for name in unknown)

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.means import mean_error
-from forcetorque.locomotion.standing.interval import IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import IntervalBalance
 from forcetorque.locomotion.standing.result import phase_rows
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance
+from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.locomotion.standing.sole_limits import sole_events
-from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
+from forcetorque.locomotion.standing.support_phases import ContactThresholds
+from tests.locomotion.standing.test_sole_limits import balance_on_one_foot
 
 mujoco = pytest.importorskip("mujoco")
 
@@ -89,27 +89,9 @@ def _kinds(rng: np.random.Generator, trial: Trial, stated: float) -> set[str]:
     wrench = trial.wrench + noise + OFFSET * rng.normal(size=6)
     covariance = np.broadcast_to(np.diag(NOISE**2 + OFFSET**2), (len(wrench), 6, 6))
     sole = Sole(frame="foot", friction=stated * FRICTION)
-    time_s = np.arange(len(wrench)) / RATE_HZ
-    foot = FootPressure(
-        sole=sole,
-        sensors=("ankle",),
-        wrench=wrench,
-        covariance=covariance,
-        pressure=centre_of_pressure(wrench, least_load_N=45.0, covariance=covariance),
-        reading_alone=None,
-    )
     thresholds = ContactThresholds(contact_threshold_N=45.0, release_N=18.0, dwell_s=0.0)
-    forces = {"foot": wrench[:, 2]}
-    balance = IntervalBalance(
-        recording="foot",
-        label="dragged",
-        stamp_ns=np.round(time_s * 1e9).astype(np.int64),
-        time_s=time_s,
-        weight_N=LOAD_N,
-        forces=forces,
-        net_N=wrench[:, 2],
-        phases=support_phases(forces, time_s, thresholds),
-        feet=(foot,),
+    balance = balance_on_one_foot(
+        sole, wrench, covariance, thresholds, least_load_N=45.0, rate_hz=RATE_HZ, weight_N=LOAD_N
     )
     return {event.kind for event in sole_events(balance, release_N=18.0)}
 

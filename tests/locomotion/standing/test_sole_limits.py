@@ -9,7 +9,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.sole_limits import SoleEventRow, friction_used, sole_events
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
 
@@ -23,28 +23,41 @@ SOLE = Sole(
 COVARIANCE = np.diag([2.0, 2.0, 2.0, 0.1, 0.1, 0.1]) ** 2
 
 
-def _events(wrench: FloatArray, covariance: FloatArray | None = COVARIANCE, sole: Sole = SOLE) -> list[SoleEventRow]:
-    time_s = np.arange(len(wrench)) / RATE_HZ
-    spread = None if covariance is None else np.broadcast_to(covariance, (len(wrench), 6, 6))
+def balance_on_one_foot(
+    sole: Sole,
+    wrench: FloatArray,
+    covariance: FloatArray | None,
+    thresholds: ContactThresholds,
+    *,
+    least_load_N: float,
+    rate_hz: float,
+    weight_N: float,
+) -> IntervalBalance:
+    """A robot on one sole, by the wrench that it bears and its covariance; shapes (n, 6), (n, 6, 6)."""
+    time_s = np.arange(len(wrench)) / rate_hz
+    pressure = centre_of_pressure(wrench, least_load_N=least_load_N, covariance=covariance)
     foot = FootPressure(
-        sole=sole,
-        sensors=("ankle",),
-        wrench=wrench,
-        covariance=spread,
-        pressure=centre_of_pressure(wrench, least_load_N=20.0, covariance=spread),
-        reading_alone=None,
+        sole=sole, sensors=("ankle",), wrench=wrench, covariance=covariance, pressure=pressure, reading_alone=None
     )
-    thresholds = ContactThresholds(contact_threshold_N=40.0, release_N=20.0, dwell_s=0.0)
-    balance = IntervalBalance(
+    forces = {sole.frame: wrench[:, 2]}
+    return IntervalBalance(
         recording="log",
         label="standing",
         stamp_ns=np.round(time_s * 1e9).astype(np.int64),
         time_s=time_s,
-        weight_N=WEIGHT_N,
-        forces={"foot": wrench[:, 2]},
+        weight_N=weight_N,
+        forces=forces,
         net_N=wrench[:, 2],
-        phases=support_phases({"foot": wrench[:, 2]}, time_s, thresholds),
+        phases=support_phases(forces, time_s, thresholds),
         feet=(foot,),
+    )
+
+
+def _events(wrench: FloatArray, covariance: FloatArray | None = COVARIANCE, sole: Sole = SOLE) -> list[SoleEventRow]:
+    spread = None if covariance is None else np.broadcast_to(covariance, (len(wrench), 6, 6))
+    thresholds = ContactThresholds(contact_threshold_N=40.0, release_N=20.0, dwell_s=0.0)
+    balance = balance_on_one_foot(
+        sole, wrench, spread, thresholds, least_load_N=20.0, rate_hz=RATE_HZ, weight_N=WEIGHT_N
     )
     return list(sole_events(balance, release_N=18.0))
 

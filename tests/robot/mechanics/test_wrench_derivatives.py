@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.dynamics import expected_wrenches

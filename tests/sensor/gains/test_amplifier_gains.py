@@ -7,8 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 
 from forcetorque.base.errors import ForceTorqueError, ShapeError
 from forcetorque.recording.stream import Stream

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import SensorError
 from forcetorque.sensor.gauge import GAUGE_MATERIALS, ResistiveGauge

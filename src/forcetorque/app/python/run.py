@@ -31,11 +31,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from forcetorque.evaluation.sphere import sphere as _sphere
-    from forcetorque.payload import identify as _payload
-    from forcetorque.payload import tare_offset as _tare
+    from forcetorque.payload import identify as _payload, tare_offset as _tare
     from forcetorque.planning import planning as _planning
-    from forcetorque.report.assessment import Demands
     from forcetorque.report.report import Report
+    from forcetorque.report.sensor_assessment import Demands
     from forcetorque.sensor.bandwidth import bandwidth as _bandwidth
 
 

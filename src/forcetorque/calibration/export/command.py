@@ -25,7 +25,7 @@ def export_calibrations(
         Option(
             "Calibration files or folders of them; one calibration for icub-matrix, numpy.",
             typed=list[Path],
-            reads="forcetorque.results.terminal.reading:read_calibrations",
+            reads="forcetorque.results.terminal.input:read_calibrations",
         ),
     ],
     to: Annotated[

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final, Self
 from urllib.parse import quote
 
-from forcetorque.base.errors import EstimationError, FitError, ForceTorqueError
+from forcetorque.base.errors import EstimationError, ExperimentError, FitError, ForceTorqueError
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.joint.artefact import sensor_artefact
 from forcetorque.calibration.joint.outcome import JointOutcome
@@ -20,12 +20,14 @@ from forcetorque.calibration.moments import assumptions_of
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
+from forcetorque.experiment.calibration.provenance import Content, readings_twice
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance, TermKind
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.long_recording import first_segment, segment_experiments
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.inspection.plausibility.checks import require_sense
 from forcetorque.recording.recording import Use
 
@@ -59,12 +61,14 @@ class JointData:
             The data.
 
         Raises:
-            ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no
-                untouched part has all joints in the log.
+            ExperimentError: If there is no calibration interval, the files are of different sensors, two have the same
+                readings, or in one no untouched part has all joints in the log.
             EstimationError: If every part is touched in every interval.
         """
         names = tuple(sensor.name for sensor in experiments[0].sensors) if sensors is None else tuple(sensors)
         campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
+        for message in readings_twice(_contents(campaigns[names[0]])).values():
+            raise ExperimentError(f"{message}; leave one of the two out")
         intervals, touched = [], []
         for label, outcome in _intervals(campaigns[names[0]], names, progress):
             if isinstance(outcome, JointInterval):
@@ -151,6 +155,13 @@ def _prior(campaign: Campaign, tolerance: ModelTolerance) -> SensorPrior:
     assumptions = assumptions_of(CampaignRecording.of(campaign.runs[0]))
     mount = tolerance.mount_of(campaign.sensor.name)
     return SensorPrior.of(required_prior(campaign.sensor), replace(assumptions, mount=mount))
+
+
+def _contents(campaign: Campaign) -> Iterator[tuple[str, Content | None]]:
+    """By what the readings of every calibration interval are known again, with the name of its recording."""
+    for run in campaign.runs if len(campaign.runs) > 1 else ():
+        for interval in run.experiment.intervals(Use.CALIBRATION):
+            yield campaign.recording(run), logged_content(run.experiment, run.sensor, interval)
 
 
 def _intervals(

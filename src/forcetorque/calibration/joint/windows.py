@@ -9,10 +9,11 @@ which stands in their own coefficients; what it adds to the products of these is
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice
-from typing import Any, Final
+from typing import Any, Final, Self
 
 import numpy as np
 
@@ -39,6 +40,10 @@ STILL_RAD_S: Final = 0.1
 """Speed of joints and root below which a robot is at rest; rad/s."""
 _BLOCK = 500
 """Windows whose coefficients are written out at a time."""
+_UNUSUAL = 5.0
+"""Times the median of what an equation is left with, beyond which it holds no more."""
+_SINGULAR = 1e-9
+"""Added to the products of equations, which depend on each other where nothing touches the robot at all."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -220,37 +225,28 @@ def _piece_windows(
         (equation, {f"{ZERO}{joint}": np.zeros(LOADS) for joint in joints_of_cuts(tree, equation.part)})
         for equation in weight_equations(tree, weighed, joints, nodes.root)
     )
-    for equation, demanded in chain(moving, resting):
-        columns = _error_columns(stretch, equation, windows, nodes, demanded, about) if terms else {}
-        own = [term for term in terms if term.name in columns]
-        errors = np.empty((len(windows), LOADS, len(own)))
-        for k, term in enumerate(own):
-            errors[:, :, k] = columns[term.name] / UNITS
-        logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
-        result = _averaged(stretch, equation, windows, logged, errors, about, own)
-        yield result if equation.part in parts else result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)]))
+    equations = list(chain(moving, resting))
+    columns = [_error_columns(stretch, equation, windows, nodes, about) if terms else {} for equation, _ in equations]
+    without_zeros = [_Terms.of(one, terms, own) for (one, _), own in zip(equations, columns, strict=True)]
+    wrenches = _balanced([one for one in without_zeros if one.equation.part in parts], nodes, about)
+    for (equation, demanded), own in zip(equations, columns, strict=True):
+        through = np.stack([wrenches[name] for name in equation.sensors], axis=1)
+        for name, values in demanded.items():
+            turned = equation.turned(tree, name.removeprefix(ZERO), through)
+            own[name] = windows.node_means(turned) + values
+        result = _averaged(stretch, _Terms.of(equation, terms, own), windows, nodes, wrenches, about)
+        touched = equation.part not in parts
+        yield result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)])) if touched else result
 
 
 def _error_columns(
-    stretch: Stretch,
-    equation: PartEquation,
-    windows: WindowNodes,
-    nodes: Stretch,
-    demanded: Mapping[str, FloatArray],
-    about: JointFit | None,
+    stretch: Stretch, equation: PartEquation, windows: WindowNodes, nodes: Stretch, about: JointFit | None
 ) -> dict[str, FloatArray]:
-    """Means of what a unit of every error of the model adds to the left side, by its name; shape (w, 6)."""
+    """Means of what a unit of every error of the model but zeros adds to the left side, by its name; shape (w, 6)."""
     columns = {name: windows.node_means(values) for name, values in body_columns(stretch.tree, equation).items()}
-    through = [nodes.readings[name] for name in equation.sensors]
     rates = [windows.rates(stretch.readings[name]) for name in equation.sensors]
     if about is not None:
-        through = [
-            about.wrench(name, stretch.session, one) for name, one in zip(equation.sensors, through, strict=True)
-        ]
         rates = [one @ about.change(name).T for name, one in zip(equation.sensors, rates, strict=True)]
-    for name, values in demanded.items():
-        turned = equation.turned(stretch.tree, name.removeprefix(ZERO), np.stack(through, axis=1))
-        columns[name] = windows.node_means(turned) + values
     delayed = np.einsum("nkij,nkj->ni", equation.transmission, np.stack(rates, axis=1))
     columns[DELAY + stretch.recording] = windows.node_means(delayed)
     return columns
@@ -263,36 +259,116 @@ def _at_rest(nodes: Stretch) -> BoolArray:
     return np.asarray(fastest.reshape(-1, NODES).max(axis=1) < STILL_RAD_S)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Terms:
+    """An equation at n nodes, with the errors of the model that it depends on."""
+
+    equation: PartEquation
+    terms: tuple[ErrorTerm, ...]
+    errors: FloatArray
+    """What a unit of each adds to the left side in the mean of a window; shape (w, 6, terms); in `UNITS`."""
+
+    @classmethod
+    def of(cls, equation: PartEquation, terms: Sequence[ErrorTerm], columns: Mapping[str, FloatArray]) -> Self:
+        own = tuple(term for term in terms if term.name in columns)
+        windows = len(equation.demand) // NODES
+        errors = np.empty((windows, LOADS, len(own)))
+        for k, term in enumerate(own):
+            errors[:, :, k] = columns[term.name] / UNITS
+        return cls(equation=equation, terms=own, errors=errors)
+
+    @property
+    def transmission(self) -> FloatArray:
+        """Of every sensor; shape (n, 6, 6 k); in `UNITS`; zeros in a row that is left out."""
+        scaled = self.equation.transmission * (UNITS / UNITS[:, None]) * self.equation.rows[:, None]
+        return scaled.transpose(0, 2, 1, 3).reshape(len(scaled), LOADS, -1)
+
+    def missing(self, wrenches: Mapping[str, FloatArray], about: JointFit | None) -> FloatArray:
+        """What wrenches lack of the demand of the bodies, by what is known of the model; shape (n, 6); in `UNITS`."""
+        left = self.equation.demand / UNITS
+        if about is not None:
+            # zeros of joints stand in the equation already
+            found = {term.name: 0.0 if term.name.startswith(ZERO) else value for term, value, _ in about.model_errors()}
+            known = self.errors @ np.array([found[term.name] for term in self.terms])
+            left = left - np.repeat(known, NODES, axis=0)
+        stacked = np.concatenate([wrenches[name] / UNITS for name in self.equation.sensors], axis=1)
+        return left * self.equation.rows - np.einsum("nij,nj->ni", self.transmission, stacked)
+
+
+def _balanced(equations: Sequence[_Terms], nodes: Stretch, about: JointFit | None) -> dict[str, FloatArray]:
+    """Wrenches of the sensors that are nearest to the measured ones and make the equations hold; shape (n, 6) each.
+
+    Where nothing is touched beyond a sensor they are what the bodies demand, without the noise of any reading. An
+    equation that is left with much more than usual, as in a contact, decides nothing of the sensors of others.
+
+    Args:
+        equations: Equations of parts that nothing touches, without the columns of zeros of joints.
+        nodes: What was logged at their n nodes.
+        about: As of `part_windows`.
+
+    Returns:
+        By sensor.
+    """
+    wrenches = {
+        name: values if about is None else about.wrench(name, nodes.session, values)
+        for name, values in nodes.readings.items()
+    }
+    if not equations:
+        return wrenches
+    names = list(wrenches)
+    transmission = np.zeros((len(nodes), len(equations), LOADS, len(names), LOADS))
+    missing = np.zeros((len(nodes), len(equations), LOADS))
+    for place, one in enumerate(equations):
+        left, of_sensors = one.missing(wrenches, about), one.transmission
+        size = np.abs(left).max(axis=1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            usual = np.nanmedian(size)
+        holds = np.isfinite(of_sensors).all(axis=(1, 2)) & (size <= _UNUSUAL * usual)
+        own = [names.index(name) for name in one.equation.sensors]
+        transmission[np.ix_(holds, [place], range(LOADS), own)] = of_sensors[holds].reshape(
+            -1, 1, LOADS, len(own), LOADS
+        )
+        missing[holds, place] = left[holds]
+    rows = LOADS * len(equations)
+    stacked = transmission.reshape(len(nodes), rows, -1)
+    whole = stacked @ stacked.transpose(0, 2, 1) + _SINGULAR * np.eye(rows)
+    moved = np.einsum("nij,ni->nj", stacked, np.linalg.solve(whole, missing.reshape(-1, rows, 1))[..., 0])
+    moved = moved.reshape(len(nodes), len(names), LOADS) * UNITS
+    return {name: values + moved[:, place] for place, (name, values) in enumerate(wrenches.items())}
+
+
 def _averaged(
     stretch: Stretch,
-    equation: PartEquation,
+    terms: _Terms,
     windows: WindowNodes,
-    logged: FloatArray,
-    errors: FloatArray,
+    nodes: Stretch,
+    wrenches: Mapping[str, FloatArray],
     about: JointFit | None,
-    terms: Sequence[ErrorTerm],
 ) -> PartWindows:
+    equation, errors = terms.equation, terms.errors
     w, k = len(windows), len(equation.sensors)
     zeros = {} if about is None else about.joint_zeros()
-    known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms])
-    transmission, readings = equation.transmission * (UNITS / UNITS[:, None]), logged / UNITS
+    known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms.terms])
+    transmission = equation.transmission * (UNITS / UNITS[:, None])
+    readings = np.stack([nodes.readings[name] for name in equation.sensors], axis=1) / UNITS
     right = equation.demand / UNITS - np.einsum("nkij,nkj->ni", transmission, readings)
     result = PartWindows(
         part=equation.part.name,
         stretch=stretch,
         sensors=equation.sensors,
-        terms=tuple(term.name for term in terms),
+        terms=tuple(term.name for term in terms.terms),
         time_s=windows.time_s,
         counts=windows.counts,
         transmission=transmission.reshape(w, NODES, k, LOADS, LOADS),
         readings=readings.reshape(w, NODES, k, LOADS),
-        expected=_expected(stretch, equation, logged, errors, about, terms).reshape(w, NODES, k, LOADS),
+        expected=_expected(stretch, terms, wrenches, about).reshape(w, NODES, k, LOADS),
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.node_means(right) + errors @ known,
         rows=equation.rows,
         mass_kg=sum(stretch.tree.bodies[k].inertia.mass for k in equation.part.bodies),
-        mass_shares=mass_shares(stretch.tree, equation.part, terms),
+        mass_shares=mass_shares(stretch.tree, equation.part, terms.terms),
     )
     whole = [
         np.isfinite(values).reshape(w, -1).all(axis=1) for values in (result.right, transmission, readings, errors)
@@ -301,28 +377,19 @@ def _averaged(
 
 
 def _expected(
-    stretch: Stretch,
-    equation: PartEquation,
-    logged: FloatArray,
-    errors: FloatArray,
-    about: JointFit | None,
-    terms: Sequence[ErrorTerm],
+    stretch: Stretch, terms: _Terms, wrenches: Mapping[str, FloatArray], about: JointFit | None
 ) -> FloatArray:
     """Readings by the prior matrices of wrenches that add up to what the bodies demand; shape (n, k, 6); in `UNITS`."""
-    transmission, missing, wrenches = equation.transmission * (UNITS / UNITS[:, None]), equation.demand / UNITS, logged
-    if about is not None:
-        # zeros of joints stand in the equation already
-        found = {term.name: 0.0 if term.name.startswith(ZERO) else value for term, value, _ in about.model_errors()}
-        left = errors @ np.array([found[term.name] for term in terms])
-        missing = missing - np.repeat(left, NODES, axis=0)
-        corrected = [about.wrench(name, stretch.session, logged[:, k]) for k, name in enumerate(equation.sensors)]
-        wrenches = np.stack(corrected, axis=1)
-    missing = missing - np.einsum("nkij,nkj->ni", transmission, wrenches / UNITS)
+    transmission, missing = terms.transmission, terms.missing(wrenches, about)
     # the least change of all wrenches; by a row that is left out none
-    whole = np.einsum("nkij,nklj->nil", transmission, transmission) + np.diag(1.0 - equation.rows)
-    moved = np.einsum("nkij,ni->nkj", transmission, np.linalg.solve(whole, missing[..., None])[..., 0])
-    wrenches = wrenches + moved * UNITS
+    whole = transmission @ transmission.transpose(0, 2, 1) + np.diag(1.0 - terms.equation.rows)
+    moved = np.einsum("nij,ni->nj", transmission, np.linalg.solve(whole, missing[..., None])[..., 0])
+    balanced = [
+        wrenches[name] + moved[:, LOADS * k : LOADS * (k + 1)] * UNITS for k, name in enumerate(terms.equation.sensors)
+    ]
     if about is not None:
-        readings = [about.reading(name, stretch.session, wrenches[:, k]) for k, name in enumerate(equation.sensors)]
-        wrenches = np.stack(readings, axis=1)
-    return wrenches / UNITS
+        balanced = [
+            about.reading(name, stretch.session, one)
+            for name, one in zip(terms.equation.sensors, balanced, strict=True)
+        ]
+    return np.stack(balanced, axis=1) / UNITS

@@ -26,7 +26,14 @@ from forcetorque.experiment.calibration.artefact import CalibratedVariable, Cali
 from forcetorque.experiment.calibration.estimation_type import Estimation, EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.excitation import Excitation
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
-from forcetorque.experiment.calibration.provenance import FittedLoads, Provenance, Selection, SensorIdentity, Validity
+from forcetorque.experiment.calibration.provenance import (
+    FittedLoads,
+    Provenance,
+    Selection,
+    SensorIdentity,
+    Validity,
+    readings_twice,
+)
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval
@@ -270,6 +277,8 @@ def thesis_calibration(
     sensor, variables = campaign.sensor, campaign.sensor.variables if kind.with_variables else ()
     sensor.require_six_components(f"estimation type {kind.name}")
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.linear.name for variable in variables])
+    for message in readings_twice((one.recording, one.part.content) for one in intervals).values():
+        raise FitError(f"{message}; leave one of the two out")
     data_sets = [interval.data_set for interval in intervals]
     # where the prior is kept there is no matrix to spoil, and a limb at rest tells the offset
     doubts = () if regularisation == math.inf else examine(data_sets, sensor.prior, sensor.full_scale)

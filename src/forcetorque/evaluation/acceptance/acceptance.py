@@ -18,7 +18,12 @@ from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdi
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
-from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, readings_outside, sentences
+from forcetorque.experiment.seen_and_outside_samples import (
+    SamplesOutside,
+    doubts_about_choice,
+    readings_outside,
+    sentences,
+)
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
@@ -45,6 +50,8 @@ class Acceptance(DrawnResult):
     """Name of the experiment; of several recordings their names, apart by semicolons."""
     specification: str
     """Name of the specification."""
+    specification_file: str | None = Field(default=None, exclude=True)
+    """Its file, for the next command; None where it was not read from one."""
     accepted: bool = False
     """Whether every criterion holds for every sensor, and none is undecided; computed, a given value is ignored."""
     undecided: bool = False

@@ -22,7 +22,7 @@ from forcetorque.evaluation.evaluation import CalibrationErrors, validation_erro
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.section import LoadCaseTable
-from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import ContactForceErrors, contact_forces
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.calibrations_under_test import PRIOR

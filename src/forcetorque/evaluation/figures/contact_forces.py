@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.validation.answers import answered_choices, best_text
-from forcetorque.evaluation.validation.contact_forces import ContactForceErrors
+from forcetorque.evaluation.validation.contact_force_errors import ContactForceErrors
 from forcetorque.evaluation.validation.validation import JointTorqueErrors
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.figures import (

@@ -44,8 +44,8 @@ from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
+from forcetorque.experiment.seen_and_outside_samples import doubts_about_choice, require_unseen_if_judged
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import doubts_about_choice, require_unseen_if_judged
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import amount

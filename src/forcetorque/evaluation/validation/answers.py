@@ -14,7 +14,7 @@ from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors
+    from forcetorque.evaluation.validation.contact_force_errors import BestCalibration, ContactForceErrors
     from forcetorque.evaluation.validation.validation import JointTorqueErrors, Validation
 
 

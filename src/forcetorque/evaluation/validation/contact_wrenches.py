@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import ContactForceValidation, FreeSubModel
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.validation_offset import EvaluatedGaps, Offset, nothing_left
+from forcetorque.experiment.validation_offset import LeftOut, Offset
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.robot.contacts import Wrenches
@@ -205,10 +205,29 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
         ExperimentError: If there is no interval to evaluate, or one has no support.
     """
     rows = ContactRows(free.whole.candidates(calibrations))
-    for part in free.segments():
-        rows.add(part)
-        del part
+    add_segments(free, rows)
     return rows.wrenches()
+
+
+class OfSegments(Protocol):
+    """What is collected of a recording whose segments come one after the other."""
+
+    def add(self, free: FreeSubModel) -> None:
+        """Evaluate the next segment."""
+        ...
+
+
+def add_segments(free: FreeSubModel, *rows: OfSegments) -> None:
+    """Evaluate every segment of a recording, which is not kept, by one after the other.
+
+    Args:
+        free: The sub-model in the recording.
+        rows: What is evaluated; what needs the motion of the most joints first, in which the others find theirs.
+    """
+    for part in free.segments():
+        for one in rows:
+            one.add(part)
+        del part
 
 
 class ContactRows:
@@ -223,8 +242,7 @@ class ContactRows:
         self._candidates, self._sub_model = candidates, ""
         self._rows: dict[tuple[int, Offset], RowsOnDisk] = {}
         self._time, self._expected = RowsOnDisk(), RowsOnDisk((6,))
-        self._left_out: dict[str, None] = {}
-        self._gaps = EvaluatedGaps()
+        self._left_out = LeftOut()
 
     def add(self, free: FreeSubModel) -> None:
         """Evaluate the next segment.
@@ -239,16 +257,14 @@ class ContactRows:
             with stated_in(f"interval {interval.label!r}"):
                 sub_model = free.seen_from_support(interval)
                 self._sub_model = sub_model.part.name
-                short = nothing_left(instants, interval)
-                if short is not None:
-                    self._left_out[short] = None
+                if self._left_out.is_short(instants, interval):
                     continue
                 over, without = _over(free, interval, sub_model, self._candidates)
             self._expected.append(instants.judged(without))
             self._time.append(seconds_since(instants.judged_ns, free.run.experiment.recording.start_ns))
             for index, wrench in enumerate(over):
                 judged = instants.judged_with_both(wrench, ("contact", index))
-                self._gaps.add(f"contact force by {self._candidates[index].name}", interval, judged)
+                self._left_out.add_errors(f"contact force by {self._candidates[index].name}", interval, judged)
                 for offset, errors in judged.items():
                     self._rows.setdefault((index, offset), RowsOnDisk((6,))).append(errors)
 
@@ -265,7 +281,7 @@ class ContactRows:
             wrenches={key: rows.mapped() for key, rows in self._rows.items()},
             time_s=dict.fromkeys(self._rows, time_s),
             expected=self._expected.mapped(),
-            left_out=(*self._left_out, *dict.fromkeys(self._gaps.words())),
+            left_out=self._left_out.texts(),
         )
 
 

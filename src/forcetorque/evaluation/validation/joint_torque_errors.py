@@ -13,6 +13,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, requi
 from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.pose import invert_pose
+from forcetorque.evaluation.validation.contact_wrenches import add_segments
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors
@@ -20,10 +21,9 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import (
     KNOWN_BEFORE,
-    EvaluatedGaps,
     EvaluatedInstants,
+    LeftOut,
     Offset,
-    nothing_left,
 )
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 from forcetorque.recording.recording import Interval
@@ -322,9 +322,7 @@ def torque_error_samples(free: FreeSubModel, calibrations: Mapping[str, Calibrat
         ExperimentError: If an interval has no support.
     """
     rows = TorqueRows(free.whole.candidates(calibrations))
-    for part in free.segments():
-        rows.add(part)
-        del part
+    add_segments(free, rows)
     return rows.samples()
 
 
@@ -339,8 +337,7 @@ class TorqueRows:
         """
         self._candidates = candidates
         self._pieces: dict[TorqueKey, list[TorqueSamples]] = {}
-        self._left_out: dict[str, None] = {}
-        self._gaps = EvaluatedGaps()
+        self._left_out = LeftOut()
 
     def add(self, free: FreeSubModel) -> None:
         """Evaluate the next segment.
@@ -354,16 +351,13 @@ class TorqueRows:
         for interval, instants in free.instants():
             with stated_in(f"interval {interval.label!r}"):
                 scheme = torque_scheme(free, interval)
-                self._left_out |= dict.fromkeys(scheme.left_out)
-                short = nothing_left(instants, interval)
-                if short is not None:
-                    self._left_out[short] = None
-                elif scheme.joints:
+                self._left_out.add(scheme.left_out)
+                if not self._left_out.is_short(instants, interval) and scheme.joints:
                     over = dict(_over(free, interval, instants, scheme, self._candidates))
                     for key, samples in over.items():
                         self._pieces.setdefault(key, []).append(samples)
                     for what, judged in _judged(self._candidates, over):
-                        self._gaps.add(what, interval, judged)
+                        self._left_out.add_errors(what, interval, judged)
 
     def samples(self) -> TorqueErrorSamples:
         """Put them together.
@@ -374,7 +368,7 @@ class TorqueRows:
         return TorqueErrorSamples(
             candidates=self._candidates,
             samples=_joined(self._pieces, np.concatenate),
-            left_out=(*self._left_out, *dict.fromkeys(self._gaps.words())),
+            left_out=self._left_out.texts(),
         )
 
 

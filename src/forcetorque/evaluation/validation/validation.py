@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.evaluation import smoothing_text
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts, verdict_texts
-from forcetorque.evaluation.validation.contact_forces import (
+from forcetorque.evaluation.validation.contact_force_errors import (
     BestCalibration,
     ContactForceErrors,
     RecordingContactForces,
@@ -21,7 +21,7 @@ from forcetorque.evaluation.validation.contact_forces import (
     contact_force_rows,
     contact_forces_of,
 )
-from forcetorque.evaluation.validation.contact_wrenches import ContactRows, ContactWrenches
+from forcetorque.evaluation.validation.contact_wrenches import ContactRows, ContactWrenches, add_segments
 from forcetorque.evaluation.validation.joint_torque_errors import (
     TorqueErrors,
     TorqueErrorSamples,
@@ -34,8 +34,8 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.free_sub_model import BEYOND_SENSOR, FreeSubModel, SubModelChoice
+from forcetorque.experiment.seen_and_outside_samples import SamplesOutside, readings_outside, sentences
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import SamplesOutside, readings_outside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Shown, Table, table_of
@@ -296,10 +296,7 @@ def _torques_and_contacts(
     """Torques first: they need the motion of more joints, in which that of the contact force is found."""
     candidates = free.whole.candidates(calibrations)
     torques, contacts = TorqueRows(candidates), ContactRows(candidates)
-    for part in free.segments():
-        torques.add(part)
-        contacts.add(part)
-        del part
+    add_segments(free, torques, contacts)
     return torques.samples(), contacts.wrenches()
 
 

@@ -53,13 +53,14 @@ COEFFICIENTS_TOGETHER: Final = Scale(expected=0.06, weight=2.0)
 """The same in a joint fit, which holds the size: evidence would take errors of the model for errors of sensors."""
 STATED: Final = Scale(expected=1.0, weight=4.0, least=1.0)
 """The same over what is stated of a prior matrix: evidence may find it larger, never smaller."""
-GAIN: Final = Scale(expected=0.005, weight=1.0)
+GAIN: Final = Scale(expected=0.005, weight=0.25)
 """Gain of every channel, relative.
 
 Few sensors have channels whose gains differ, and where they do data tell: where 2 % are expected, more simulated
-sensors get worse than they were.
+sensors get worse than they were; where the expectation counts for a whole coefficient, intervals of sensors whose gains
+differ by 5 % hold too little.
 """
-ROTATION: Final = Scale(expected=float(np.radians(0.7)), weight=1.0)
+ROTATION: Final = Scale(expected=float(np.radians(0.35)), weight=0.25)
 """Rotation of the sensor about each of its axes; rad."""
 SHIFT: Final = Scale(expected=0.002, weight=6.0)
 """Shift of its origin along each of them; m. Centres of mass that are off look like one, so it is held."""

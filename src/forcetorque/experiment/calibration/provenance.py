@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Annotated, Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.recording.fingerprint import joined_fingerprint
+from forcetorque.recording.fingerprint import joined_fingerprint, kept_hashes
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 
@@ -70,6 +70,27 @@ class FittedInterval(StoredTable):
     """Experiment that it is of; None in files of earlier versions, where there was one."""
     content: Content | None = None
     """By what its samples are known again; None in files of earlier versions, and where they hardly change."""
+
+
+def readings_twice(contents: Iterable[tuple[str, Content | None]]) -> dict[str, str]:
+    """Find recordings that have readings of an earlier one, such as copies of a log under another name.
+
+    Args:
+        contents: Name of the recording of every interval of a sensor, and by what its samples are known again.
+
+    Returns:
+        By name of each such recording a message that names the earlier one.
+    """
+    owners: dict[tuple[str, int], str] = {}
+    messages: dict[str, str] = {}
+    known = ((name, one.quantity, one.windows) for name, one in contents if one is not None)
+    for name, quantity, windows in dict.fromkeys(known):  # blocks of an interval have one content
+        keys = [(quantity, value) for value in kept_hashes(windows).tolist()]
+        earlier = next((owners[key] for key in keys if owners.get(key, name) != name), None)
+        if earlier is not None:
+            messages.setdefault(name, f"{name!r} has readings of {earlier!r} again, and readings count once")
+        owners |= {key: name for key in keys if key not in owners and name not in messages}
+    return messages
 
 
 class Provenance(StoredTable):

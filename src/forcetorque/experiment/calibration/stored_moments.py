@@ -16,7 +16,7 @@ from forcetorque.base.stored_model import StoredTable, read_stored_table, write_
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError
-from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
+from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity, readings_twice
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, MountTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
@@ -334,8 +334,8 @@ def require_same_sensor(recordings: Sequence[RecordingMoments]) -> None:
         recordings: Moments of every recording, at least one.
 
     Raises:
-        FitError: If they are not of one sensor that was mounted, described and read in one way, or a recording comes
-            twice.
+        FitError: If they are not of one sensor that was mounted, described and read in one way, or a recording or its
+            readings come twice.
     """
     if not recordings:
         raise FitError("expected at least one recording, got none")
@@ -354,6 +354,9 @@ def require_same_sensor(recordings: Sequence[RecordingMoments]) -> None:
                 f"interval {label!r} of {recording!r} comes twice; its samples would too. Name another experiment, or "
                 "leave one of the two out"
             )
+    contents = [(one.recording, one.interval.content) for recording in recordings for one in recording.intervals]
+    for message in readings_twice(contents).values():
+        raise FitError(f"{message}; leave one of the two out")
 
 
 def _compared(recording: RecordingMoments) -> dict[str, Any]:

@@ -30,7 +30,7 @@ from forcetorque.formats.hdf5_file import (
     require_readable,
 )
 from forcetorque.formats.log_format import StreamReading
-from forcetorque.recording.frames import OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
 

@@ -28,7 +28,7 @@ from forcetorque.formats.robometry.channels import (
     texts,
 )
 from forcetorque.formats.signals import SPECIFY_SENSE, SenseTable
-from forcetorque.recording.frames import ROLL_PITCH_YAW
+from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Stream
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RobotError, known_names
-from forcetorque.formats.namespaces import namespace_depth
+from forcetorque.formats.log_format import namespace_depth
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import JOINT_TYPE, TRANSFORM_TYPES, topic_batches
 from forcetorque.formats.ros.robot_topics import is_static, robot_of_bag
 from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
 from forcetorque.recording.alignment import Interpolation
-from forcetorque.recording.frames import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import QUATERNION_XYZW, OrientationForm, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.model import Joint, JointType, RobotModel

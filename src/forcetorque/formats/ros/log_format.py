@@ -16,7 +16,7 @@ from forcetorque.formats.ros.robot_topics import is_description, is_static, robo
 from forcetorque.formats.ros.specified_topics import RosLog, RosOrientation, RosStream, read_specified
 from forcetorque.formats.ros.wrist_of_bag import describe_wrist
 from forcetorque.formats.signals import SPECIFY_SENSE
-from forcetorque.recording.frames import OrientationSense
+from forcetorque.recording.orientation import OrientationSense
 from forcetorque.recording.recording import Finding
 
 

@@ -10,11 +10,10 @@ import numpy as np
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose
 from forcetorque.formats.kept_parts import kept
-from forcetorque.formats.log_format import FixedFrame, LoggedRobot
-from forcetorque.formats.namespaces import namespace_depth
+from forcetorque.formats.log_format import FixedFrame, LoggedRobot, namespace_depth
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import TRANSFORM_TYPES, Batch, Cursor, Fields, topic_batches
-from forcetorque.recording.frames import QUATERNION_XYZW, orientation_signals
+from forcetorque.recording.orientation import QUATERNION_XYZW, orientation_signals
 
 STRING_TYPE = "std_msgs/msg/String"
 _DESCRIPTION, _STATIC = "robot_description", "tf_static"

@@ -26,7 +26,7 @@ from forcetorque.formats.ros.messages import (
 )
 from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
 from forcetorque.formats.signals import SPECIFY_SENSE, WorldTable
-from forcetorque.recording.frames import QUATERNION_XYZW, OrientationLayout, OrientationSense
+from forcetorque.recording.orientation import QUATERNION_XYZW, OrientationLayout, OrientationSense
 from forcetorque.recording.stream import Stream
 
 

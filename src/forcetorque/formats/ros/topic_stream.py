@@ -13,7 +13,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import POSE_TYPES, Fields, TopicBatch, not_measured, topic_batches
-from forcetorque.recording.frames import OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
 

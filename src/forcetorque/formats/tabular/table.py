@@ -29,7 +29,7 @@ from forcetorque.formats.tabular.row_readers import (
     text_rows,
 )
 from forcetorque.formats.tabular.table_layout import EvenRows, Rows, StampColumn, TableLayout, TableSignal
-from forcetorque.recording.frames import OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, ROW_CLOCK, Signal, Stream
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, Literal, cast, get_args
 
 from forcetorque.base.errors import FormatError, known_names
-from forcetorque.recording.frames import OrientationLayout
+from forcetorque.recording.orientation import OrientationLayout
 
 StampUnit = Literal["s", "ms", "us", "ns", "iso8601"]
 """Unit of times since the epoch of a clock; `iso8601` for dates."""

@@ -41,7 +41,7 @@ from forcetorque.formats.yarp.port_tables import (
 )
 from forcetorque.formats.yarp.skin_ports import SkinPart, holds_skin, holds_skin_events, skin_parts
 from forcetorque.formats.yarp.state_ext import count_joints
-from forcetorque.recording.frames import ROLL_PITCH_YAW
+from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES
 

@@ -27,7 +27,7 @@ from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, BottleValue, is_number
 from forcetorque.formats.yarp.plain_ports import ANGLES
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
-from forcetorque.recording.frames import ROLL_PITCH_YAW, OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import ROLL_PITCH_YAW, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal
 

@@ -15,7 +15,7 @@ from forcetorque.base.units import si_factor
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, is_number
 from forcetorque.formats.yarp.port_log import read_port_log
-from forcetorque.recording.frames import OrientationLayout, orientation_signals
+from forcetorque.recording.orientation import OrientationLayout, orientation_signals
 from forcetorque.recording.stream import QUANTITIES, Signal
 
 ANGLES = ("roll", "pitch", "yaw")

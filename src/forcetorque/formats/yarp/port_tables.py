@@ -18,7 +18,7 @@ from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin, read_skin_events
 from forcetorque.formats.yarp.state_ext import read_state_ext
-from forcetorque.recording.frames import ROLL_PITCH_YAW
+from forcetorque.recording.orientation import ROLL_PITCH_YAW
 
 
 class AnalogPort(Table):

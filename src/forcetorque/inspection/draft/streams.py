@@ -13,7 +13,7 @@ from pathlib import Path
 from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import Heading, is_time_name
 from forcetorque.formats.log_format import LogDescription, LogSketch, SketchedColumns
-from forcetorque.recording.frames import OrientationForm
+from forcetorque.recording.orientation import OrientationForm
 
 _APART = r"[ _./:\-\[\]]*"
 _FORCE = re.compile(rf"^(?P<before>.*?)(?:force|f){_APART}(?P<axis>[xyz])(?P<behind>[^a-z]*)$")

@@ -41,7 +41,7 @@ from forcetorque.inspection.draft.toml_lines import (
     time_text,
     toml_value,
 )
-from forcetorque.recording.frames import OrientationForm
+from forcetorque.recording.orientation import OrientationForm
 from forcetorque.recording.stream import QUANTITIES, Labels
 from forcetorque.robot.model import RobotModel
 

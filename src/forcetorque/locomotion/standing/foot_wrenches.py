@@ -26,9 +26,9 @@ from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.streams import read_streams
 from forcetorque.locomotion.section import SOLES, ExperimentSole, read_soles, refuse_without_soles
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure, mass_of
-from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, IntervalBalance
-from forcetorque.locomotion.standing.robot_balance import BalanceScene, robot_balance
+from forcetorque.locomotion.standing.interval_balance import BalanceOptions, FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.support_phases import support_phases
+from forcetorque.locomotion.standing.zero_moment_point import BalanceScene, robot_balance
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since, usable_samples
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.robot.contacts import Wrenches

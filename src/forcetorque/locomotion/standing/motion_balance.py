@@ -22,7 +22,7 @@ from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
     coplanar,
     mass_of,
 )
-from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, IntervalBalance, RobotBalance
+from forcetorque.locomotion.standing.interval_balance import BalanceOptions, FootPressure, IntervalBalance, RobotBalance
 from forcetorque.locomotion.standing.support_phases import SupportPhases, phases_of_contacts, support_phases
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since, usable_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use

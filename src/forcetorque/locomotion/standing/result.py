@@ -13,7 +13,7 @@ from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.base.noise.means import SampleStatistics, joined_times, sample_statistics
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import ComAcceleration, PressureCentres
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance, RobotBalance, half_widths
+from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance, RobotBalance, half_widths
 from forcetorque.locomotion.standing.support_phases import SupportPhase
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown

@@ -23,7 +23,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.units import NORMAL_95
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
-from forcetorque.locomotion.standing.interval import FootPressure, IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance
 from forcetorque.locomotion.standing.support_phases import stretches
 from forcetorque.results.table import Row, Shown
 

@@ -21,7 +21,7 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.formats.sample_table import SampleSpan, write_samples
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, balance_of_forces, balance_of_sensors
-from forcetorque.locomotion.standing.interval import BalanceOptions, IntervalBalance
+from forcetorque.locomotion.standing.interval_balance import BalanceOptions, IntervalBalance
 from forcetorque.locomotion.standing.motion_balance import balance_by_motion, unused_forces
 from forcetorque.locomotion.standing.result import (
     FootPressureRow,
@@ -198,11 +198,11 @@ def balance(
         if by_motion and isinstance(content, Experiment) and (unused := unused_forces(content)) is not None:
             warnings.append(unused)
         biased = [sensor for sensor, correction in reading.items() if not correction.removes_offset]
-        warnings += [
-            f"{content.name}: {sensor}: no offset was removed, so that forces and points include its offset; "
-            "give a calibration, or an interval for calibration"
-            for sensor in biased
-        ]
+        if biased:
+            warnings.append(
+                f"{content.name}: {', '.join(biased)}: no offset was removed, so that forces and points include the "
+                "offsets of these sensors; give a calibration, or an interval for calibration"
+            )
         if not by_motion:
             untested = {
                 foot.sole.frame for one in intervals for foot in one.feet if not set(biased).isdisjoint(foot.sensors)

@@ -181,7 +181,7 @@ class _Analysis:
     def result(self, given: Mapping[str, Any], log: Logger, refusals: list[ForceTorqueError]) -> Result:
         """Read what is named, and compute; sensors that are refused beside others are added to the refusals."""
         from forcetorque.experiment.input_files import stated_in
-        from forcetorque.results.terminal.reading import read_experiment
+        from forcetorque.results.terminal.input import read_experiment
 
         files, options = self.read(given, log)
         if _EXPERIMENT in self.named_by_kind:
@@ -229,7 +229,7 @@ class _Analysis:
     ) -> Iterator[Callable[[], Result]]:
         """Computations of the sensors that are named, else of those of the calibrations, else of all."""
         from forcetorque.experiment.applicability import by_sensor, one_per_sensor
-        from forcetorque.results.terminal.reading import (
+        from forcetorque.results.terminal.input import (
             read_calibrations,
             read_experiment,
             read_experiments,
@@ -260,7 +260,7 @@ class _Analysis:
     ) -> Result:
         """Result of one sensor; errors name file and sensor."""
         from forcetorque.experiment.input_files import stated_in
-        from forcetorque.results.terminal.reading import campaign_of
+        from forcetorque.results.terminal.input import campaign_of
 
         file, where, subject = next(iter(contents)), f"sensor {sensor!r}", campaign_of(contents, sensor)
         if _RUN in self.named_by_kind:

@@ -31,7 +31,7 @@ from forcetorque.skin.temperature.taxel_temperature_drift import (
     require_pads,
     valid_columns,
 )
-from forcetorque.skin.wrench.frames import patch_messages
+from forcetorque.skin.wrench.pressures_over_recording import patch_messages
 
 BLOCK_S: Final = 1.0
 """Time over which messages are averaged: noise falls, heat hardly changes."""

@@ -19,8 +19,8 @@ from forcetorque.skin.contact.contacts import SkinContacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.contact.tracking import ContactLife, followed_places
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatRule
-from forcetorque.skin.wrench.frames import SkinFrames
 from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.pressures_over_recording import SkinFrames
 
 
 class SkinContactRow(Row):

@@ -29,7 +29,7 @@ from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
     stays_in_band,
     wrench_on_ground,
 )
-from forcetorque.locomotion.standing.interval import BalanceOptions, FootPressure, RobotBalance
+from forcetorque.locomotion.standing.interval_balance import BalanceOptions, FootPressure, RobotBalance
 from forcetorque.locomotion.standing.support_phases import SupportPhases
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Support

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, ExperimentError, SerialNumberError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.evaluation.validation.contact_forces import ContactForceErrors, contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.contact_wrenches import contact_wrenches
 from forcetorque.evaluation.validation.validation import joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration

@@ -22,11 +22,11 @@ from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
+from forcetorque.experiment.seen_and_outside_samples import SamplesOutside, sentences
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.validity import SamplesOutside, sentences
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.report.assessment import assess
+from forcetorque.report.sensor_assessment import assess
 from tests.scenes.experiments import PARQUET, edit
 
 NAME = "new.json"

@@ -30,14 +30,19 @@ from forcetorque.evaluation.load_cases.verdict import Tone
 from forcetorque.evaluation.sphere.result import SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.validation.contact_forces import BestCalibration, ContactForceErrors, contact_forces
+from forcetorque.evaluation.validation.contact_force_errors import BestCalibration, ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.validation import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
+from forcetorque.experiment.seen_and_outside_samples import (
+    SamplesOutside,
+    doubts_about_choice,
+    require_unseen,
+    sentences,
+)
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.experiment.validity import SamplesOutside, doubts_about_choice, require_unseen, sentences
 from forcetorque.recording.recording import Recording
 from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, short_names

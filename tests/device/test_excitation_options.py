@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cache
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import pytest
@@ -13,7 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import (
+from forcetorque.device.excitation_options import (
     SAMPLES,
     ExcitationOption,
     excitation_options,
@@ -27,12 +29,15 @@ from forcetorque.device.excitation import (
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory, joint_ranges
 from forcetorque.device.motion_design import Designer
-from forcetorque.device.spanned_directions import device_span, optimised_motion, sensor_span_row
+from forcetorque.device.spanned_directions import device_span, direction_rows, optimised_motion, sensor_span_row
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span
 from forcetorque.workbench.loads import THESIS_TABLE, read_loads
 from tests.device.simulated_calibrations import bench_error, device_error
+
+if TYPE_CHECKING:
+    from forcetorque.workbench.excitation import MatrixError
 
 ROUNDING = 1e-9
 """Share below which a singular value counts as zero."""
@@ -261,7 +266,6 @@ def test_the_12_steps_alone_have_errors_of_many_newtons() -> None:
     assert np.median(_errors("12 steps", 3)[:, 0]) > 30.0
 
 
-@pytest.mark.long
 def test_an_optimised_motion_keeps_to_time_torque_and_locks() -> None:
     """With few changes it is already no worse than the third lock in volume and in both mean squares."""
     third = _options(25.0)["third lock"].trajectories[0]
@@ -306,3 +310,30 @@ def test_the_optimised_motion_beats_the_third_lock_in_50_seeds() -> None:
     realised = [_errors("third lock", SEEDS), _device_errors(better.sampled(SAMPLES), SEEDS)]
     squares = np.array([(errors**2).mean(axis=0) for errors in realised])
     assert (squares[1] < squares[0]).all()
+
+
+def test_errors_by_direction_are_under_the_loads_of_the_heading() -> None:
+    """A matrix that errs by a hundredth of each force and a fiftieth of each moment: 1 N of 100 N, 0.1 N m of 5 N m."""
+    shares = np.array([0.01, 0.01, 0.01, 0.02, 0.02, 0.02])
+    error = cast("MatrixError", SimpleNamespace(error=lambda loads: np.abs(loads) * shares))
+    force, moment = direction_rows("12 steps", error)
+    assert (force.error, moment.error) == ("force, N", "moment, N m")
+    assert [force.fx, force.fy, force.fz, force.tx, force.ty, force.tz] == pytest.approx([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
+    assert [moment.fx, moment.fz, moment.tx, moment.ty, moment.tz] == pytest.approx([0.0, 0.0, 0.1, 0.1, 0.1])
+
+
+def test_static_poses_are_thirty_degrees_apart() -> None:
+    """Yaw goes around once in the 12 steps: there are poses every thirty degrees, and no others."""
+    yaw = still_poses(_options(35.0)["12 steps"].trajectories[0]).position[:, 1]
+    np.testing.assert_allclose(np.unique(np.rad2deg(yaw).round(6)), np.arange(0.0, 361.0, 30.0))
+
+
+def test_the_time_to_a_posture_is_that_of_the_motion_to_it() -> None:
+    """Changes of locks and rests on the way included; the motion has the rest at its start besides."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(
+        device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, hold_s=0.7, swaps=0
+    )
+    start, ends = np.deg2rad([-90.0, 10.0, 90.0]), np.deg2rad([[30.0, 170.0, -90.0], [45.0, 80.0, 90.0]])
+    lasting = [designer.through(np.stack([start, end])).duration_s for end in ends]
+    np.testing.assert_allclose(designer._travel(start, ends), np.array(lasting) - 0.7, rtol=1e-9)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Frames of a patch over a recording that begins at rest, with heat compensated."""
+"""Pressures of a patch over a recording that begins at rest, message by message, with heat compensated."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from forcetorque.calibration.thesis.calibrate import calibrate, sphere_centre
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
-from forcetorque.study.one_sensor import Fits, fit_candidates, run_study
+from forcetorque.study.candidate_fits import Fits, fit_candidates, run_study
 from forcetorque.study.selection import SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, Candidate, relative_lambda
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, TRUTH, grid, moving, study
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From what is stated of lines on standard input to their source and its corrector."""
+"""The source and the corrector of lines on standard input, from the settings of a live run."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Study of one sensor (thesis 5.3): fit every type and lambda on every combination of data sets, and choose."""
+"""Every candidate of one sensor (thesis 5.3): each type and lambda on each combination of data sets, and the choice."""
 
 from __future__ import annotations
 
