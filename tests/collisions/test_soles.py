@@ -6,17 +6,20 @@ from __future__ import annotations
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.findings import with_collisions
 from forcetorque.collisions.soles import events_on_soles
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.section import SOLES as SECTION
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
+from forcetorque.locomotion.standing.sole_limits import EventKind
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.app.outcome import Run
@@ -82,6 +85,21 @@ def test_a_moment_that_a_sole_cannot_bear_is_an_event(
         assert event.end_s - event.start_s == pytest.approx(LASTS_S, abs=0.1)
         assert event.beyond_mm is not None
         assert event.beyond_mm > 50.0
+
+
+@pytest.mark.parametrize(("moment_Nm", "kinds"), [(0.0, []), (100.0, ["outside"])])
+def test_viewer_and_report_show_it_among_their_findings(standing: Standing, moment_Nm: float, kinds: list[str]) -> None:
+    """At its time, of its sensor; without a moment there is none."""
+    run = _with(standing, np.array([0.0, 0.0, 0.0, 0.0, moment_Nm, 0.0]))
+    experiment = replace(run.experiment, sensors=(run.sensor,))
+    found = [one for one in with_collisions((), experiment, {}) if one.kind in get_args(EventKind)]
+    assert [(one.kind, one.sensor) for one in found] == [(kind, FOOT) for kind in kinds]
+    interval = _on_right(experiment)
+    for one in found:
+        assert "pressed outside its outline" in one.message
+        assert one.start_ns is not None
+        middle_ns = (interval.start_ns + interval.end_ns) // 2
+        assert abs(one.start_ns - middle_ns) < 100_000_000
 
 
 def test_a_sole_belongs_to_the_sensor_next_to_it(standing: Standing) -> None:

@@ -29,6 +29,8 @@ export interface Hook {
   plots(): readonly PlotRange[];
   /** Samples whose points are in the clouds. */
   cloudSamples(): number[];
+  /** Rectangles of the names and letters at the robot; CSS pixels of its canvas. */
+  labels(): { left: number; top: number; right: number; bottom: number }[];
   /** What is drawn of skin: pressed taxels of each patch, and arrows of contacts, tip by tip in the world. */
   skin(): SkinShown;
   /** What is known of the stream, of a page that follows one: samples that are shown, and their time; s. */
@@ -73,6 +75,7 @@ export function openHook(
     planePoint: (plane, series, sample) => planes[plane]?.sampleOnScreen(series, sample) ?? null,
     plots: () => plots.flatMap((plot) => plot.range() ?? []),
     cloudSamples: () => [...space.samples()],
+    labels: () => stage.robot.labels(),
     skin: () => stage.robot.skin.shown(),
     video: async (options = {}) => base64(await makeVideo(stage, options, () => undefined)),
   };

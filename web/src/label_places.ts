@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where texts go that would lie on each other.
 
-import { Vector3, type PerspectiveCamera, type Sprite } from "three";
+import { Vector3, type Object3D, type PerspectiveCamera, type Sprite } from "three";
 
 /** Where a text is in a picture: its middle and its size. */
 export interface Box {
@@ -34,10 +34,23 @@ function meet(a: Box, b: Box): boolean {
  * Matrices of the world are up to date.
  */
 export function spread(texts: readonly Sprite[], camera: PerspectiveCamera): void {
+  const seen = seenBy(texts, camera);
+  heightsUp(seen).forEach((step, k) => seen[k]?.text.center.set(0.5, 0.5 - step));
+}
+
+/** Give boxes of the texts that are drawn, where they are after `spread`; the picture reaches from -1 to 1. */
+export function drawnBoxes(texts: readonly Sprite[], camera: PerspectiveCamera): Box[] {
+  return seenBy(texts, camera).map(({ text, x, y, width, height }) => {
+    return { x, y: y + (0.5 - text.center.y) * height, width, height };
+  });
+}
+
+/** Texts before a camera that no group hides, with their boxes before `spread`, the nearest first. */
+function seenBy(texts: readonly Sprite[], camera: PerspectiveCamera): (Box & { text: Sprite; depth: number })[] {
   camera.updateMatrixWorld();
   const high = Math.tan((camera.fov * Math.PI) / 360);
-  const seen = texts
-    .filter((text) => text.visible && text.parent?.visible)
+  return texts
+    .filter(isShown)
     .map((text) => {
       const place = new Vector3().setFromMatrixPosition(text.matrixWorld);
       const depth = -place.clone().applyMatrix4(camera.matrixWorldInverse).z;
@@ -47,5 +60,8 @@ export function spread(texts: readonly Sprite[], camera: PerspectiveCamera): voi
     })
     .filter(({ depth }) => depth > 0)
     .sort((a, b) => a.depth - b.depth);
-  heightsUp(seen).forEach((step, k) => seen[k]?.text.center.set(0.5, 0.5 - step));
+}
+
+function isShown(thing: Object3D): boolean {
+  return thing.visible && (thing.parent === null || isShown(thing.parent));
 }

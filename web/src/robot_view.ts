@@ -8,7 +8,7 @@ import { empty } from "./dispose";
 import { ErrorOnRobot } from "./error_on_robot";
 import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
-import { spread } from "./label_places";
+import { drawnBoxes, spread } from "./label_places";
 import { origin, RobotModel } from "./robot_model";
 import type { SceneData } from "./scene_data";
 import { SkinView } from "./skin_view";
@@ -70,6 +70,17 @@ export class RobotView extends View3D {
     this.scene.updateMatrixWorld();
     spread(this.wrenches.texts, this.camera);
     super.draw();
+  }
+
+  /** Rectangles of names and letters that are drawn; CSS pixels of the canvas. */
+  labels(): { left: number; top: number; right: number; bottom: number }[] {
+    const { clientWidth: wide, clientHeight: high } = this.canvas;
+    return drawnBoxes(this.wrenches.texts, this.camera).map(({ x, y, width, height }) => ({
+      left: 0.5 * wide * (1 + x - 0.5 * width),
+      right: 0.5 * wide * (1 + x + 0.5 * width),
+      top: 0.5 * high * (1 - y - 0.5 * height),
+      bottom: 0.5 * high * (1 - y + 0.5 * height),
+    }));
   }
 
   /** Room of the robot over postures of the whole recording. */

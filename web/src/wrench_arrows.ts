@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sensor frames with the wrenches that were measured and expected, and contacts.
 
-import { Group, Matrix3, Matrix4, type Sprite, Vector3 } from "three";
+import { Group, Matrix3, Matrix4, Sprite, Vector3 } from "three";
 
 import { Arrow, axes, toMatrix } from "./arrows";
 import { CONTACT, INK, seriesColour } from "./colours";
@@ -32,7 +32,7 @@ interface Place {
 
 /** Everything that is drawn at sensors and contacts. */
 export class WrenchArrows extends Group {
-  /** Names of sensors and contacts. */
+  /** Names of sensors and contacts, and letters of the axes. */
   readonly texts: Sprite[] = [];
   private readonly places: Place[];
 
@@ -82,7 +82,9 @@ export class WrenchArrows extends Group {
     const frame = new Group();
     frame.matrixAutoUpdate = false;
     frame.matrix = new Matrix4();
-    frame.add(axes(0.07 * this.size, 0.002 * this.size, sensor !== null));
+    const drawnAxes = axes(0.07 * this.size, 0.002 * this.size, sensor !== null);
+    frame.add(drawnAxes);
+    this.texts.push(...drawnAxes.children.filter((part) => part instanceof Sprite));
     // a contact at a sensor has its name there already
     if (sensor !== null || !this.data.scene.sensors.some((one) => one.name === name && one.link === link)) {
       const text = label(name, sensor === null ? CONTACT : INK, 0.032 * this.size, true);

@@ -4,17 +4,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import get_args
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.collisions.collisions import find_collisions
 from forcetorque.collisions.residual import WINDOW_S
 from forcetorque.collisions.result import CollisionRow
+from forcetorque.collisions.soles import events_on_soles
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.residual_findings import UNEXPLAINED
+from forcetorque.locomotion.answers import event_texts
+from forcetorque.locomotion.standing.sole_limits import EventKind
 from forcetorque.recording.recording import Finding, Use
 from forcetorque.results.number_text import plus_minus
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 ALARMS_PER_HOUR = 1.0
 """Rate of false alarms that they are for, that of `robot collisions`."""
@@ -27,7 +32,9 @@ _MARGIN_NS = 500_000_000
 def with_collisions(
     findings: Sequence[Finding], experiment: Experiment, calibrations: Mapping[str, Calibration]
 ) -> tuple[Finding, ...]:
-    """Add the collisions of every sensor, in place of the same by `inspect`; of one without a look, the reason.
+    """Add collisions of every sensor, in place of the same by `inspect`, and what soles bear that the ground cannot do.
+
+    Of a sensor without a look the reason is added.
 
     Args:
         findings: Other findings; of these, what `inspect` cannot explain is left out where half of it or more lies in
@@ -39,7 +46,8 @@ def with_collisions(
         All in the order of time, those without a time first.
     """
     collisions = list(_collisions(experiment, calibrations))
-    found = [*(one for one in findings if not _is_in(one, collisions)), *collisions]
+    on_links = [one for one in collisions if one.kind not in get_args(EventKind)]
+    found = [*(one for one in findings if not _is_in(one, on_links)), *collisions]
     return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
 
 
@@ -61,7 +69,6 @@ def _is_in(finding: Finding, collisions: Sequence[Finding]) -> bool:
 
 def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> Iterator[Finding]:
     recording = experiment.recording
-    start_ns = recording.start_ns
     watched_s = 1e-9 * sum(one.end_ns - one.start_ns for one in recording.intervals if one.use is not Use.IGNORE)
     if watched_s > LONGEST_S:
         text = (
@@ -70,27 +77,55 @@ def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration])
         for stream in dict.fromkeys(sensor.stream for sensor in experiment.sensors):
             yield Finding(stream=stream, kind="not_compared", message=text, count=0)
         return
+    shared = SharedWrenches(recording, {sensor.name: sensor.stream for sensor in experiment.sensors})
     for sensor in experiment.sensors:
-        run = SensorRun(experiment, sensor)
-        try:
-            correction = run.read_by(None, calibrations.get(sensor.name)).bare
-            rows = find_collisions(run, correction, (), (), ALARMS_PER_HOUR).collisions
-        except ForceTorqueError as error:
-            text = f"no look for collisions: {error}"
-            yield Finding(stream=sensor.stream, kind="not_compared", message=text, count=0, sensor=sensor.name)
-            continue
-        for row in rows:
-            yield Finding(
-                stream=sensor.stream,
-                kind=row.kind,
-                message=_message(row),
-                count=round((row.end_s - row.start_s) / WINDOW_S),
-                start_ns=start_ns + round(row.start_s * 1e9),
-                end_ns=start_ns + round(row.end_s * 1e9),
-                size=row.force_N,
-                unit="N",
-                sensor=sensor.name,
-            )
+        run = SensorRun(experiment, sensor, shared=shared)
+        yield from _on_links(run, calibrations.get(sensor.name))
+        yield from _on_soles(run, calibrations.get(sensor.name))
+
+
+def _on_links(run: SensorRun, calibration: Calibration | None) -> Iterator[Finding]:
+    start_ns, sensor = run.experiment.recording.start_ns, run.sensor
+    try:
+        rows = find_collisions(run, run.read_by(None, calibration).bare, (), (), ALARMS_PER_HOUR).collisions
+    except ForceTorqueError as error:
+        text = f"no look for collisions: {error}"
+        yield Finding(stream=sensor.stream, kind="not_compared", message=text, count=0, sensor=sensor.name)
+        return
+    for row in rows:
+        yield Finding(
+            stream=sensor.stream,
+            kind=row.kind,
+            message=_message(row),
+            count=round((row.end_s - row.start_s) / WINDOW_S),
+            start_ns=start_ns + round(row.start_s * 1e9),
+            end_ns=start_ns + round(row.end_s * 1e9),
+            size=row.force_N,
+            unit="N",
+            sensor=sensor.name,
+        )
+
+
+def _on_soles(run: SensorRun, calibration: Calibration | None) -> Iterator[Finding]:
+    """What soles bear that the ground cannot do, where the file states their outline or friction."""
+    start_ns, sensor = run.experiment.recording.start_ns, run.sensor
+    try:
+        events, untested = events_on_soles(run, None if calibration is None else ("", calibration), ())
+    except ForceTorqueError as error:
+        events, untested = (), (f"no look at what soles bear: {error}",)
+    for text in untested:
+        yield Finding(stream=sensor.stream, kind="not_compared", message=text, count=0, sensor=sensor.name)
+    for event in events:
+        (text,) = event_texts([event])
+        yield Finding(
+            stream=sensor.stream,
+            kind=event.kind,
+            message=f"{sensor.name}: {text}; see `robot balance`",
+            count=1,
+            start_ns=start_ns + round(event.start_s * 1e9),
+            end_ns=start_ns + round(event.end_s * 1e9),
+            sensor=sensor.name,
+        )
 
 
 def _message(row: CollisionRow) -> str:

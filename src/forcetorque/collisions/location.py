@@ -149,11 +149,14 @@ def noticed_on_links(
     for index, covariance in enumerate(covariances):
         of_robot = np.linalg.inv(equation.transmission[index, 0])
         information = of_robot.T @ np.linalg.solve(covariance, of_robot)
-        for link, points in _axes(tree, equation, index).items():
-            force = np.tile(np.eye(6, 3), (len(points), 1, 1))
-            force[:, 3:] = np.cross(points[:, None], np.eye(3)).swapaxes(1, 2)
-            least = np.linalg.eigvalsh(force.swapaxes(1, 2) @ information @ force)[:, 0].min()
-            forces.setdefault(link, []).append(float(np.sqrt(square / least)))
+        axes = _axes(tree, equation, index)
+        points = np.concatenate(list(axes.values()))
+        force = np.tile(np.eye(6, 3), (len(points), 1, 1))
+        force[:, 3:] = np.cross(points[:, None], np.eye(3)).swapaxes(1, 2)
+        least = np.linalg.eigvalsh(force.swapaxes(1, 2) @ information @ force)[:, 0]
+        ends = np.cumsum([len(of_link) for of_link in axes.values()])
+        for link, of_link in zip(axes, np.split(least, ends[:-1]), strict=True):
+            forces.setdefault(link, []).append(float(np.sqrt(square / of_link.min())))
     return {link: np.array(values) for link, values in forces.items()}
 
 

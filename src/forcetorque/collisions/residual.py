@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from typing import Final
 
@@ -131,13 +132,14 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
     rates = np.gradient(load, time_s, axis=0) if len(time_s) > 1 else np.zeros_like(load)
     terms, derivatives = derivatives_at(run, interval, "", at_ns, rates)
     known = np.isfinite(derivatives).all(axis=(1, 2))
+    derivatives = derivatives if known.all() else derivatives[known]
     of_load = _of_load(run, correction.model.matrix)
     columns = np.empty((int(np.count_nonzero(known)), LOADS, 1 + of_load.shape[2] + len(terms)))
     columns[:, :, 0] = means[known, :LOADS]
     of_matrix, of_model = np.split(columns[:, :, 1:], [of_load.shape[2]], axis=2)
     of_matrix[:] = (load[known] @ of_load.reshape(LOADS, -1)).reshape(of_matrix.shape)
     # a residual falls by what the expected wrench rises
-    np.multiply(derivatives[known], [-term.deviation for term in terms], out=of_model)
+    np.multiply(derivatives, [-term.deviation for term in terms], out=of_model)
     return Signals(
         time_s=time_s[known],
         columns=columns,
@@ -187,21 +189,18 @@ class Level:
         Returns:
             Columns of the windows less their level, shape (w, 6, 1 + p), and whether the level is known; shape (w,).
         """
-        # a level is the one before `first` and the windows since then, each with its weight
-        weights, known = np.zeros((end - first + 1, 1 + end - first)), np.zeros(end - first, dtype=np.bool_)
-        weights[0, 0] = 1.0
-        for k in range(end - first):
-            if self._starts[first + k]:
+        known, gains = np.zeros(end - first, dtype=np.bool_), []
+        for k, starts in enumerate(self._starts[first:end].tolist()):
+            if starts:
                 self._count = 0
             known[k] = self._count * WINDOW_S >= WARM_UP_S
             gain = 0.0
             if not held or not known[k]:
                 self._count += 1
                 gain = max(WINDOW_S / LEVEL_S, 1.0 / self._count)
-            np.multiply(weights[k], 1.0 - gain, out=weights[k + 1])
-            weights[k + 1, 1 + k] = gain
+            gains.append(gain)
         values = self._values[first:end]
-        levels = weights @ np.vstack([self._level, values])
+        levels = _weights(tuple(gains)) @ np.vstack([self._level, values])
         # a new array: a copy of this object keeps the level that it was made with
         self._level = levels[-1].copy()
         return (values - levels[:-1]).reshape(-1, *self._shape), known
@@ -209,6 +208,17 @@ class Level:
     def restart(self) -> None:
         """Take the level anew from the next windows on."""
         self._count = 0
+
+
+@lru_cache(maxsize=4)
+def _weights(gains: tuple[float, ...]) -> FloatArray:
+    """Weights of the level before the first window and of w windows in each level since then; shape (w + 1, 1 + w)."""
+    weights = np.zeros((len(gains) + 1, 1 + len(gains)))
+    weights[0, 0] = 1.0
+    for k, gain in enumerate(gains):
+        np.multiply(weights[k], 1.0 - gain, out=weights[k + 1])
+        weights[k + 1, 1 + k] = gain
+    return weights
 
 
 def changes_of(signals: Signals) -> FloatArray:

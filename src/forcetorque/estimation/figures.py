@@ -87,7 +87,7 @@ def contact_figure(
     sessions = _end_to_end(time, spans or [("", 0, len(time))])
     figure = new_figure(4 * _ROW_HEIGHT)
     panels = figure.subplots(4, 1, sharex=True, height_ratios=(1.6, 1.0, 1.0, 1.0))
-    keys = []
+    keys, means = [], {}
     styles = looks(list(by_name))
     for k, (name, values) in enumerate(by_name.items()):
         columns = np.column_stack([np.linalg.norm(values, axis=1), values])
@@ -95,14 +95,26 @@ def contact_figure(
         for row, panel in enumerate(panels):
             draw_over_time(panel, at, lines[:, row], styles[name], turn=k, count=len(by_name))
         magnitudes = np.concatenate([columns[session.samples, 0] for session in sessions])
-        keys.append((f"{shown_name(name)}: {_mean(magnitudes, unit)}", styles[name].key | {"linestyle": "-"}))
+        means[name] = _mean(magnitudes)
+        keys.append((f"{shown_name(name)}: {_mean_text(means[name], unit)}", styles[name].key | {"linestyle": "-"}))
     for panel, label in zip(panels, _AXES[unit], strict=True):
         _dress(panel, f"{label}, {unit}", sessions)
     figure.align_ylabels()
     panels[-1].set_xlabel("time, s" if len(sessions) == 1 else "time, sessions end to end, s")
     _name_sessions(panels[0], sessions)
     legend_below(figure, keys)
+    headline(figure, _mean_magnitudes(means, unit))
     return figure
+
+
+def _mean_magnitudes(means: Mapping[str, float], unit: str) -> str:
+    quantity = "force" if unit == "N" else "torque"
+    known = {name: mean for name, mean in means.items() if np.isfinite(mean)}
+    if not known:
+        return f"No whole {quantity} of a contact"
+    ends = (min(known, key=known.__getitem__), max(known, key=known.__getitem__))
+    words = [f"{known[name]:.3g} {unit} ({shown_name(name)})" for name in dict.fromkeys(ends)]
+    return f"Mean contact {quantity}: {' to '.join(words)}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -139,9 +151,13 @@ def _thinned(sessions: list[_Session], columns: FloatArray) -> tuple[FloatArray,
     return np.concatenate([time for time, _ in parts]), np.concatenate([lines for _, lines in parts])
 
 
-def _mean(magnitudes: FloatArray, unit: str) -> str:
+def _mean(magnitudes: FloatArray) -> float:
     known = magnitudes[np.isfinite(magnitudes)]
-    return f"mean {_AXES[unit][0]} {known.mean():.3g} {unit}" if len(known) else "no samples"
+    return float(known.mean()) if len(known) else np.nan
+
+
+def _mean_text(mean: float, unit: str) -> str:
+    return f"mean {_AXES[unit][0]} {mean:.3g} {unit}" if np.isfinite(mean) else "no samples"
 
 
 def _dress(panel: Axes, label: str, sessions: list[_Session]) -> None:

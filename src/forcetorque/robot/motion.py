@@ -391,10 +391,9 @@ class _Holder:
 
     def interpolated(self, neighbours: Neighbours) -> FloatArray:
         """Its joints as logged, at instants."""
-        values, columns = self.signal.values, self.columns
-        return neighbours.interpolated(
-            values[neighbours.before[:, None], columns], values[neighbours.after[:, None], columns]
-        )
+        # whole rows, then columns: a quarter of the time of an index of both
+        before, after = (self.signal.values.take(rows, axis=0) for rows in (neighbours.before, neighbours.after))
+        return neighbours.interpolated(before.take(self.columns, axis=1), after.take(self.columns, axis=1))
 
 
 def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[_Holder]:

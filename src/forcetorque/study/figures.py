@@ -244,6 +244,8 @@ def lambda_force_figure(
         name, kind = map(shown_name, chosen[:2])
         keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
     legend_below(figure, keys, title=LAMBDA_MEANING)
+    if chosen is not None:
+        headline(figure, f"Mean contact force of the choice: {best:.3g} N ({name}, {kind}, lambda {chosen[2]:g})")
     return figure
 
 

@@ -65,3 +65,30 @@ def test_the_ground_is_that_of_the_system_and_light_on_paper(visit: Visit, arm: 
     page.emulate_media(media="print")
     assert page.evaluate(ground) == _ground(False, "panel")
     assert page.get_by_role("button", name="Save sample").is_hidden()
+
+
+@pytest.mark.parametrize("size", [(360, 740), (1280, 800), (3840, 2160)])
+def test_names_and_letters_do_not_lie_on_each_other(visit: Visit, arm: Arm, size: tuple[int, int]) -> None:
+    """Those at the robot, in several postures of all sensors; the rectangles are as wide as what is drawn."""
+    file = visit.folder / "view.html"
+    file.write_bytes(page_of(arm.built))
+    page = visit.blank()
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.goto(file.as_uri())
+    page.evaluate("window.ft.ready")
+    rectangles = []
+    for sample in (0, 150, 300, 420, 599):
+        rectangles = page.evaluate(f"(window.ft.show({sample}), window.ft.labels())")
+        assert len(rectangles) >= 4  # a name and three letters
+        for k, one in enumerate(rectangles):
+            assert one["right"] - one["left"] > 2.0
+            for other in rectangles[:k]:
+                assert not _meet(one, other), (sample, one, other)
+    assert _meet(rectangles[0], rectangles[0])
+
+
+def _meet(one: dict[str, float], other: dict[str, float]) -> bool:
+    """Whether two rectangles have more than rounding in common."""
+    width = min(one["right"], other["right"]) - max(one["left"], other["left"])
+    height = min(one["bottom"], other["bottom"]) - max(one["top"], other["top"])
+    return min(width, height) > 1e-6

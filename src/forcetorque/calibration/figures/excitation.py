@@ -25,6 +25,7 @@ from forcetorque.results.figures import (
     Look,
     drawable,
     drawable_each,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -32,6 +33,7 @@ from forcetorque.results.figures import (
     new_figure,
     shown_name,
     thinned_cloud,
+    two_digits,
 )
 
 if TYPE_CHECKING:
@@ -117,6 +119,8 @@ def excitation_figure(
     keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
     keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", THIN_REFERENCE_LINE))
     legend_below(figure, keys)
+    counts = [f"{np.count_nonzero(one.excited)} of {len(one.excited)} ({shown_name(one.name)})" for one in sensors]
+    headline(figure, f"Raw directions that the loads excite: {', '.join(counts)}")
     return figure
 
 
@@ -252,7 +256,7 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
     # the narrow column keeps the label of the third axis clear of the next panel
     grid = figure.add_gridspec(2, 5, width_ratios=(1.5, 0.1, 1.0, 1.0, 1.0))
     for row, (title, unit, part) in enumerate(_ROWS):
-        parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in wrenches_by_name.values()]
+        parts = [wrenches[_whole(wrenches), part] for wrenches in wrenches_by_name.values()]
         labels = [f"{name}, {unit}" for name in WRENCH_COMPONENTS[part]]
         _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, styles, title=title)
         for column, plane in enumerate(PLANES):
@@ -261,7 +265,21 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]], labelpad=0.0)
     legend_below(figure, [(shown_name(name), style.key) for name, style in by_name.items()])
+    headline(figure, f"Largest {' and '.join(_largest(wrenches_by_name, part, unit) for _, unit, part in _ROWS)}")
     return figure
+
+
+def _largest(wrenches_by_name: Mapping[str, FloatArray], part: slice, unit: str) -> str:
+    sizes = {
+        name: float(np.max(np.linalg.norm(wrenches[:, part], axis=1), initial=0.0, where=_whole(wrenches)))
+        for name, wrenches in wrenches_by_name.items()
+    }
+    name = max(sizes, key=sizes.__getitem__)
+    return f"{'force' if part == FORCE else 'torque'}: {two_digits(sizes[name])} {unit} ({shown_name(name)})"
+
+
+def _whole(wrenches: FloatArray) -> BoolArray:
+    return np.asarray(np.isfinite(wrenches).all(axis=1))
 
 
 def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], styles: Sequence[Look], *, title: str) -> None:

@@ -233,7 +233,19 @@ def joint_figure(residuals: Sequence[PartResidual]) -> Figure:
         ],
         title="sensors of a part less what moves its bodies: magnitudes over windows of a quarter of a second",
     )
+    before, after = (
+        _rms_force([getattr(one, values)[one.kept, FORCE] for one in residuals]) for values in ("before", "after")
+    )
+    headline(
+        figure, f"What is left of forces, root mean square: {before} N by the priors, {after} N by the calibrations"
+    )
     return figure
+
+
+def _rms_force(forces: Sequence[FloatArray]) -> str:
+    sizes = _sizes(np.concatenate(forces))
+    known = sizes[np.isfinite(sizes)]
+    return two_digits(float(np.sqrt(np.mean(known**2)))) if len(known) else "?"
 
 
 def _starts(residuals: Sequence[PartResidual]) -> dict[str, float]:

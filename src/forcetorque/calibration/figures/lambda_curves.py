@@ -21,6 +21,7 @@ from forcetorque.results.figures import (
     Look,
     drawable,
     drawable_each,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -276,6 +277,14 @@ def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArra
     legend_below(
         figure, [(shown_name(name), style.key) for name, style in zip(lines, looks, strict=True)], title=LAMBDA_MEANING
     )
+    known = {name: values[order] for name, values in lines.items() if np.isfinite(values).any()}
+    if known:
+        best = min(known, key=lambda name: float(np.nanmin(known[name])))
+        least = int(np.nanargmin(known[best]))
+        at = f"{shown_name(best)} at lambda {rising[least]:g}"
+        headline(
+            figure, f"Least difference to the Workbench matrix: {known[best][least]:.3g} in {shown_name(unit)}, {at}"
+        )
     return figure
 
 
@@ -350,6 +359,8 @@ def held_out_figure(
         set_lambda_axis(panel, finite, infinite=infinite if has_infinite else None)
     panels[-1].set_xlabel(f"{LAMBDA_LABEL} ({_PRIOR})" if has_infinite else LAMBDA_LABEL)
     legend_below(figure, _keys(checked, with_ratio=with_ratio), title=_MEANING)
+    chosen = [f"{shown_name(name)} {_choice(curve)}" for name, curve in checked.items() if curve.chosen is not None]
+    headline(figure, f"Chosen: {'; '.join(chosen)}" if chosen else "No lambda is chosen")
     return figure
 
 

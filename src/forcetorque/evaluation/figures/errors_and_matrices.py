@@ -369,6 +369,9 @@ def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: st
     if points:
         _write_cells(panel, texts, _luminance(image.to_rgba(matrix)) < _MIDDLE_LUMINANCE, points)
     figure.colorbar(image, ax=panel, label=f"mean absolute difference, {shown_name(unit)}", pad=0.01)
+    if largest > 0.0:
+        one, other = np.unravel_index(int(np.nanargmax(matrix)), matrix.shape)
+        headline(figure, f"Largest difference: {largest:.3g} in {shown_name(unit)}, {shown[one]} to {shown[other]}")
     return figure
 
 

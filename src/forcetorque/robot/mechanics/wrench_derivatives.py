@@ -293,7 +293,8 @@ class _Sensor:
 def _cross(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products of vectors; shape (3, ..., n)."""
     (x, y, z), (u, v, w) = first, second
-    product = np.empty(np.broadcast_shapes(first.shape, second.shape))
+    # the shapes are the same in most calls, and `broadcast_shapes` takes as long as the product
+    product = np.empty(first.shape if first.shape == second.shape else np.broadcast_shapes(first.shape, second.shape))
     for out, plus, minus in zip(product, ((y, w), (z, u), (x, v)), ((z, v), (x, w), (y, u)), strict=True):
         np.multiply(*plus, out=out)
         out -= minus[0] * minus[1]
