@@ -12,6 +12,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import windows
+from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
@@ -75,7 +76,11 @@ def test_sensors_do_not_shrink_together(monkeypatch: pytest.MonkeyPatch) -> None
     """Mean error of the scale of legs and feet, two robots; control: measured readings beside D shrink all alike."""
     motions = [swaying(seed) for seed in (81, 82)]
     right = np.mean([_scale_error(motion) for motion in motions])
-    monkeypatch.setattr(windows, "_expected", lambda stretch, equation, logged, *_: logged / UNITS)
+
+    def measured(terms: Any, nodes: Stretch, *_: Any) -> FloatArray:
+        return np.stack([nodes.readings[name] for name in terms.equation.sensors], axis=1) / UNITS
+
+    monkeypatch.setattr(windows, "_expected", measured)
     shrunk = np.mean([_scale_error(motion) for motion in motions])
     assert abs(right) < 0.006
     assert shrunk < right - 0.005
