@@ -57,7 +57,7 @@ class MountTolerance:
     """How far the frame of a sensor may be from that of the robot model, as standard deviations."""
 
     rotation_rad: float | None = None
-    """Of the rotation about each axis; rad; None where nobody knows, so that data decide from some 0.7 degrees on."""
+    """Of the rotation about each axis; rad; None where nobody knows, so that data decide from some 0.35 degrees on."""
     shift_m: float | None = None
     """Of the shift of the origin along each axis; m; None for 2 mm."""
 
