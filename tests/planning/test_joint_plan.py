@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +25,15 @@ STANCE = ("sway_day1", "stepping_day1", "left_foot_day1")
 
 @pytest.fixture
 def motions(days: Path) -> list[Experiment]:
-    """Three recordings of the small arm."""
-    return [load_experiment(days / f"{name}.toml") for name in MOTIONS]
+    """Three recordings of the small arm, whose sensor has its offset at 30 degrees whichever of them is the first."""
+    return [_with_offset_at(30.0, load_experiment(days / f"{name}.toml")) for name in MOTIONS]
+
+
+def _with_offset_at(degrees: float, experiment: Experiment) -> Experiment:
+    (sensor,) = experiment.sensors
+    (variable,) = sensor.variables
+    stated = replace(variable, linear=replace(variable.linear, reference_value=degrees))
+    return replace(experiment, sensors=(replace(sensor, variables=(stated,)),))
 
 
 def test_what_is_expected_is_what_a_calibration_from_them_says(motions: list[Experiment]) -> None:
