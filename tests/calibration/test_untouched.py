@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration import contact_windows
-from forcetorque.calibration.contact_windows import Disagreeing, agreeing_samples
+from forcetorque.calibration.contact_windows import Disagreeing, _loses_direction, agreeing_samples
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
@@ -221,3 +221,15 @@ def _push_ratio(data: DataSet, prior: FloatArray, truth: FloatArray, assumed: As
     fit = fit_generative([WindowMeans.of(data)], prior, assumed, variables=[TEMPERATURE])
     after, before = push_error(fit.model.matrix, truth), push_error(prior, truth)
     return max(after.force_N / before.force_N, after.moment_Nm / before.moment_Nm)
+
+
+def test_a_constant_load_does_not_hide_a_direction_that_is_lost() -> None:
+    """All windows in which two forces differ are marked; weight that is always there changes nothing."""
+    common, difference = np.random.default_rng(3).normal(size=(2, 80)) * [[5.0], [2.0]]
+    marks = np.arange(80) < 40
+    for is_lost in (True, False):
+        change = np.where(marks | (not is_lost), difference, 0.0)
+        loads = np.zeros((80, 6))
+        loads[:, 0], loads[:, 2] = common + change, common - change
+        for shift in (0.0, np.array([300.0, 0.0, -100.0, 0.0, 20.0, 0.0])):
+            assert _loses_direction(loads + shift, marks) is is_lost

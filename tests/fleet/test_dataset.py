@@ -26,6 +26,9 @@ from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.dataset import Dataset, is_dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.from_dataset import COMMANDS, FROM_LOGS, DatasetLogs
+from forcetorque.fleet.job import CalibrateJob, run_calibrate
+from forcetorque.fleet.report import fleet_report_of
+from forcetorque.fleet.report_page import page
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
@@ -419,6 +422,18 @@ def test_a_copy_of_a_recording_counts_once(added: Path, days: Path, tmp_path: Pa
     alone, both = (evaluate_dataset(one, {"new": first}) for one in (once, twice))
     assert [row.samples for row in both.errors] == [row.samples for row in alone.errors]
     assert any("copy 1" in text and "it is left out" in text for text in both.warnings)
+    folder = tmp_path / "calibrations"
+    job = CalibrateJob(serial=SERIAL, dataset=twice.folder, folder=folder, code_version="1", created="now")
+    calibrated = run_calibrate(job)
+    assert [re.findall(r"copy \d", text) for text in calibrated.left_out] == [["copy 0"], ["copy 1"]]
+    of_once, of_twice = (fleet_report_of(one.folder, [folder]) for one in (once, twice))
+    assert of_once.warnings == ()
+    assert of_twice.coverage == of_once.coverage
+    (warnings,) = (
+        part for part in page(of_twice, created="2026-01-01T00:00:00+00:00").sections if part.title == "Warnings"
+    )
+    assert all(name in str(warnings.blocks) for name in ("copy 0", "copy 1", "it is left out"))
+    assert all(part.title != "Warnings" for part in page(of_once, created="2026-01-01T00:00:00+00:00").sections)
 
 
 def test_quadratic_terms_need_samples(added: Path) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.inspection.answers import events, faults, inspection_answer
 from forcetorque.inspection.inspect import FindingRow, Inspection
-from forcetorque.inspection.plausibility.hypotheses import FaultKind
+from forcetorque.inspection.plausibility.fault_hypotheses import FaultKind
 from forcetorque.results.answer import MOST_LINES, Concern
 from tests.app.outcome import Run
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -28,7 +28,7 @@ from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.stored_model import validated_table
 from forcetorque.experiment.calibration.moment_blocks import joined
-from forcetorque.experiment.calibration.provenance import SensorIdentity, readings_twice
+from forcetorque.experiment.calibration.provenance import Content, SensorIdentity, readings_twice
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.input_files import distinct_files, recording_name
 from forcetorque.fleet.columns import columns_of, rows_of, schema_of
@@ -331,14 +331,17 @@ class Dataset:
             ExperimentError: If none has any.
         """
         names = RecordingNames(records)
-        found = [names.named(record, record.moments) for record in records if record.moments is not None]
+        copies = names.copies_in_fit()
+        found = [
+            names.named(record, record.moments)
+            for record in records
+            if record.moments is not None and names.recording(record) not in copies
+        ]
         if not found:
             logs = ", ".join(record.file for record in records[:3])
             raise ExperimentError(f'{self.folder}: expected an interval with use = "calibration", got none in {logs}')
-        copies = readings_twice((one.recording, one.interval.content) for part in found for one in part.intervals)
-        distinct = [part for part in found if part.intervals[0].recording not in copies]
-        warnings = (*distinct[0].warnings, *(f"{message}; it is left out" for message in copies.values()))
-        return [distinct[0].model_copy(update={"warnings": warnings}), *distinct[1:]]
+        warnings = (*found[0].warnings, *copies.values())
+        return [found[0].model_copy(update={"warnings": warnings}), *found[1:]]
 
     def write(self, record: SensorRecord, options: AddOptions) -> Path:
         """Write a record to its file; readers see all of it or nothing.
@@ -431,6 +434,7 @@ class RecordingNames:
         Args:
             records: Records of one sensor.
         """
+        self._records = records
         endings = distinct_files([Path(record.file) for record in records])
         experiments = [record.experiment for record in records]
         sessions = {
@@ -461,6 +465,40 @@ class RecordingNames:
         """
         return self._recordings[record.recording]
 
+    def copies_in_fit(self) -> dict[str, str]:
+        """Find recordings whose calibration intervals have readings of an earlier recording.
+
+        Returns:
+            By name of each a message that names the earlier one and says that the copy is left out.
+        """
+        return _copies(
+            (self.recording(record), one.interval.content)
+            for record in self._records
+            if record.moments is not None
+            for one in record.moments.intervals
+        )
+
+    def copies_in_evaluation(self) -> dict[str, str]:
+        """Find recordings whose validation intervals have readings of an earlier recording.
+
+        Returns:
+            By name of each a message that names the earlier one and says that the copy is left out.
+        """
+        return _copies(
+            (self.recording(record), one.content)
+            for record in self._records
+            if record.evaluation is not None
+            for one in record.evaluation.intervals
+        )
+
+    def copies(self) -> tuple[str, ...]:
+        """Name recordings that are left out of fit or evaluation.
+
+        Returns:
+            Every message once.
+        """
+        return tuple(dict.fromkeys((*self.copies_in_fit().values(), *self.copies_in_evaluation().values())))
+
     def named(self, record: SensorRecord, moments: RecordingMoments) -> RecordingMoments:
         """Put blocks of a recording together, under the names of this recording and its intervals.
 
@@ -486,3 +524,7 @@ def _labels(record: SensorRecord) -> Iterator[str]:
     fitted = () if record.moments is None else (one.interval.label for one in record.moments.intervals)
     evaluated = () if record.evaluation is None else (one.label for one in record.evaluation.intervals)
     yield from dict.fromkeys((*fitted, *evaluated))
+
+
+def _copies(contents: Iterable[tuple[str, Content | None]]) -> dict[str, str]:
+    return {name: f"{message}; it is left out" for name, message in readings_twice(contents).items()}

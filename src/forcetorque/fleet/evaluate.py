@@ -99,11 +99,10 @@ def evaluate_records(
     rows = tuple(sensor.rows())
     texts = (static_loads_text((row.excitation_N, row.load_N), (row.excitation_Nm, row.load_Nm)) for row in rows)
     flat = (f"{rows[0].sensor}: {text}" for text in texts if text is not None)
-    copies = (f"{message}; it is left out" for message in sensor.copies.values())
     return DatasetEvaluation(
         dataset=str(folder),
         errors=rows,
         load_cases=tuple(sensor.verdicts()),
         logs=tuple(record.file for record in sensor.evaluated),
-        warnings=tuple(dict.fromkeys((*flat, *copies))),
+        warnings=tuple(dict.fromkeys((*flat, *sensor.copies.values()))),
     )

@@ -12,7 +12,7 @@ from forcetorque.calibration.joint.calibrate import calibration_file
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.fleet.add import AddedSensor, add_recording
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.dataset import Dataset, RecordingNames
 from forcetorque.fleet.evaluate import evaluate_records
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
@@ -65,6 +65,8 @@ class CalibratedSensor(Row):
     without validation data."""
     prior_force_error_rms_N: Annotated[float | None, Shown("of the prior", "N", digits=2)]
     """The same of the prior."""
+    left_out: tuple[str, ...]
+    """Copies of earlier recordings, which the fit or the evaluation leaves out."""
     moment_error_rms_Nm: Annotated[float | None, Shown("moment error", "N m", digits=3)]
     """The same of the moment error."""
     prior_moment_error_rms_Nm: Annotated[float | None, Shown("of the prior", "N m", digits=3)]
@@ -113,6 +115,7 @@ def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
         file=str(file),
         recordings=len(moments),
         decision=decision,
+        left_out=RecordingNames(records).copies(),
         force_error_rms_N=None if calibrated is None else calibrated.force_error_rms_N,
         prior_force_error_rms_N=None if prior is None else prior.force_error_rms_N,
         moment_error_rms_Nm=None if calibrated is None else calibrated.moment_error_rms_Nm,

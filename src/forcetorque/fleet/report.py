@@ -18,7 +18,7 @@ from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.dataset import Dataset, RecordingNames
 from forcetorque.fleet.failures import stored_failures
 from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
@@ -228,6 +228,7 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
     unranked: list[UnrankedSensor] = []
     over_time: dict[str, tuple[RecordingError, ...]] = {}
     coverage: dict[tuple[str, str], LoadCoverage] = {}
+    left_out: list[str] = []
     for number, sensor in enumerate(sensors, start=1):
         file, calibration = known.get(sensor.serial, ("", None))
         records: list[SensorRecord] = []
@@ -241,6 +242,7 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
         except ForceTorqueError as error:
             unranked.append(_unranked(sensor, str(error), folder, records, calibration))
         coverage[sensor.robot, sensor.serial] = _coverage(sensor, records, calibration)
+        left_out += (f"{sensor.sensor} ({sensor.serial}): {text}" for text in RecordingNames(records).copies())
         left.at(number)
     ranked.sort(key=lambda row: (-(row.times_allowed or 0.0), -CONCERN[row.decision], row.robot, row.serial))
     serials = {sensor.serial for sensor in sensors}
@@ -253,10 +255,13 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
         over_time=tuple(row for sensor in ranked for row in over_time[sensor.serial]),
         coverage=tuple(coverage[row.robot, row.serial] for row in order),
         failures=tuple(FailedRecording(file=one.file, error=one.error) for one in stored_failures(folder)),
-        warnings=tuple(
-            f"{file}: calibrates {one.sensor.name} ({serial}), which the dataset does not have"
-            for serial, (file, one) in known.items()
-            if serial not in serials
+        warnings=(
+            *(
+                f"{file}: calibrates {one.sensor.name} ({serial}), which the dataset does not have"
+                for serial, (file, one) in known.items()
+                if serial not in serials
+            ),
+            *left_out,
         ),
     )
 
@@ -373,8 +378,18 @@ def _unranked(
 
 
 def _coverage(sensor: FleetSensor, records: Sequence[SensorRecord], calibration: Calibration | None) -> LoadCoverage:
-    fitted = [[one.moments for one in record.moments.intervals] for record in records if record.moments is not None]
-    validated = [[one.moments for one in record.evaluation.blocks] for record in records if record.evaluation]
+    names = RecordingNames(records)
+    fit_copies, evaluation_copies = names.copies_in_fit(), names.copies_in_evaluation()
+    fitted = [
+        [one.moments for one in record.moments.intervals]
+        for record in records
+        if record.moments is not None and names.recording(record) not in fit_copies
+    ]
+    validated = [
+        [one.moments for one in record.evaluation.blocks]
+        for record in records
+        if record.evaluation and names.recording(record) not in evaluation_copies
+    ]
     return LoadCoverage(
         robot=sensor.robot,
         serial=sensor.serial,

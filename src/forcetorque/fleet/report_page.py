@@ -81,6 +81,8 @@ def _sections(report: FleetReport) -> Iterator[Section]:
     if report.ranked:
         yield Section(title="Error and offset over time", blocks=tuple(_figures(report)))
     yield Section(title="Coverage by loads", blocks=tuple(_coverage(report)))
+    if report.warnings:
+        yield Section(title="Warnings", blocks=(List(points=tuple(report.cautions())),))
     if report.unranked:
         table = table_of(report.unranked, "Sensors that were not evaluated, the largest error of the prior first")
         yield Section(title="Sensors without a rank", blocks=(table,))

@@ -33,7 +33,7 @@ from forcetorque.experiment.applicability import has_date, require_same_reading,
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moment_blocks import pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.experiment.calibration.provenance import FittedInterval, readings_twice
+from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.calibrations_under_test import EvaluatedRow, tested_calibrations
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.fleet.block_errors import (
@@ -169,12 +169,7 @@ class SensorEvaluation:
                 f'{folder}: sensor {serial!r}: expected an interval with use = "validation", got none in '
                 f"{', '.join(record.file for record in records[:3])}"
             )
-        contents = (
-            (names.recording(record), interval.content)
-            for record in self.evaluated
-            for interval in evaluation_of(record).intervals
-        )
-        self.copies = readings_twice(contents)
+        self.copies = names.copies_in_evaluation()
         """Why copies of earlier recordings are left out, by their names."""
         self.evaluated = [record for record in self.evaluated if names.recording(record) not in self.copies]
         self.stored = [evaluation_of(record) for record in self.evaluated]

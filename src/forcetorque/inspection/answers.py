@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, get_args
 
 from forcetorque.formats.log_format import not_read_message
 from forcetorque.inspection.file_contents import NO_NUMBERS, sketch_text
-from forcetorque.inspection.plausibility.hypotheses import FaultKind
+from forcetorque.inspection.plausibility.fault_hypotheses import FaultKind
 from forcetorque.inspection.sensor_alone import sensor_answer
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount

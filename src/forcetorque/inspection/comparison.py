@@ -15,7 +15,7 @@ from forcetorque.base.noise.means import WINDOW_ROUNDING
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
-from forcetorque.inspection.plausibility.hypotheses import Changes, Robot
+from forcetorque.inspection.plausibility.fault_hypotheses import Changes, Robot
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of

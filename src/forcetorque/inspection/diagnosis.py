@@ -24,7 +24,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison, compared, robot_of
 from forcetorque.inspection.fault_messages import fault_size, fault_text, remedy
 from forcetorque.inspection.plausibility.evidence import Evidence, Fit
-from forcetorque.inspection.plausibility.hypotheses import Explanation, explanations, senses
+from forcetorque.inspection.plausibility.fault_hypotheses import Explanation, explanations, senses
 from forcetorque.inspection.plausibility.reversed_gravity_and_gain import require_moving_load
 from forcetorque.recording.recording import Finding
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.inspection.comparison import Comparison
-from forcetorque.inspection.plausibility.hypotheses import Explanation
+from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 
 
 def fault_size(one: Explanation) -> tuple[float | None, str | None]:

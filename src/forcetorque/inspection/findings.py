@@ -23,7 +23,7 @@ from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.inspection.comparison import Comparison, compared
 from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
-from forcetorque.inspection.plausibility.hypotheses import Explanation
+from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs

@@ -116,6 +116,13 @@ def test_an_error_of_the_model_is_a_finding_where_chance_is_not_enough() -> None
     assert [words.split(":")[0] for words in _doubts(errors=[_error(5.0, 0.1), _error(0.1, 0.1)])] == ["mass of shank"]
 
 
+def test_the_widest_error_of_the_model_is_named() -> None:
+    """In whichever order they come; the others are counted."""
+    for deviations in ((4.0, 40.0), (40.0, 4.0)):
+        (one,) = _doubts(errors=[_error(0.0, deviation) for deviation in deviations])
+        assert "mass of shank 40 times, and of 1 more numbers" in one
+
+
 def test_parts_that_keep_a_tenth_of_their_weight_disagree() -> None:
     """The IMU is in question where most do; a light part says nothing."""
     assert _doubts(parts=[_part("left", 0.08), _part("right", 0.08)]) == []

@@ -15,7 +15,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.limits import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
+from forcetorque.evaluation.load_cases.load_case import LOADS, LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (
     Evidence,
     SecondMeans,
@@ -387,3 +387,37 @@ def test_judged_data_of_a_moment_test_nothing(arm: Path) -> None:
     verdict = _verdict(run, _fit(run))
     assert verdict.decision == "not enough data"
     assert any("too short to test it" in reason.text for reason in verdict.reasons)
+
+
+def test_loads_at_points_of_a_frame_have_the_levers_of_that_frame(arm: Path) -> None:
+    """Tools at opposite points have their mean lever at the origin, where pushes along a direction act too."""
+    postures = np.arange(LOADS) % 41
+
+    def positions(keys: str) -> np.ndarray:
+        (case,) = operating_load_cases([SensorRun(load_experiment(_written(keys)), "arm_ft")])
+        levers = []
+        for k in range(41):
+            force, moment = np.split(case.wrench[postures == k], 2, axis=1)
+            equations = np.concatenate([-np.cross(one, np.eye(3)).T for one in force])  # p x f
+            solution, _, rank, _ = np.linalg.lstsq(equations, moment.reshape(-1))
+            assert rank == 3
+            np.testing.assert_allclose(equations @ solution, moment.reshape(-1), atol=1e-9)
+            levers.append(solution)
+        return np.array(levers)
+
+    text = (arm / PARQUET).read_text()
+
+    def _written(keys: str) -> Path:
+        (arm / PARQUET).write_text(f'{text}\n[[load_case]]\nname = "a"\nframe = "hand"\n{keys}\n')
+        return arm / PARQUET
+
+    centre = np.array([0.02, -0.05, 0.1])
+    origin = positions("force_N = 5.0")
+    there, opposite = (positions(f"mass_kg = 0.5\ncentre_of_mass_m = {(s * centre).tolist()}") for s in (1.0, -1.0))
+    np.testing.assert_allclose((there + opposite) / 2.0, origin, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(there - origin, axis=1), np.linalg.norm(centre), atol=1e-9)
+    (along,) = operating_load_cases(
+        [SensorRun(load_experiment(_written("force_N = 5.0\ndirection = [1, 0, 0]")), "arm_ft")]
+    )
+    np.testing.assert_allclose(along.wrench[:, 3:], np.cross(origin[postures], along.wrench[:, :3]), atol=1e-9)
+    assert np.linalg.norm(origin, axis=1).min() > 0.01  # else the sign of the position would not matter

@@ -9,7 +9,7 @@ import scipy.linalg
 from hypothesis import given, strategies as st
 from scipy.spatial.transform import Rotation
 
-from forcetorque.evaluation.sphere.algebraic_fit import Quadrics, direct_fit, gradient_weighted_fit
+from forcetorque.evaluation.sphere.algebraic_fit import Quadrics, direct_fit, gradient_weighted_fit, inverse_lengths
 from forcetorque.evaluation.sphere.cloud import QuadricMoments, whole
 from forcetorque.evaluation.sphere.fit_results import Ellipsoid
 from tests.evaluation.sphere.clouds import DEFORMED, grid, on, whole_sphere
@@ -161,3 +161,12 @@ def test_an_elongated_ellipsoid_is_not_rounded() -> None:
     rng = np.random.default_rng(6)
     cloud = on(long, whole_sphere(2000)) + 0.1 * rng.normal(size=(2000, 3))
     np.testing.assert_allclose(1.0 / _fit("direct", cloud).inverse_lengths[0, :3], [50.0, 10.0, 10.0], rtol=0.01)
+
+
+def test_lengths_of_an_ellipsoid_are_those_of_the_map_of_the_unit_sphere() -> None:
+    """Half-widths are norms of rows of the map, intersections of an axis those of columns of its inverse, inverted."""
+    maps = np.random.default_rng(5).normal(size=(4, 3, 3)) + 2.0 * np.eye(3)
+    lengths = inverse_lengths(maps @ maps.transpose(0, 2, 1))
+    intersections = np.linalg.norm(np.linalg.inv(maps), axis=1)
+    half_widths = np.linalg.norm(maps, axis=2)
+    np.testing.assert_allclose(lengths, np.hstack([intersections, 1.0 / half_widths]), rtol=1e-10)

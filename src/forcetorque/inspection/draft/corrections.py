@@ -16,7 +16,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison
 from forcetorque.inspection.draft.edits import Edit, key_edit, table_edit
 from forcetorque.inspection.draft.toml_lines import tables_of, toml_value
-from forcetorque.inspection.plausibility.hypotheses import Explanation
+from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.robot.mounting import rotation_by, rotation_vector, rotation_words
 
 _QUARTER_TURNS_DEG: Final = 3.0

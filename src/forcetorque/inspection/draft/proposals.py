@@ -33,7 +33,7 @@ from forcetorque.inspection.draft.intervals import NOT_ENOUGH_MOTION, MovingLoad
 from forcetorque.inspection.draft.residuals import Improvement, Residual, comparison_of, experiment_of
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, write_text_of
 from forcetorque.inspection.fault_messages import fault_text, remedy
-from forcetorque.inspection.plausibility.hypotheses import Explanation
+from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.recording.recording import Interval, Use
 
 _FREES: Final = 0.5
