@@ -58,19 +58,32 @@ def test_a_slope_is_found_and_no_change_of_the_matrix_stands_for_it() -> None:
     assert off(_fitted(replace(stretch, variables={}), {})) > 3.0 * steady
 
 
-def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path) -> None:
-    """The channels drift by some 10 counts per degree in the study that is simulated: found within four deviations."""
+@pytest.mark.parametrize("stated", [False, True])
+def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path, stated: bool) -> None:
+    """The channels drift by some 10 counts per degree in the study that is simulated: found within four deviations.
+
+    Once with the coefficients of a data sheet that are 20 % off.
+    """
     experiment = load_experiment(recorded / CALIBRATION[0])
+    drift = scenario().specimens[SENSOR].sensor.drift
+    assert drift is not None
+    prior = experiment.sensor(SENSOR).prior
+    assert prior is not None
+    sheet = -1.2 * prior @ drift.slope
+    if stated:
+        (sensor,), (variable,) = experiment.sensors, experiment.sensors[0].variables
+        linear = replace(variable.linear, prior=sheet, prior_deviation=np.full(6, 0.2) * np.abs(sheet).max())
+        sensor = replace(sensor, variables=(replace(variable, linear=linear),))
+        experiment = replace(experiment, sensors=(sensor,))
     (entry,) = calibrate_jointly([experiment], "joint", [SENSOR], code_version="1", created="2020").calibrations
     calibration = entry.calibration
     (temperature,) = calibration.variables
-    drift = scenario().specimens[SENSOR].sensor.drift
-    assert drift is not None
     error = temperature.coefficients + calibration.matrix @ drift.slope
     assert temperature.standard_error is not None
     assert (np.abs(error) < 4.0 * temperature.standard_error).all()
     largest = np.argmax(np.abs(temperature.coefficients))
     assert temperature.standard_error[largest] < 0.2 * abs(temperature.coefficients[largest])
+    assert (temperature.prior is not None) == stated
     assert calibration.posterior is not None
     assert calibration.posterior.variables == ("temperature",)
     # what it adds stands in the posterior too, of readings in the same units

@@ -76,8 +76,8 @@ def sensor_posterior(
         fit: The fit of all sensors.
         sensor: One of them.
         sessions: Its sessions, the last of them last.
-        slopes: Its variables, with what a unit of each was expected to add to its readings; shape (6,) each; N, N m per
-            unit.
+        slopes: Its variables, with what the file expects to be added to its readings per unit of each; shape (6,) each;
+            N, N m per unit.
         noise: Noise of means over a second; shape (6,); N, N m.
         repeatability: Share of its response by which the sensor differs from one motion to the next.
         mean_loads: Mean load of every session; shape (sessions, 6); N, N m.
@@ -303,14 +303,23 @@ def _variables(
     sensor: ExperimentSensor, references: Mapping[str, float], fit: JointFit, moved: FloatArray
 ) -> Iterator[CalibratedVariable]:
     """What variables add; `moved` are they less their reference values; shape (w, v)."""
+    changes = fit.places.changes(sensor.name)
     for k, (name, reference) in enumerate(references.items()):
-        linear, own = sensor.variable(name).linear, fit.places.slope(sensor.name, name)
+        linear, own, expected = (
+            sensor.variable(name).linear,
+            fit.places.slope(sensor.name, name),
+            expected_slope(sensor, name),
+        )
+        # of (1 + D) expected + slope
+        jacobian = np.hstack([np.kron(np.eye(LOADS), expected / UNITS), np.eye(LOADS)])
+        places = np.r_[changes, own]
+        covariance = jacobian @ fit.covariance[np.ix_(places, places)] @ jacobian.T
         yield CalibratedVariable(
             name=name,
             unit=linear.unit,
             reference_value=reference,
-            coefficients=fit.change(sensor.name) @ expected_slope(sensor, name) + fit.slope(sensor.name, name),
-            standard_error=np.sqrt(np.diag(fit.covariance)[own]) * UNITS,
+            coefficients=fit.change(sensor.name) @ expected + fit.slope(sensor.name, name),
+            standard_error=np.sqrt(np.diag(covariance)) * UNITS,
             prior=linear.prior,
             minimum=float(moved[:, k].min() + reference),
             maximum=float(moved[:, k].max() + reference),

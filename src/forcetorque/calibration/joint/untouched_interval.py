@@ -362,7 +362,7 @@ def required_prior(sensor: ExperimentSensor) -> FloatArray:
 
 
 def expected_slope(sensor: ExperimentSensor, variable: str) -> FloatArray:
-    """Give what the experiment file expects a unit of a variable to add to the readings of a sensor.
+    """Give what the experiment file expects to be added to the readings of a sensor per unit of a variable.
 
     Returns:
         Slope; shape (6,); N, N m per unit.
