@@ -317,15 +317,15 @@ class Dataset:
         ]
         return sorted(made, key=lambda record: (record.start_ns, record.recording))
 
-    def moments(self, records: Sequence[SensorRecord]) -> list[RecordingMoments]:
+    def moments(self, records: Sequence[SensorRecord]) -> tuple[list[RecordingMoments], tuple[str, ...]]:
         """Give what a calibration needs of recordings of one sensor, under names that tell them apart.
 
         Args:
             records: Records of one sensor, in the order of time.
 
         Returns:
-            Moments of those that have calibration intervals. A copy of an earlier recording is left out, which the
-            warnings of the first one name.
+            Moments of those that have calibration intervals and no readings of a longer one, and a message for every
+            recording that has: it is left out.
 
         Raises:
             ExperimentError: If none has any.
@@ -335,10 +335,11 @@ class Dataset:
         if not found:
             logs = ", ".join(record.file for record in records[:3])
             raise ExperimentError(f'{self.folder}: expected an interval with use = "calibration", got none in {logs}')
-        copies = readings_twice((one.recording, one.interval.content) for part in found for one in part.intervals)
+        copies = readings_twice(
+            (one.recording, one.samples, one.interval.content) for part in found for one in part.intervals
+        )
         distinct = [part for part in found if part.intervals[0].recording not in copies]
-        warnings = (*distinct[0].warnings, *(f"{message}; it is left out" for message in copies.values()))
-        return [distinct[0].model_copy(update={"warnings": warnings}), *distinct[1:]]
+        return distinct, tuple(one.left_out for one in copies.values())
 
     def write(self, record: SensorRecord, options: AddOptions) -> Path:
         """Write a record to its file; readers see all of it or nothing.

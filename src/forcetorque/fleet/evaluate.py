@@ -42,6 +42,8 @@ class DatasetEvaluation(Result):
     """One per calibration and load case: whether it may be used."""
     logs: tuple[str, ...]
     """Experiment files of the recordings."""
+    left_out: tuple[str, ...] = ()
+    """A message for every recording that has readings of a longer one, and therefore does not count."""
 
     def blocks(self) -> Iterator[Table | str]:
         """List errors and verdicts.
@@ -99,11 +101,11 @@ def evaluate_records(
     rows = tuple(sensor.rows())
     texts = (static_loads_text((row.excitation_N, row.load_N), (row.excitation_Nm, row.load_Nm)) for row in rows)
     flat = (f"{rows[0].sensor}: {text}" for text in texts if text is not None)
-    copies = (f"{message}; it is left out" for message in sensor.copies.values())
     return DatasetEvaluation(
         dataset=str(folder),
         errors=rows,
         load_cases=tuple(sensor.verdicts()),
         logs=tuple(record.file for record in sensor.evaluated),
-        warnings=tuple(dict.fromkeys((*flat, *copies))),
+        left_out=sensor.left_out,
+        warnings=tuple(dict.fromkeys((*flat, *sensor.left_out))),
     )

@@ -168,6 +168,7 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
         present=present,
         sensors=tuple(sorted(sensors, key=lambda row: (row.sensor, row.serial))),
         failures=tuple(sorted(failures, key=lambda row: (row.job, row.subject))),
+        warnings=tuple(f"{one.sensor} ({one.serial}): {text}" for one in sensors for text in one.left_out),
     )
 
 

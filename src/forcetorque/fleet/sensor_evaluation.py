@@ -169,14 +169,14 @@ class SensorEvaluation:
                 f'{folder}: sensor {serial!r}: expected an interval with use = "validation", got none in '
                 f"{', '.join(record.file for record in records[:3])}"
             )
-        contents = (
-            (names.recording(record), interval.content)
+        copies = readings_twice(
+            (names.recording(record), samples, content)
             for record in self.evaluated
-            for interval in evaluation_of(record).intervals
+            for samples, content in evaluation_of(record).contents()
         )
-        self.copies = readings_twice(contents)
-        """Why copies of earlier recordings are left out, by their names."""
-        self.evaluated = [record for record in self.evaluated if names.recording(record) not in self.copies]
+        self.left_out = tuple(one.left_out for one in copies.values())
+        """A message for every recording that has readings of a longer one."""
+        self.evaluated = [record for record in self.evaluated if names.recording(record) not in copies]
         self.stored = [evaluation_of(record) for record in self.evaluated]
         self.sensor = self.stored[-1].sensor.sensor
         for record, stored in zip(self.evaluated, self.stored, strict=True):
