@@ -51,7 +51,7 @@ def _fleet(base: Path, robots: int, folder: Path, damaged: Mapping[int, str] = D
     dataset = Dataset(base / "fleet")
     records = dataset.records(dataset.files)
     calibration = calibrate_sensor(
-        None, code_version="1", created="2020-01-01T00:00:00+00:00", moments=dataset.moments(records)
+        None, code_version="1", created="2020-01-01T00:00:00+00:00", moments=dataset.moments(records)[0]
     )
     (validated,) = (record for record in records if record.evaluation is not None)
     return fleet_of(robots, damaged, validated, calibration, folder)
@@ -118,7 +118,7 @@ def test_every_verdict_has_the_last_recording(base: Path, tmp_path: Path, monkey
     assert "in the last recording" not in reported[serials[0]][1]
     made = SimpleNamespace(save=lambda: None, calibrations=[SimpleNamespace(calibration=read_calibration(file))])
     monkeypatch.setattr("forcetorque.fleet.job.calibrate_for_file", lambda *_, **__: made)
-    monkeypatch.setattr("forcetorque.fleet.job.Dataset.moments", lambda *_: [])
+    monkeypatch.setattr("forcetorque.fleet.job.Dataset.moments", lambda *_: ([], ()))
     job = CalibrateJob(serial=serials[1], dataset=dataset.folder, folder=tmp_path, code_version="1", created="2020")
     assert run_calibrate(job).decision == reported[serials[1]][0]
 

@@ -317,15 +317,15 @@ class Dataset:
         ]
         return sorted(made, key=lambda record: (record.start_ns, record.recording))
 
-    def moments(self, records: Sequence[SensorRecord]) -> list[RecordingMoments]:
+    def moments(self, records: Sequence[SensorRecord]) -> tuple[list[RecordingMoments], tuple[str, ...]]:
         """Give what a calibration needs of recordings of one sensor, under names that tell them apart.
 
         Args:
             records: Records of one sensor, in the order of time.
 
         Returns:
-            Moments of those that have calibration intervals. A copy of an earlier recording is left out, which the
-            warnings of the first one name.
+            Moments of those that have calibration intervals and no readings of a longer one, and a message for every
+            recording that has: it is left out.
 
         Raises:
             ExperimentError: If none has any.
@@ -340,8 +340,7 @@ class Dataset:
         if not found:
             logs = ", ".join(record.file for record in records[:3])
             raise ExperimentError(f'{self.folder}: expected an interval with use = "calibration", got none in {logs}')
-        warnings = (*found[0].warnings, *copies.values())
-        return [found[0].model_copy(update={"warnings": warnings}), *found[1:]]
+        return found, tuple(copies.values())
 
     def write(self, record: SensorRecord, options: AddOptions) -> Path:
         """Write a record to its file; readers see all of it or nothing.
@@ -466,29 +465,29 @@ class RecordingNames:
         return self._recordings[record.recording]
 
     def copies_in_fit(self) -> dict[str, str]:
-        """Find recordings whose calibration intervals have readings of an earlier recording.
+        """Find recordings whose calibration intervals have readings of a longer recording.
 
         Returns:
-            By name of each a message that names the earlier one and says that the copy is left out.
+            By name of each a message that names the longer one and says that it is left out.
         """
         return _copies(
-            (self.recording(record), one.interval.content)
+            (self.recording(record), one.samples, one.interval.content)
             for record in self._records
             if record.moments is not None
             for one in record.moments.intervals
         )
 
     def copies_in_evaluation(self) -> dict[str, str]:
-        """Find recordings whose validation intervals have readings of an earlier recording.
+        """Find recordings whose validation intervals have readings of a longer recording.
 
         Returns:
-            By name of each a message that names the earlier one and says that the copy is left out.
+            By name of each a message that names the longer one and says that it is left out.
         """
         return _copies(
-            (self.recording(record), one.content)
+            (self.recording(record), samples, content)
             for record in self._records
             if record.evaluation is not None
-            for one in record.evaluation.intervals
+            for samples, content in record.evaluation.contents()
         )
 
     def copies(self) -> tuple[str, ...]:
@@ -526,5 +525,5 @@ def _labels(record: SensorRecord) -> Iterator[str]:
     yield from dict.fromkeys((*fitted, *evaluated))
 
 
-def _copies(contents: Iterable[tuple[str, Content | None]]) -> dict[str, str]:
-    return {name: f"{message}; it is left out" for name, message in readings_twice(contents).items()}
+def _copies(contents: Iterable[tuple[str, float, Content | None]]) -> dict[str, str]:
+    return {name: one.left_out for name, one in readings_twice(contents).items()}

@@ -42,6 +42,8 @@ class DatasetEvaluation(Result):
     """One per calibration and load case: whether it may be used."""
     logs: tuple[str, ...]
     """Experiment files of the recordings."""
+    left_out: tuple[str, ...] = ()
+    """A message for every recording that has readings of a longer one, and therefore does not count."""
 
     def blocks(self) -> Iterator[Table | str]:
         """List errors and verdicts.
@@ -104,5 +106,6 @@ def evaluate_records(
         errors=rows,
         load_cases=tuple(sensor.verdicts()),
         logs=tuple(record.file for record in sensor.evaluated),
-        warnings=tuple(dict.fromkeys((*flat, *sensor.copies.values()))),
+        left_out=sensor.left_out,
+        warnings=tuple(dict.fromkeys((*flat, *sensor.left_out))),
     )

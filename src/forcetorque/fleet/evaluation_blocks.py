@@ -238,6 +238,15 @@ class StoredEvaluation(StoredTable):
             circular=tuple(circular_loads(run)),
         )
 
+    def contents(self) -> Iterator[tuple[int, Content | None]]:
+        """Say by what samples are known again.
+
+        Yields:
+            For every interval its number of samples, and by what they are known.
+        """
+        for one in self.intervals:
+            yield sum(block.samples for block in self.blocks if block.interval == one.label), one.content
+
 
 def evaluated_variables(run: SensorRun) -> list[str]:
     """Name the linear variables that an evaluation keeps.

@@ -52,7 +52,7 @@ def calibrate_sensors(
     for sensor, file in zip(sensors, files, strict=True):
         try:
             with stated_in(f"{dataset.folder}: sensor {sensor!r}"):
-                moments, warnings = _moments(dataset, sensor)
+                moments, warnings, left_out = _moments(dataset, sensor)
                 made = calibrate_for_file(
                     None,
                     file,
@@ -62,16 +62,18 @@ def calibrate_sensors(
                     nonlinear=nonlinear,
                 )
                 others = [text for text in made.warnings if text not in warnings]
-                results.append(made.model_copy(update={"warnings": (*warnings, *others)}))
+                results.append(made.model_copy(update={"warnings": (*left_out, *warnings, *others)}))
         except ForceTorqueError as error:
             refusals.append(error)
     return results, refusals
 
 
-def _moments(dataset: Dataset, sensor: str) -> tuple[list[RecordingMoments], list[str]]:
-    """Moments of a sensor without the records that they were in, and warnings of these, each once."""
+def _moments(dataset: Dataset, sensor: str) -> tuple[list[RecordingMoments], list[str], tuple[str, ...]]:
+    """Moments of a sensor without the records that they were in, warnings of these, each once, and what is left out."""
     records = dataset.records(dataset.of_sensor(sensor))
-    return dataset.moments(records), list(dict.fromkeys(text for record in records for text in record.warnings))
+    warnings = list(dict.fromkeys(text for record in records for text in record.warnings))
+    moments, left_out = dataset.moments(records)
+    return moments, warnings, left_out
 
 
 def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:

@@ -12,7 +12,7 @@ from forcetorque.calibration.joint.calibrate import calibration_file
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.fleet.add import AddedSensor, add_recording
-from forcetorque.fleet.dataset import Dataset, RecordingNames
+from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_records
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
@@ -65,12 +65,12 @@ class CalibratedSensor(Row):
     without validation data."""
     prior_force_error_rms_N: Annotated[float | None, Shown("of the prior", "N", digits=2)]
     """The same of the prior."""
-    left_out: tuple[str, ...]
-    """Copies of earlier recordings, which the fit or the evaluation leaves out."""
     moment_error_rms_Nm: Annotated[float | None, Shown("moment error", "N m", digits=3)]
     """The same of the moment error."""
     prior_moment_error_rms_Nm: Annotated[float | None, Shown("of the prior", "N m", digits=3)]
     """The same of the prior."""
+    left_out: tuple[str, ...]
+    """A message for every recording that has readings of a longer one, and therefore does not count."""
 
 
 def run_add(job: AddJob) -> list[AddedSensor]:
@@ -96,7 +96,7 @@ def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
     """
     dataset = Dataset.opened(job.dataset)
     records = dataset.records(dataset.of_sensor(job.serial))
-    moments = dataset.moments(records)
+    moments, left_out = dataset.moments(records)
     identity = records[-1].identity
     file = job.folder / calibration_file(identity.name, identity.serial)
     made = calibrate_for_file(None, file, code_version=job.code_version, created=job.created, moments=moments)
@@ -106,6 +106,7 @@ def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
         result = evaluate_records(dataset.folder, job.serial, records, {str(file): made.calibrations[0].calibration})
         worst = max(result.load_cases, key=lambda use: CONCERN[use.decision], default=None)
         decision = None if worst is None else worst.decision
+        left_out = tuple(dict.fromkeys((*left_out, *result.left_out)))
         rows = {row.prior is None: row for row in result.errors if row.offset is not Offset.JUDGED_MEAN}
         calibrated = next(row for row in reversed(result.errors) if row.offset is not Offset.JUDGED_MEAN)
         prior = rows.get(True) if len(rows) > 1 else None
@@ -115,9 +116,9 @@ def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
         file=str(file),
         recordings=len(moments),
         decision=decision,
-        left_out=RecordingNames(records).copies(),
         force_error_rms_N=None if calibrated is None else calibrated.force_error_rms_N,
         prior_force_error_rms_N=None if prior is None else prior.force_error_rms_N,
         moment_error_rms_Nm=None if calibrated is None else calibrated.moment_error_rms_Nm,
         prior_moment_error_rms_Nm=None if prior is None else prior.moment_error_rms_Nm,
+        left_out=left_out,
     )

@@ -169,9 +169,10 @@ class SensorEvaluation:
                 f'{folder}: sensor {serial!r}: expected an interval with use = "validation", got none in '
                 f"{', '.join(record.file for record in records[:3])}"
             )
-        self.copies = names.copies_in_evaluation()
-        """Why copies of earlier recordings are left out, by their names."""
-        self.evaluated = [record for record in self.evaluated if names.recording(record) not in self.copies]
+        copies = names.copies_in_evaluation()
+        self.left_out = tuple(copies.values())
+        """A message for every recording that has readings of a longer one."""
+        self.evaluated = [record for record in self.evaluated if names.recording(record) not in copies]
         self.stored = [evaluation_of(record) for record in self.evaluated]
         self.sensor = self.stored[-1].sensor.sensor
         for record, stored in zip(self.evaluated, self.stored, strict=True):

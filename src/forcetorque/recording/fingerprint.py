@@ -102,6 +102,20 @@ def kept_hashes(text: str) -> Hashes:
     return np.array([int(text[k : k + 16], 16) for k in range(0, len(text), 16)], dtype=np.uint64)
 
 
+def share_in(hashes: Hashes, others: Hashes) -> float:
+    """Estimate which share of samples other samples have too.
+
+    Args:
+        hashes: Kept hashes of the samples.
+        others: Kept hashes of the others; what is larger than the last of them was not kept, so that it tells nothing.
+
+    Returns:
+        The share; 0 where no hash can be compared.
+    """
+    comparable = hashes[hashes <= others[-1]] if len(others) >= KEPT else hashes
+    return float(np.isin(comparable, others).mean()) if len(comparable) else 0.0
+
+
 def _rounded(values: FloatArray) -> FloatArray:
     """Values to few digits; a zero of either sign is one zero."""
     size = np.abs(np.where(np.isfinite(values), values, 0.0))

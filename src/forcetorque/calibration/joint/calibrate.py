@@ -199,8 +199,8 @@ def _values(campaign: Campaign, variable: str) -> Iterator[float]:
                     yield from values[np.isfinite(values)].tolist()
 
 
-def _contents(campaign: Campaign) -> Iterator[tuple[str, Content | None]]:
-    """By what calibration readings are known again, with the name of their recording, or of a segment of a long one."""
+def _contents(campaign: Campaign) -> Iterator[tuple[str, float, Content | None]]:
+    """Recording of calibration readings, or segment of a long one, their duration, and by what they are known again."""
     for run in campaign.runs:
         segments = segment_experiments(run.experiment)
         for part in segments or (run.experiment,):
@@ -208,7 +208,7 @@ def _contents(campaign: Campaign) -> Iterator[tuple[str, Content | None]]:
                 start_s = round((interval.start_ns - run.experiment.recording.start_ns) * 1e-9)
                 name = campaign.recording(run) + (f" from {start_s} s" if segments else "")
                 if interval.use is Use.CALIBRATION:
-                    yield name, logged_content(part, run.sensor, interval)
+                    yield name, interval.end_ns - interval.start_ns, logged_content(part, run.sensor, interval)
 
 
 def _intervals(

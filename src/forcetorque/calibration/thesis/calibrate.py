@@ -277,7 +277,9 @@ def thesis_calibration(
     sensor, variables = campaign.sensor, campaign.sensor.variables if kind.with_variables else ()
     sensor.require_six_components(f"estimation type {kind.name}")
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.linear.name for variable in variables])
-    for message in readings_twice((one.recording, one.part.content) for one in intervals).values():
+    for message in readings_twice(
+        (one.recording, len(one.part.samples), one.part.content) for one in intervals
+    ).values():
         raise FitError(f"{message}; leave one of the two out")
     data_sets = [interval.data_set for interval in intervals]
     # where the prior is kept there is no matrix to spoil, and a limb at rest tells the offset

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Annotated, Any, Final
 
 import numpy as np
 from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
@@ -13,8 +14,11 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.recording.fingerprint import joined_fingerprint, kept_hashes
+from forcetorque.recording.fingerprint import joined_fingerprint, kept_hashes, share_in
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
+
+_COPY: Final = 0.9
+"""Share of readings from which a recording is called a copy: logs may be cut and rounded differently."""
 
 
 class SensorIdentity(StoredTable):
@@ -72,25 +76,73 @@ class FittedInterval(StoredTable):
     """By what its samples are known again; None in files of earlier versions, and where they hardly change."""
 
 
-def readings_twice(contents: Iterable[tuple[str, Content | None]]) -> dict[str, str]:
-    """Find recordings that have readings of an earlier one, such as copies of a log under another name.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SharedReadings:
+    """A recording with readings that another one has too."""
+
+    recording: str
+    """Its name."""
+    other: str
+    """Name of the recording that counts, with which it shares most."""
+    share: float
+    """Share of its readings that recordings that count have too, estimated of the kept hashes."""
+    samples: float
+    """Number of its samples."""
+
+    def __str__(self) -> str:
+        if self.share >= _COPY:
+            return f"{self.recording!r} has readings of {self.other!r} again, and readings count once"
+        percent = max(round(100.0 * self.share), 1)
+        return (
+            f"{self.recording!r} has about {percent} % of its readings in common with {self.other!r}, and readings "
+            "count once"
+        )
+
+    @property
+    def left_out(self) -> str:
+        """Say that it is left out, and what of it no other recording has."""
+        if self.share >= _COPY:
+            return f"{self}; it is left out"
+        lost = (1.0 - self.share) * self.samples
+        return f"{self}; it is left out, with about {lost:.0f} of {self.samples:.0f} samples that are in no other"
+
+
+def readings_twice(intervals: Iterable[tuple[str, float, Content | None]]) -> dict[str, SharedReadings]:
+    """Find recordings that have readings of a longer one, such as copies of a log under another name.
+
+    Recordings are visited in the order of their samples, the most first; of equally many the first one counts.
 
     Args:
-        contents: Name of the recording of every interval of a sensor, and by what its samples are known again.
+        intervals: For every interval of a sensor the name of its recording, its number of samples, or its duration
+            where only `str` is wanted, and by what the samples are known again.
 
     Returns:
-        By name of each such recording a message that names the earlier one.
+        By name of each such recording what it shares.
     """
-    owners: dict[tuple[str, int], str] = {}
-    messages: dict[str, str] = {}
-    known = ((name, one.quantity, one.windows) for name, one in contents if one is not None)
-    for name, quantity, windows in dict.fromkeys(known):  # blocks of an interval have one content
-        keys = [(quantity, value) for value in kept_hashes(windows).tolist()]
-        earlier = next((owners[key] for key in keys if owners.get(key, name) != name), None)
-        if earlier is not None:
-            messages.setdefault(name, f"{name!r} has readings of {earlier!r} again, and readings count once")
-        owners |= {key: name for key in keys if key not in owners and name not in messages}
-    return messages
+    recordings: dict[str, dict[Content | None, float]] = {}
+    for name, samples, content in intervals:
+        own = recordings.setdefault(name, {})
+        own[content] = own.get(content, 0.0) + samples  # blocks of an interval have one content
+    owners: dict[tuple[str, int], set[tuple[str, Content]]] = {}
+    shared: dict[str, SharedReadings] = {}
+    for name, own in sorted(recordings.items(), key=lambda item: -sum(item[1].values())):
+        hashes = {one: kept_hashes(one.windows) for one in own if one is not None}
+        common: dict[str, float] = {}
+        for one, values in hashes.items():
+            keys = [(one.quantity, value) for value in values.tolist()]
+            for other, content in {owner for key in keys for owner in owners.get(key, ())}:
+                seen = own[one] * share_in(values, kept_hashes(content.windows))
+                common[other] = common.get(other, 0.0) + seen
+        samples = sum(own.values())
+        if common:
+            share = min(sum(common.values()) / samples, 1.0)
+            other = max(common, key=common.__getitem__)
+            shared[name] = SharedReadings(recording=name, other=other, share=share, samples=samples)
+            continue
+        for one, values in hashes.items():
+            for value in values.tolist():
+                owners.setdefault((one.quantity, value), set()).add((name, one))
+    return shared
 
 
 class Provenance(StoredTable):

@@ -354,7 +354,7 @@ def require_same_sensor(recordings: Sequence[RecordingMoments]) -> None:
                 f"interval {label!r} of {recording!r} comes twice; its samples would too. Name another experiment, or "
                 "leave one of the two out"
             )
-    contents = [(one.recording, one.interval.content) for recording in recordings for one in recording.intervals]
+    contents = ((one.recording, one.samples, one.interval.content) for part in recordings for one in part.intervals)
     for message in readings_twice(contents).values():
         raise FitError(f"{message}; leave one of the two out")
 
