@@ -18,6 +18,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError, OutputError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
+from forcetorque.evaluation.evaluation import validation_errors
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -26,6 +27,7 @@ from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.dataset import Dataset, is_dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.from_dataset import COMMANDS, FROM_LOGS, DatasetLogs
+from forcetorque.fleet.report import fleet_report_of
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
@@ -424,6 +426,26 @@ def test_a_copy_of_a_recording_counts_once(added: Path, days: Path, tmp_path: Pa
     ]
     assert [row.samples for row in both.errors] == [row.samples for row in alone.errors]
     assert any("copy 1" in text and "it is left out" in text for text in both.warnings)
+    first.save(tmp_path / "c.json")
+    (of_one,), (of_two,) = (fleet_report_of(one.folder, [tmp_path / "c.json"]).coverage for one in (once, twice))
+    assert [re.findall(r"copy \d", text) for text in of_two.left_out] == [["copy 0"], ["copy 1"]]
+    for report in (of_one, of_two):
+        assert (report.fitted_recordings, report.validation_recordings) == (len(CALIBRATION), len(VALIDATION))
+    np.testing.assert_allclose(of_two.fitted, of_one.fitted, rtol=SAME)
+    np.testing.assert_allclose(of_two.validated, of_one.validated, rtol=SAME)
+    assert not of_one.left_out
+
+
+def test_evaluate_refuses_a_copy_of_a_log(days: Path) -> None:
+    """Under another name its samples would count twice; another log is evaluated."""
+    text = (days / VALIDATION[0]).read_text()
+    (days / "copy.toml").write_text(re.sub(r'(?m)^name = ".*"', 'name = "copy"', text, count=1))
+    log, copy, other = (
+        SensorRun(load_experiment(days / name), "arm_ft") for name in (VALIDATION[0], "copy.toml", VALIDATION[1])
+    )
+    with pytest.raises(ExperimentError, match="'copy' has readings of .* again, .*; leave one of the two out"):
+        validation_errors([log, copy], {})
+    assert validation_errors([log, other], {}).recordings
 
 
 def test_quadratic_terms_need_samples(added: Path) -> None:

@@ -18,9 +18,10 @@ from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.block_errors import evaluation_of
+from forcetorque.fleet.dataset import Dataset, RecordingNames
 from forcetorque.fleet.failures import stored_failures
-from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
+from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation, distinct_evaluations
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.table import FleetSensor, fleet_sensors
 from forcetorque.results.answer import typed
@@ -132,6 +133,8 @@ class LoadCoverage(Row):
     little_known: Annotated[str | None, Shown("little known")]
     """Load components of which the fitted data gave little information, such as `tx, ty`; None where there are none, or
     no calibration states it."""
+    left_out: tuple[str, ...] = ()
+    """A message for every recording that has readings of a longer one, and therefore does not count."""
 
 
 class FailedRecording(Row):
@@ -240,7 +243,7 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
             over_time[sensor.serial] = evaluation.over_time(file)
         except ForceTorqueError as error:
             unranked.append(_unranked(sensor, str(error), folder, records, calibration))
-        coverage[sensor.robot, sensor.serial] = _coverage(sensor, records, calibration)
+        coverage[sensor.robot, sensor.serial] = _coverage(sensor, dataset, records, calibration)
         left.at(number)
     ranked.sort(key=lambda row: (-(row.times_allowed or 0.0), -CONCERN[row.decision], row.robot, row.serial))
     serials = {sensor.serial for sensor in sensors}
@@ -257,7 +260,8 @@ def fleet_report_of(folder: Path, calibrations: Sequence[Path], progress: Progre
             f"{file}: calibrates {one.sensor.name} ({serial}), which the dataset does not have"
             for serial, (file, one) in known.items()
             if serial not in serials
-        ),
+        )
+        + tuple(f"{row.subject}: {text}" for row in order for text in coverage[row.robot, row.serial].left_out),
     )
 
 
@@ -372,17 +376,22 @@ def _unranked(
     )
 
 
-def _coverage(sensor: FleetSensor, records: Sequence[SensorRecord], calibration: Calibration | None) -> LoadCoverage:
-    fitted = [[one.moments for one in record.moments.intervals] for record in records if record.moments is not None]
-    validated = [[one.moments for one in record.evaluation.blocks] for record in records if record.evaluation]
+def _coverage(
+    sensor: FleetSensor, dataset: Dataset, records: Sequence[SensorRecord], calibration: Calibration | None
+) -> LoadCoverage:
+    fits = any(record.moments is not None for record in records)
+    moments, fitted_twice = dataset.moments(records) if fits else ([], ())
+    evaluated, evaluated_twice = distinct_evaluations(records, RecordingNames(records))
+    blocks = [one.moments for record in evaluated for one in evaluation_of(record).blocks]
     return LoadCoverage(
         robot=sensor.robot,
         serial=sensor.serial,
-        fitted_recordings=len(fitted),
-        fitted=_standard_deviation([one for moments in fitted for one in moments]),
-        validation_recordings=len(validated),
-        validated=_standard_deviation([one for moments in validated for one in moments]),
+        fitted_recordings=len(moments),
+        fitted=_standard_deviation([one.moments for part in moments for one in part.intervals]),
+        validation_recordings=len(evaluated),
+        validated=_standard_deviation(blocks),
         little_known=None if calibration is None else _little_known(calibration),
+        left_out=tuple(dict.fromkeys((*fitted_twice, *evaluated_twice))),
     )
 
 

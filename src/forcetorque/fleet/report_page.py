@@ -80,7 +80,7 @@ def _sections(report: FleetReport) -> Iterator[Section]:
     yield Section(title="What to do next", blocks=tuple(_steps(report)) or (Text(text="Nothing is to be done."),))
     if report.ranked:
         yield Section(title="Error and offset over time", blocks=tuple(_figures(report)))
-    yield Section(title="Coverage by loads", blocks=tuple(_coverage(report)))
+    yield Section(title="Coverage by loads", blocks=(*_coverage(report), *_left_out(report)))
     if report.unranked:
         table = table_of(report.unranked, "Sensors that were not evaluated, the largest error of the prior first")
         yield Section(title="Sensors without a rank", blocks=(table,))
@@ -168,6 +168,13 @@ def _text(errors: Sequence[RecordingError]) -> str:
     return ", ".join(
         f"{amount(one.force_error_rms_N, 'N')} and {amount(one.moment_error_rms_Nm, 'N m')}" for one in errors
     )
+
+
+def _left_out(report: FleetReport) -> Iterator[Text | List]:
+    points = tuple(f"{row.robot} {row.serial}: {text}" for row in report.coverage for text in row.left_out)
+    if points:
+        yield Text(text="Recordings that are left out of errors and loads, since others have their readings:")
+        yield List(points=points)
 
 
 def _coverage(report: FleetReport) -> Iterator[Table]:

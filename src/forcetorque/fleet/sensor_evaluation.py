@@ -143,6 +143,28 @@ class LastError:
         return Reason(against=against, text=text, remedy=LOOK_FOR_CAUSE)
 
 
+def distinct_evaluations(
+    records: Sequence[SensorRecord], names: RecordingNames
+) -> tuple[list[SensorRecord], tuple[str, ...]]:
+    """Leave out recordings whose validation readings are in a longer one.
+
+    Args:
+        records: Records of one sensor.
+        names: Names of its recordings.
+
+    Returns:
+        Those with a validation interval that count, and a message for every other one.
+    """
+    evaluated = [record for record in records if record.evaluation is not None]
+    copies = readings_twice(
+        (names.recording(record), samples, content)
+        for record in evaluated
+        for samples, content in evaluation_of(record).contents()
+    )
+    counted = [record for record in evaluated if names.recording(record) not in copies]
+    return counted, tuple(one.left_out for one in copies.values())
+
+
 class SensorEvaluation:
     """Evaluates the calibrations of one sensor."""
 
@@ -163,20 +185,13 @@ class SensorEvaluation:
         """
         self.calibrations = calibrations
         names = RecordingNames(records)
-        self.evaluated = [record for record in records if record.evaluation is not None]
+        self.evaluated, self.left_out = distinct_evaluations(records, names)
+        """Records that count, and a message for every other one, which has readings of a longer one."""
         if not self.evaluated:
             raise ExperimentError(
                 f'{folder}: sensor {serial!r}: expected an interval with use = "validation", got none in '
                 f"{', '.join(record.file for record in records[:3])}"
             )
-        copies = readings_twice(
-            (names.recording(record), samples, content)
-            for record in self.evaluated
-            for samples, content in evaluation_of(record).contents()
-        )
-        self.left_out = tuple(one.left_out for one in copies.values())
-        """A message for every recording that has readings of a longer one."""
-        self.evaluated = [record for record in self.evaluated if names.recording(record) not in copies]
         self.stored = [evaluation_of(record) for record in self.evaluated]
         self.sensor = self.stored[-1].sensor.sensor
         for record, stored in zip(self.evaluated, self.stored, strict=True):
