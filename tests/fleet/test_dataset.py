@@ -18,6 +18,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, FormatError, MissingFileError, OutputError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
+from forcetorque.evaluation.evaluation import validation_errors
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -439,6 +440,18 @@ def test_a_copy_of_a_recording_counts_once(added: Path, days: Path, tmp_path: Pa
     )
     assert all(name in str(warnings.blocks) for name in ("copy 0", "copy 1", "it is left out"))
     assert all(part.title != "Warnings" for part in page(of_once, created="2026-01-01T00:00:00+00:00").sections)
+
+
+def test_evaluate_refuses_a_copy_of_a_log(days: Path) -> None:
+    """Under another name its samples would count twice; another log is evaluated."""
+    text = (days / VALIDATION[0]).read_text()
+    (days / "copy.toml").write_text(re.sub(r'(?m)^name = ".*"', 'name = "copy"', text, count=1))
+    log, copy, other = (
+        SensorRun(load_experiment(days / name), "arm_ft") for name in (VALIDATION[0], "copy.toml", VALIDATION[1])
+    )
+    with pytest.raises(ExperimentError, match="'copy' has readings of .* again, .*; leave one of the two out"):
+        validation_errors([log, copy], {})
+    assert validation_errors([log, other], {}).recordings
 
 
 def test_quadratic_terms_need_samples(added: Path) -> None:

@@ -62,8 +62,8 @@ def evaluate(
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a validation interval was fitted, the robot now reads the sensor in another frame or sign,
-            or a load case cannot occur at the sensor.
+        ExperimentError: If a validation interval was fitted, two recordings have the same readings, the robot now
+            reads the sensor in another frame or sign, or a load case cannot occur at the sensor.
         FitError: If a load case changes a variable that a calibration does not know.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """

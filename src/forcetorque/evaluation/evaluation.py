@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ShapeError
+from forcetorque.base.errors import ExperimentError, ShapeError
 from forcetorque.base.noise.means import joined_times
 from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
@@ -25,6 +25,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
 )
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.provenance import Content, readings_twice
 from forcetorque.experiment.calibrations_under_test import (
     CalibrationUnderTest,
     EvaluatedRow,
@@ -39,6 +40,7 @@ from forcetorque.experiment.seen_and_outside_samples import (
     require_unseen,
     sentences,
 )
+from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
@@ -269,6 +271,15 @@ class Evaluation(DrawnResult):
         return [{"recording": "", **row} for row in pooled] + [row.flat() for row in self.recordings]
 
 
+def _contents(campaign: Campaign) -> Iterator[tuple[str, float, Content | None]]:
+    """Recording of every validation interval, its duration, and by what its readings are known again."""
+    for run in campaign.runs_with(Use.VALIDATION):
+        for one in run.experiment.recording.intervals:
+            if one.use is Use.VALIDATION:
+                content = logged_content(run.experiment, run.sensor, one)
+                yield campaign.recording(run), one.end_ns - one.start_ns, content
+
+
 def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
     """Compute the errors of calibrations, and of their prior calibrations, on data that were not fitted.
 
@@ -281,11 +292,13 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a validation interval was fitted, or the robot now reads the sensor in another frame or
-            sign.
+        ExperimentError: If a validation interval was fitted, two recordings have the same readings, or the robot now
+            reads the sensor in another frame or sign.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     campaign = Campaign.of(runs)
+    for shared in readings_twice(_contents(campaign)).values() if len(campaign.runs) > 1 else ():
+        raise ExperimentError(f"{shared}; leave one of the two out")
     wrenches: dict[str, EvaluatedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):

@@ -34,7 +34,7 @@ class FleetSensor(Row):
     serial: Annotated[str, Shown("serial")]
     """Its serial number."""
     recordings: Annotated[int, Shown("recordings")]
-    """Number of recordings."""
+    """Number of recordings, copies of others included, as in all that follows."""
     duration_s: Annotated[float, Shown("recorded", "s", digits=0)]
     """Length of all recordings together."""
     first_date: Annotated[str, Shown("from")]
