@@ -334,10 +334,26 @@ def test_an_interval_that_ends_before_there_is_a_level_is_refused(tmp_path: Path
     edit(tmp_path / PARQUET, "end_s = 23.5", "end_s = 15.1")
     run = _run(tmp_path)
     correction = run.read_by(None, None).bare
-    with pytest.raises(ExperimentError, match="expected an interval of more than 1 s, .* got 'judge' of 0.6 s"):
+    with pytest.raises(
+        ExperimentError, match="expected an interval with more than 1 s of readings .* got 'judge' of 0.6 s"
+    ):
         find_collisions(run, correction, ["judge"], (), 1.0)
     alone, both = (find_collisions(run, correction, labels, (), 1.0) for labels in (["fit"], ()))
     assert both.sensitivity == alone.sensitivity
-    said = "arm_ft: not looked at: judge, of 1 s or less, in which the level is found first"
+    said = "arm_ft: not looked at: judge, with at most 1 s of readings in a row, in which the level is found first"
     assert [warning for warning in both.warnings if "not looked at" in warning] == [said]
     assert said not in alone.warnings
+
+
+def test_an_interval_with_gaps_is_not_called_short(folder: Path) -> None:
+    """Where a reading comes every 0.9 s no level is found, however long the interval is: 9 s."""
+    run = _run(folder)
+    recording, stream = run.experiment.recording, run.stream
+    judge = next(one for one in recording.intervals if one.label == "judge")
+    kept = ~judge.holds(stream.stamp_ns) | (np.arange(len(stream)) % 45 == 0)
+    signals = {name: replace(signal, values=signal.values[kept]) for name, signal in stream.signals.items()}
+    thin = replace(stream, stamp_ns=stream.stamp_ns[kept], sequence=None, signals=signals)
+    streams = {**recording.streams, "arm_ft": thin}
+    found = _found(SensorRun(replace(run.experiment, recording=replace(recording, streams=streams)), "arm_ft"))
+    said = "arm_ft: not looked at: judge, with at most 1 s of readings in a row"
+    assert any(warning.startswith(said) for warning in found.warnings)

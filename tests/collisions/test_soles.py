@@ -102,6 +102,18 @@ def test_viewer_and_report_show_it_among_their_findings(standing: Standing, mome
         assert abs(one.start_ns - middle_ns) < 100_000_000
 
 
+def test_of_a_long_log_the_soles_that_were_not_tested_are_named(
+    standing: Standing, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By the sensor next to them; a sensor without one says nothing of soles."""
+    monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 0.0)
+    found = {one.stream: one.message for one in with_collisions((), standing.experiment, {})}
+    streams = {one.name: one.stream for one in standing.experiment.sensors}
+    assert "; no test of what presses on r_sole; see `robot balance`" in found[streams[FOOT]]
+    assert "no look for collisions" in found[streams["r_leg_ft"]]
+    assert "presses" not in found[streams["r_leg_ft"]]
+
+
 def test_a_sole_belongs_to_the_sensor_next_to_it(standing: Standing) -> None:
     """A hip has another sensor between itself and the sole; without an outline or a friction nothing is tested."""
     assert events_on_soles(SensorRun(standing.experiment, "r_leg_ft"), None, ()) == ((), ())

@@ -16,7 +16,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque import load_experiment
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.report.sections import viewer_section
 from forcetorque.viewer.packing import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
@@ -196,6 +198,12 @@ def test_too_many_samples_are_refused_before_they_are_computed(
     assert "computed" in run("view", PARQUET, "-o", "view.html").error()
     monkeypatch.setattr("forcetorque.viewer.page.MOST_SAMPLES", 10)
     assert "expected at most 10 samples for one file" in run("view", PARQUET, "-o", "view.html").error()
+    experiment = load_experiment(arm / PARQUET)
+    with pytest.raises(ForceTorqueError, match="expected at most 10 samples for one file"):
+        experiment.view(arm / "view.html")
+    monkeypatch.setattr("forcetorque.report.sections.MOST_SAMPLES", 10)
+    with pytest.raises(ForceTorqueError, match="--viewer: expected at most 10 samples inside a document"):
+        viewer_section(arm / PARQUET, experiment, {})
     assert reached == ["computed"]
     assert not (arm / "view.html").exists()
     assert "GB of memory" not in run("view", PARQUET, "--no-browser").err

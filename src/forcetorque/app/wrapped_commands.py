@@ -170,7 +170,7 @@ def _write(
     from forcetorque.viewer.view_file import view_files, write_view
 
     log = start_logging()
-    built = _scene(path, known, given, log.info)
+    built = _scene(path, file, known, given, log.info)
     for note in built.scene.notes:
         log.info("%s", note)
     verdicts = [
@@ -181,16 +181,20 @@ def _write(
     log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
 
 
-def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress) -> BuiltScene:
-    """What the viewer shows of an experiment, by the options of the command."""
+def _scene(
+    path: Path, file: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress
+) -> BuiltScene:
+    """What the viewer shows of an experiment in a file, by the options of the command."""
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.payload.load_of_log import is_experiment_file
     from forcetorque.results.terminal.input import read_calibrations
     from forcetorque.viewer.contacts import ContactOptions
     from forcetorque.viewer.scene_builder import build_scene, scene_of
+    from forcetorque.viewer.view_file import require_room
 
+    accept = partial(require_room, file)
     if known is not None and not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
-        return build_scene(known, {}, progress=progress)
+        return build_scene(known, {}, progress=progress, accept=accept)
     experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     sensors: Sequence[str] | None = given.get("sensor")
     return scene_of(
@@ -199,6 +203,7 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progr
         read_calibrations(given.get("calibration"), sensors),
         sensors=sensors,
         progress=progress,
+        accept=accept,
         contact_options=ContactOptions(
             contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")
         ),

@@ -103,8 +103,8 @@ def find_collisions(
     if not looked:
         lengths = ", ".join(f"{one.label!r} of {1e-9 * (one.end_ns - one.start_ns):.2g} s" for one in watched)
         raise ExperimentError(
-            f"sensor {run.sensor.name!r}: expected an interval of more than {WARM_UP_S:g} s, in which the level is "
-            f"found first, got {lengths}; name a longer one by --interval, from Python intervals"
+            f"sensor {run.sensor.name!r}: expected an interval with more than {WARM_UP_S:g} s of readings in a "
+            f"row, in which the level is found first, got {lengths}; name another by --interval, from Python intervals"
         )
     rows = [
         _row(run, one, contact, threshold) for one in looked for contact in one.detected.contacts if contact.windows
@@ -262,8 +262,8 @@ def _warnings(
     warnings = []
     if short:
         warnings.append(
-            f"{run.sensor.name}: not looked at: {', '.join(short)}, of {WARM_UP_S:g} s or less, in which the level is "
-            "found first"
+            f"{run.sensor.name}: not looked at: {', '.join(short)}, with at most {WARM_UP_S:g} s of readings in a "
+            "row, in which the level is found first"
         )
     touched = [label for label in free if any(row.interval == label for row in rows)]
     if touched:

@@ -10,7 +10,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.collisions.collisions import find_collisions
 from forcetorque.collisions.residual import WINDOW_S
 from forcetorque.collisions.result import CollisionRow
-from forcetorque.collisions.soles import events_on_soles
+from forcetorque.collisions.soles import events_on_soles, soles_beyond
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -71,10 +71,15 @@ def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration])
     recording = experiment.recording
     watched_s = 1e-9 * sum(one.end_ns - one.start_ns for one in recording.intervals if one.use is not Use.IGNORE)
     if watched_s > LONGEST_S:
-        text = (
-            f"no look for collisions in {watched_s:.0f} s, more than {LONGEST_S:g} s; see `robot collisions --interval`"
-        )
-        for stream in dict.fromkeys(sensor.stream for sensor in experiment.sensors):
+        soles: dict[str, list[str]] = {}
+        for sensor in experiment.sensors:
+            frames = [entry.sole.frame for entry in soles_beyond(SensorRun(experiment, sensor))]
+            soles.setdefault(sensor.stream, []).extend(frames)
+        for stream, frames in soles.items():
+            text = f"no look for collisions in {watched_s:.0f} s, more than {LONGEST_S:g} s"
+            text += "; see `robot collisions --interval`"
+            if frames:
+                text += f"; no test of what presses on {', '.join(frames)}; see `robot balance`"
             yield Finding(stream=stream, kind="not_compared", message=text, count=0)
         return
     shared = SharedWrenches(recording, {sensor.name: sensor.stream for sensor in experiment.sensors})

@@ -33,7 +33,7 @@ def events_on_soles(
     Returns:
         Events, and why soles could not be tested, as text.
     """
-    soles = _soles(run)
+    soles = soles_beyond(run)
     if not soles:
         return (), ()
     experiment = run.experiment
@@ -63,9 +63,18 @@ def _events(experiment: Experiment, corrections: Mapping[str, Correction]) -> It
         yield from sole_events(balance, release_N=options.thresholds(balance.weight_N).release_N)
 
 
-def _soles(run: SensorRun) -> tuple[ExperimentSole, ...]:
-    """Soles with an outline or a friction between which and the sensor there is no other one."""
+def soles_beyond(run: SensorRun) -> tuple[ExperimentSole, ...]:
+    """Name the soles whose events a sensor tells.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        Those with an outline or a friction between which and the sensor there is no other one.
+    """
     experiment = run.experiment
+    if not experiment.section(SOLES):
+        return ()
     tree = build_tree(experiment.model, experiment.model.root_link)
     parts = sub_models(tree, [sensor.name for sensor in experiment.sensors])
     bodies = next((part.bodies for part in parts if part.sensor == run.sensor.name), ())

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
@@ -237,8 +238,11 @@ def to_export(calibration: str, sensor: str) -> tuple[str, str]:
 
 
 def _is_file(calibration: str) -> bool:
-    """Whether a calibration is called by its file, which commands take; from Python it may have any name."""
-    return calibration.endswith(".json")
+    """Whether a calibration is in a file, which commands take; from Python it may have any name."""
+    try:
+        return Path(calibration).is_file()
+    except OSError:  # too long for the name of a file
+        return False
 
 
 _OF_RECORDINGS = frozenset({"recording", "offset"})
@@ -269,7 +273,7 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
         if failed:
             step, command = _acceptance_step(worst)
         elif unsure:
-            step, command = _step_to_decide(unsure[0], acceptance.specification_file)
+            step, command = _step_to_decide(unsure[0], _file_alone(acceptance.specification_file, criteria))
         else:
             step, command = _after_acceptance(worst)
         yield Answer(
@@ -309,6 +313,11 @@ def _step_to_decide(use: LoadCaseVerdict, specification: str | None) -> tuple[st
     if specification is None or not _is_file(use.calibration):
         return step, ""
     return step, typed("accept", EXPERIMENT, "--spec", specification, "-c", use.calibration)
+
+
+def _file_alone(specification: str | None, criteria: Sequence[Criterion]) -> str | None:
+    """The acceptance file, where it is all that limits need: not with `[population]`, which needs matrices too."""
+    return None if any(one.criterion.startswith("population.") for one in criteria) else specification
 
 
 def _after_acceptance(criterion: Criterion) -> tuple[str, str]:

@@ -323,15 +323,18 @@ def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str
     Raises:
         ForceTorqueError: If there are too many samples for one file.
     """
-    built = scene_of(path, experiment, calibrations)
-    if built.scene.samples > MOST_SAMPLES:
-        raise ForceTorqueError(
-            f"--viewer: expected at most {MOST_SAMPLES} samples inside a document, got {built.scene.samples}; leave it "
-            "out and serve them with `forcetorque view`"
-        )
+    built = scene_of(path, experiment, calibrations, accept=_require_few)
     page = Page(
         html=page_of(packed(built)),
         title=f"Viewer of {experiment.name}",
         instead=f"The HTML file has a viewer here; `forcetorque view {path}` opens it too.",
     )
     return Section(title=f"Posture and forces: {experiment.name}", blocks=(page,))
+
+
+def _require_few(samples: int) -> None:
+    if samples > MOST_SAMPLES:
+        raise ForceTorqueError(
+            f"--viewer: expected at most {MOST_SAMPLES} samples inside a document, got {samples}; leave it out and "
+            "serve them with `forcetorque view`"
+        )

@@ -128,11 +128,10 @@ _SAMPLE_BYTES, _LARGE_BYTES = 5_000, 1_000_000_000
 
 def _accept(output: Path | None, log: logging.Logger, samples: int) -> None:
     """Refuse a page that would be too large, or say how much memory many samples take, before either costs any."""
-    from forcetorque.viewer.page import require_few_samples
-    from forcetorque.viewer.view_file import MCAP, RRD
+    from forcetorque.viewer.view_file import require_room
 
-    if output is not None and output.suffix.lower() not in (RRD, MCAP):
-        require_few_samples(output, samples)
+    if output is not None:
+        require_room(output, samples)
     if (size := samples * _SAMPLE_BYTES) > _LARGE_BYTES:
         log.warning(
             "%d samples are shown at once, in about %.1f GB of memory; where there is less, give a part of the log",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from forcetorque.base.progress import Progress
-from forcetorque.viewer.page import write_page
+from forcetorque.viewer.page import require_few_samples, write_page
 from forcetorque.viewer.scene_builder import BuiltScene
 
 RRD, MCAP = ".rrd", ".mcap"
@@ -45,6 +45,17 @@ def require_writer(path: Path) -> None:
         from forcetorque.formats.ros.mcap_writer import typestore
 
         typestore(path)
+
+
+def require_room(path: Path, samples: int) -> None:
+    """Refuse a page of too many samples; what other viewers open takes any number.
+
+    Args:
+        path: File of the scene.
+        samples: Number of samples.
+    """
+    if path.suffix.lower() not in (RRD, MCAP):
+        require_few_samples(path, samples)
 
 
 def write_view(path: Path, built: BuiltScene, progress: Progress = lambda _: None) -> int:

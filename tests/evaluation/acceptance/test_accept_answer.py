@@ -3,12 +3,23 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Reason
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Concern
+
+
+@pytest.fixture(autouse=True)
+def _files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files of the calibrations, in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    for file in (Path("leg.json"), Path("old/leg.json"), Path("old/leg")):
+        file.parent.mkdir(exist_ok=True)
+        file.touch()
 
 
 def _criterion(name: str, measured: float, limit: float, bound: Bound = Bound.AT_MOST, **given: str) -> Criterion:
@@ -72,12 +83,19 @@ def test_a_sensor_without_enough_data_is_undecided() -> None:
     assert (answer.step, answer.command) == (tare.remedy, "")  # limits of Python have no file to name
     (answer,) = tared.model_copy(update={"specification_file": "limits.toml"}).answers()
     assert answer.command == f"accept {EXPERIMENT} --spec limits.toml -c old/leg.json"
+    population = _criterion("population.robust_z", 1.0, 3.0, unit="")  # needs matrices, which no file names
+    tared = _accepted(GOOD, population, load_cases=tared.load_cases)
+    (answer,) = tared.model_copy(update={"specification_file": "limits.toml"}).answers()
+    assert (answer.step, answer.command) == (tare.remedy, "")
 
 
 def test_no_command_names_a_calibration_that_is_in_no_file() -> None:
     """From Python a calibration may have any name, which no command finds: the step is to save it first."""
-    (answer,) = _accepted(_criterion("evaluate.force_error_mean_N", 0.9, 1.0, calibration="mine")).answers()
-    assert (answer.step, answer.command) == ("save the calibration, and export its matrix to the robot", "")
+    for name in ("mine", "nowhere.json", "a" * 300):
+        (answer,) = _accepted(_criterion("evaluate.force_error_mean_N", 0.9, 1.0, calibration=name)).answers()
+        assert (answer.step, answer.command) == ("save the calibration, and export its matrix to the robot", "")
+    (answer,) = _accepted(_criterion("evaluate.force_error_mean_N", 0.9, 1.0, calibration="old/leg")).answers()
+    assert answer.command == "export old/leg --to csv -o leg.csv"  # whatever its ending
     for name in ("excitation.condition", "evaluate.rmse.fz"):
         (answer,) = _accepted(_criterion(name, 6.0, 5.0, calibration="mine")).answers()
         assert answer.step

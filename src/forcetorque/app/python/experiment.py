@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
@@ -151,14 +152,15 @@ class Experiment(ExperimentContent):
             OutputError: As of `estimate`.
         """
         from forcetorque.viewer.scene_builder import View, build_scene
-        from forcetorque.viewer.view_file import require_writer, view_files, write_view
+        from forcetorque.viewer.view_file import require_room, require_writer, view_files, write_view
 
         for file in view_files(Path(output)):
             refuse_output(file, inputs_sha256=self.inputs_sha256.values(), force=force)
         require_writer(Path(output))
         robot = parse_experiment(self.file).robot if self.file.is_file() else None
         urdf = None if robot is None else urdf_file(robot.urdf, self.file.parent)
-        built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)
+        accept = partial(require_room, Path(output))
+        built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors, accept=accept)
         written = write_view(Path(output), built)
         return View.of(built).model_copy(update={"file": str(output), "file_bytes": written})
 
