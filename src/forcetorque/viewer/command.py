@@ -134,7 +134,8 @@ def _accept(output: Path | None, log: logging.Logger, samples: int) -> None:
         require_room(output, samples)
     if (size := samples * _SAMPLE_BYTES) > _LARGE_BYTES:
         log.warning(
-            "%d samples are shown at once, in about %.1f GB of memory; where there is less, give a part of the log",
+            "%d samples are shown at once, of six sensors in about %.1f GB of memory, of one in a quarter of that; "
+            "where there is less, give a part of the log",
             samples,
             size * 1e-9,
         )
