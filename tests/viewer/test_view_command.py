@@ -208,7 +208,9 @@ def test_too_many_samples_are_refused_before_they_are_computed(
     assert not (arm / "view.html").exists()
     assert "GB of memory" not in run("view", PARQUET, "--no-browser").err
     monkeypatch.setattr("forcetorque.viewer.command._LARGE_BYTES", 1)
-    assert re.search(r"\d+ samples are shown at once, of six sensors in about \d", run("view", PARQUET, "--no-browser").err)
+    assert re.search(
+        r"\d+ samples are shown at once, of six sensors in about \d", run("view", PARQUET, "--no-browser").err
+    )
 
 
 def test_a_span_without_samples_is_refused(run: Run, arm: Path) -> None:
