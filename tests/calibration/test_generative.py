@@ -243,7 +243,7 @@ def test_a_variable_of_which_nothing_is_known_must_move() -> None:
     data = read_by(anyhow())
     data = replace(data, variables=np.full((len(data), 1), 24.0))
     supply = LinearVariable(name="supply", unit="V")
-    with pytest.raises(FitError, match="'supply': its value is 24 V throughout the fitted data.*state prior_deviation"):
+    with pytest.raises(FitError, match="'supply': expected prior_deviation.*the same throughout the data"):
         fit_generative([data], PRIOR, assumptions(), variables=[supply])
     deviation = np.array([0.5, 0.5, 0.5, 0.01, 0.01, 0.01])
     fit = fit_generative([data], PRIOR, assumptions(), variables=[replace(supply, prior_deviation=deviation)])

@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
-from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import expected_sensor_errors as expected
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, QUADRATIC, Assumptions, rows_of
@@ -55,13 +54,8 @@ def unfitted_posterior(
     covariance = np.zeros((len(unit), size, size))
     covariance[:, :LOADS, :LOADS] = prior + assumptions.repeatability**2 * _spread(rows.sensor_root, unit)
     for k, variable in enumerate(variables):
-        own = [expected.variable_size(variable, row) for row in rows.from_load]
-        if None in own:
-            raise FitError(
-                f"variable {variable.name!r}: expected prior_deviation, what one {variable.unit or 'unit'} of it may "
-                "do; it is unknown before any recording, and it is no temperature"
-            )
-        covariance[:, LOADS + k, LOADS + k] = (unit * np.array(own)) ** 2
+        own = expected.variable_sizes(variable, rows.from_load, 0.0)
+        covariance[:, LOADS + k, LOADS + k] = (unit * own) ** 2
     drift = np.maximum(ASSUMED_DRIFT, rows.accuracy)
     in_wrench = rows.space == "wrench"
     return Posterior(

@@ -16,7 +16,7 @@ from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit, SensorPrior
 from forcetorque.calibration.joint.windows import part_windows
-from forcetorque.experiment.calibration.expected_sensor_errors import variable_deviation
+from forcetorque.experiment.calibration.expected_sensor_errors import variable_sizes
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
@@ -93,9 +93,11 @@ def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path, sta
 
 def test_a_slope_of_which_nothing_is_known_needs_a_variable_that_moves() -> None:
     """A temperature has an expected size; of a voltage only the range that was seen tells one."""
-    full_scale, voltage = np.full(6, 100.0), LinearVariable(name="supply", unit="V")
+    from_load, voltage = np.eye(6) / 100.0, LinearVariable(name="supply", unit="V")
     degrees = LinearVariable(name="temperature", unit="degC")
-    np.testing.assert_allclose(variable_deviation(degrees, full_scale, 0.0), 0.5)
-    np.testing.assert_allclose(variable_deviation(voltage, full_scale, 4.0), 25.0)
+    np.testing.assert_allclose(variable_sizes(degrees, from_load, 0.0), 0.005)
+    np.testing.assert_allclose(variable_sizes(voltage, from_load, 4.0), 0.25)
     with pytest.raises(FitError, match="'supply'.*at several values"):
-        variable_deviation(voltage, full_scale, 0.0)
+        variable_sizes(voltage, from_load, 0.0)
+    stated = LinearVariable(name="supply", unit="V", prior_deviation=np.arange(1.0, 7.0))
+    np.testing.assert_allclose(variable_sizes(stated, from_load, 0.0), np.arange(1.0, 7.0) / 100.0)

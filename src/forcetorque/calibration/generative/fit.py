@@ -469,8 +469,13 @@ def fit_generative(
     derivatives = model_terms(with_terms, cells_of(ordered))
     terms = derivatives.terms
     layout = Layout(variables=len(variables), channels=raw.shape[1], terms=len(terms))
+    extents = np.ptp(values, axis=0).tolist()
+    of_variables = [
+        expected.variable_sizes(one, rows.from_load, extent) for one, extent in zip(variables, extents, strict=True)
+    ]
+    by_row = np.column_stack([np.zeros((len(rows.unit), 0)), *of_variables])
     basis = [
-        _basis(rows, matrix, k, layout, size=size, variables=_variable_sizes(variables, values, rows, k))
+        _basis(rows, matrix, k, layout, size=size, variables=by_row[k])
         for k, size in enumerate(rows.prior_sizes(assumptions, 1.0))
     ]
 
@@ -572,22 +577,6 @@ def _rough(raw: FloatArray, wrench: FloatArray, measured: BoolArray) -> FloatArr
     matrix = np.zeros((LOADS, raw.shape[1]))
     matrix[measured] = np.linalg.pinv(response[:, measured])
     return matrix
-
-
-def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, rows: Rows, row: int) -> FloatArray:
-    """Standard deviation of what a unit of every variable may add to a row; shape (v,)."""
-    sizes = np.zeros(len(variables))
-    for k, variable in enumerate(variables):
-        known = expected.variable_size(variable, rows.from_load[row])
-        extent = float(np.ptp(values[:, k]))
-        if known is None and extent == 0.0:
-            raise FitError(
-                f"variable {variable.name!r}: its value is {values[0, k]:g} {variable.unit} throughout the fitted "
-                "data, which says nothing of its coefficients; fit data at several values, state prior_deviation, "
-                "or leave it out"
-            )
-        sizes[k] = expected.VARIABLE_SHARE / extent if known is None else known
-    return sizes
 
 
 def _basis(

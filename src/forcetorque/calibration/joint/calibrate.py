@@ -178,25 +178,34 @@ def _prior(campaign: Campaign, tolerance: ModelTolerance, intervals: Sequence[Jo
     return SensorPrior.of(required_prior(sensor), assumptions, extents)
 
 
+_FEW: Final = 1000
+"""Instants at which a variable is read at a time, in search of its first value."""
+
+
 def _references(campaign: Campaign) -> Iterator[tuple[tuple[str, str], float]]:
     """Values at which the variables of a sensor add nothing: as stated, or the first of its calibration intervals."""
     for variable in campaign.sensor.variables:
         name, stated = variable.linear.name, variable.linear.reference_value
-        value = next(_values(campaign, name), None) if stated is None else stated
+        value = _first_value(campaign, name) if stated is None else stated
         if value is not None:  # without calibration data the first recording says itself what it lacks
             yield (campaign.sensor.name, name), value
 
 
-def _values(campaign: Campaign, variable: str) -> Iterator[float]:
-    """A variable at the instants of the calibration intervals."""
+def _first_value(campaign: Campaign, variable: str) -> float | None:
+    """A variable at the first instant of the calibration intervals that has a value."""
     for run in campaign.runs:
         source = run.sensor.variable(variable).source
         for part in segment_experiments(run.experiment) or (run.experiment,):
             stamps = part.recording.stream(campaign.sensor.stream).stamp_ns
             for interval in part.recording.intervals:
                 if interval.use is Use.CALIBRATION:
-                    values = source.at(part.recording, stamps[interval.holds(stamps)])
-                    yield from values[np.isfinite(values)].tolist()
+                    own = stamps[interval.holds(stamps)]
+                    for start in range(0, len(own), _FEW):
+                        values = source.at(part.recording, own[start : start + _FEW])
+                        finite = values[np.isfinite(values)]
+                        if len(finite):
+                            return float(finite[0])
+    return None
 
 
 def _contents(campaign: Campaign) -> Iterator[tuple[str, float, Content | None]]:

@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import (
     Scale,
     mount_scales,
     sensor_root,
-    variable_deviation,
+    variable_sizes,
 )
 from forcetorque.experiment.calibration.joint_posterior import LENGTH_M
 from forcetorque.experiment.calibration.robot_model_error import ZERO, ErrorTerm
@@ -311,7 +311,7 @@ class SensorPrior:
             scales=(expected, expected, GAIN, *mount_scales(assumptions.mount)),
             kinds=tuple(np.repeat(np.arange(5), [CHANGES // 2, CHANGES // 2, channels, 3, 3]).tolist()),
             slopes={
-                variable.name: variable_deviation(variable, np.sqrt((scaled**2).sum(axis=1)), extent) / UNITS
+                variable.name: size * variable_sizes(variable, np.diag(1.0 / size), extent) / UNITS
                 for variable, extent in extents
             },
         )

@@ -85,46 +85,31 @@ VARIABLE_SHARE: Final = 1.0
 """What any other variable may do over the range in which it was seen: a share of full scale."""
 
 
-def variable_size(variable: LinearVariable, from_load: FloatArray) -> float | None:
-    """Say what a unit of a variable may add to a row of the model before it was seen.
+def variable_sizes(variable: LinearVariable, from_load: FloatArray, extent: float) -> FloatArray:
+    """Say what a unit of a variable may add to the rows of the model.
 
     Args:
         variable: The variable.
-        from_load: What a load does to the row; shape (6,).
+        from_load: What a load does to the rows, in units of their own; shape (rows, 6).
+        extent: Range over which the variable was seen; 0 before any data.
 
     Returns:
-        Standard deviation by what is stated, or of a temperature; None for another variable, of which only the range
-        that was seen tells.
-    """
-    if variable.prior_deviation is not None:
-        return float(np.linalg.norm(from_load * variable.prior_deviation))
-    return DRIFT_SHARE_PER_DEGREE if variable.unit in _DEGREES else None
-
-
-def variable_deviation(variable: LinearVariable, full_scale: FloatArray, extent: float) -> FloatArray:
-    """Say what a unit of a variable may add to every component of the wrench.
-
-    Args:
-        variable: The variable.
-        full_scale: Wrench of all channels at full scale; shape (6,); N, N m.
-        extent: Range over which the variable was seen.
-
-    Returns:
-        Standard deviation; shape (6,); N, N m per unit.
+        Standard deviations: what is stated, or a share of full scale; shape (rows,); in these units per unit.
 
     Raises:
-        FitError: If nothing is stated and a variable in no unit of temperature never moved.
+        FitError: If nothing is stated of a variable that is no temperature and did not move.
     """
     if variable.prior_deviation is not None:
-        return variable.prior_deviation
+        return np.asarray(np.linalg.norm(from_load * variable.prior_deviation, axis=1))
     if variable.unit in _DEGREES:
-        return DRIFT_SHARE_PER_DEGREE * full_scale
-    if extent == 0.0:
+        return np.full(len(from_load), DRIFT_SHARE_PER_DEGREE)
+    if not extent:
         raise FitError(
-            f"variable {variable.name!r}: its value is the same throughout the fitted data, which says nothing of its "
-            "coefficients; fit data at several values, state prior_deviation, or leave it out"
+            f"variable {variable.name!r}: expected prior_deviation, what one {variable.unit or 'unit'} of it may do, "
+            "or data at several values: it is no temperature, and its value is the same throughout the data, which "
+            "says nothing of its coefficients; state it, record more, or leave the variable out"
         )
-    return VARIABLE_SHARE / extent * full_scale
+    return np.full(len(from_load), VARIABLE_SHARE / extent)
 
 
 def mount_scales(mount: MountTolerance) -> tuple[Scale, Scale]:
