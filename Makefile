@@ -32,6 +32,7 @@ lint: $(VENV)/test.stamp
 
 types: $(VENV)/test.stamp
 	$(BIN)/mypy
+	$(BIN)/mypy --platform win32
 
 # what every worker of the tests would else compile for itself
 compiled: $(VENV)/test.stamp

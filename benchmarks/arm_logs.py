@@ -96,7 +96,7 @@ def _rtde_numpy(path: Path) -> np.ndarray:
 
 
 def _franka_json(path: Path) -> np.ndarray:
-    with path.open() as file:
+    with path.open(encoding="utf-8") as file:
         logged = [json.loads(line) for line in file]
     flange_H_ee, ee_H_k = (
         np.array([state[field] for state in logged]).reshape(-1, 4, 4).transpose(0, 2, 1)

@@ -48,7 +48,7 @@ def _write_logs(folder: Path, *, messages: int) -> tuple[Path, Path]:
 def _split_and_float(path: Path) -> np.ndarray:
     """The loop that people write: split each line, keep the numbers."""
     rows = []
-    with path.open() as stream:
+    with path.open(encoding="utf-8") as stream:
         for line in stream:
             words = line.replace("(", " ").replace(")", " ").split()
             rows.append([float(word) for word in words if word not in ("[ok]", "[fail]")])

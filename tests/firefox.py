@@ -106,7 +106,7 @@ def _address(log: Path) -> str:
     """Where it listens, which it says itself."""
     end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end:
-        if match := re.search(r"WebDriver BiDi listening on (ws://127\.0\.0\.1:\d+)", log.read_text()):
+        if match := re.search(r"WebDriver BiDi listening on (ws://127\.0\.0\.1:\d+)", log.read_text(encoding="utf-8")):
             return match[1]
         time.sleep(0.1)
-    raise AssertionError(f"Firefox did not say where it listens: {log.read_text()}")
+    raise AssertionError(f"Firefox did not say where it listens: {log.read_text(encoding='utf-8')}")

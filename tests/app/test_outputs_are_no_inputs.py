@@ -323,7 +323,7 @@ def test_what_somebody_else_made_is_replaced_only_by_force(arm: Path, run: Run, 
     assert IS_FOREIGN in run(*words).error()
     assert Path(name).read_bytes() == FOREIGN[name]
     assert run(*words, "--force").code == 0
-    assert Path(name).read_text().startswith("sensor,serial,component")
+    assert Path(name).read_text(encoding="utf-8").startswith("sensor,serial,component")
 
 
 @pytest.mark.parametrize("name", ["matrix_SIM001.txt", "recording/joints.parquet", "log/arm_ft/analog:o/data.log"])

@@ -19,6 +19,7 @@ from forcetorque.base.output_file import (
     existing_files_replaced_last,
     real_path,
     refuse_unwritable,
+    relative_path,
     write_bytes_atomically,
 )
 
@@ -144,3 +145,14 @@ def test_a_dash_is_standard_output(
     write_bytes_atomically(STANDARD_OUTPUT, DATA)
     assert capfdbinary.readouterr().out == b"before\n" + DATA
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_path_on_another_drive_is_absolute(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`os.path.relpath` refuses it on Windows; otherwise a path is relative, with `/`."""
+    assert relative_path(tmp_path / "logs" / "a.csv", tmp_path / "experiments") == "../logs/a.csv"
+
+    def of_another_drive(path: Path, start: Path) -> str:
+        raise ValueError(f"path is on mount {path}, start on mount {start}")
+
+    monkeypatch.setattr("os.path.relpath", of_another_drive)
+    assert relative_path(tmp_path / "a.csv", tmp_path) == real_path(tmp_path / "a.csv").as_posix()

@@ -51,7 +51,7 @@ def _idyntree(file: Path, device: Device, motion: JointMotion) -> tuple[FloatArr
 
 
 def _pinocchio(file: Path, device: Device, motion: JointMotion) -> tuple[FloatArray, FloatArray]:
-    oracle, wrenches, torques = Pinocchio(file.read_text(), read_urdf(file), motion), [], []
+    oracle, wrenches, torques = Pinocchio(file.read_text(encoding="utf-8"), read_urdf(file), motion), [], []
     root = device_root(device)
     still = np.zeros((len(motion), 3))
     base = RootMotion(

@@ -87,7 +87,7 @@ SENSED = np.random.default_rng(4).normal(0.0, 5.0, size=(30, 6))
 
 
 def _table(path: Path, rows: np.ndarray, head: str = "") -> None:
-    path.write_text(head + "".join(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows))
+    path.write_text(head + "".join(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows), encoding="utf-8")
 
 
 def _recording(folder: Path, text: str = TEXT) -> Recording:

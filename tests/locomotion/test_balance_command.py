@@ -56,7 +56,10 @@ def test_bad_input_is_one_line(feet: Path, run: Run, words: tuple[str, ...], mes
 @pytest.mark.parametrize("key", ["friction", "torsional_friction_m"])
 def test_a_friction_beside_a_vertical_force_is_refused(feet: Path, run: Run, key: str) -> None:
     """A vertical force alone shows no slip, so that the limit would do nothing."""
-    feet.write_text(feet.read_text(encoding="utf-8").replace('stream = "feet_r"', f'stream = "feet_r"\n{key} = 0.5'))
+    feet.write_text(
+        feet.read_text(encoding="utf-8").replace('stream = "feet_r"', f'stream = "feet_r"\n{key} = 0.5'),
+        encoding="utf-8",
+    )
     refused = run("robot", "balance", feet)
     assert refused.code == 2
     assert f"sole[1]: expected {key} of a sole whose force and moment a sensor measures, got stream" in refused.err

@@ -38,7 +38,7 @@ def test_the_change_is_named_shown_and_drawn(days: Path, run: Run) -> None:
 def test_one_session_is_refused(days: Path, run: Run, tmp_path: Path) -> None:
     """With what to do."""
     alone = tmp_path / "alone.toml"
-    alone.write_text(days.read_text().replace('session = "friday"', 'session = "monday"'))
+    alone.write_text(days.read_text(encoding="utf-8").replace('session = "friday"', 'session = "monday"'))
     (tmp_path / "log.csv").write_bytes((days.parent / "log.csv").read_bytes())
     outcome = run("bench", "drift", alone)
     assert (outcome.code, outcome.out) == (2, "")

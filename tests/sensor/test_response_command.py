@@ -40,7 +40,7 @@ def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
 def test_taps_of_a_sensor_by_itself_need_no_force(taps: Path, run: Run, tmp_path: Path) -> None:
     """Nothing says what it must read, and it rings all the same."""
     alone = tmp_path / "alone.toml"
-    text = taps.read_text().replace('path = "."', f'path = "{taps.parent}"')
+    text = taps.read_text(encoding="utf-8").replace('path = "."', f'path = "{taps.parent}"')
     stated = 'applied = "log"\nmeasure_direction = "child_to_parent"'
     assert stated in text
     alone.write_text(text.replace(stated, 'motion = "none"'))

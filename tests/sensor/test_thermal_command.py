@@ -38,7 +38,7 @@ def test_drift_is_shown_and_drawn(chamber: Path, run: Run) -> None:
 
 def test_a_sensor_by_itself_needs_no_motion(chamber: Path, run: Run, tmp_path: Path) -> None:
     """The drift is that of the file with a motion, whose streams it does not use; what needs a motion is refused."""
-    text = chamber.read_text()
+    text = chamber.read_text(encoding="utf-8")
     head, rest = text.split("[recording]")
     alone = tmp_path / "alone.toml"
     stated = head[: head.index("[load]")] + '[load]\nframe = "ft"\nmotion = "none"\n\n'

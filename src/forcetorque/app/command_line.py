@@ -133,6 +133,7 @@ def _program(first: list[str]) -> typer.Typer:
         return whole_program()
     one = typer.Typer(
         name=_NAME,
+        cls=WholeSentences,
         add_completion=False,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,

@@ -167,6 +167,22 @@ def real_path(path: Path | str) -> Path:
     return Path(os.path.realpath(path))
 
 
+def relative_path(path: Path, folder: Path) -> str:
+    """Write a path as it is stated in a file of a folder.
+
+    Args:
+        path: Any path.
+        folder: The folder.
+
+    Returns:
+        Relative, with `/`; absolute on another drive.
+    """
+    try:
+        return Path(os.path.relpath(real_path(path), real_path(folder))).as_posix()
+    except ValueError:  # on another drive
+        return real_path(path).as_posix()
+
+
 STANDARD_OUTPUT = Path("-")
 """What a command is given in place of a file to have it on standard output."""
 

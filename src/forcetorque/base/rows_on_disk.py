@@ -6,6 +6,7 @@ from __future__ import annotations
 import errno
 import math
 import mmap
+import sys
 import tempfile
 import weakref
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -288,7 +289,7 @@ def forget_pages(arrays: Iterable[npt.NDArray[Any]]) -> None:
         arrays: Arrays, of which those that are no view of a mapped file are left alone.
     """
     for pages in {id(pages): pages for pages in map(_pages_of, arrays) if pages is not None}.values():
-        if hasattr(mmap, "MADV_DONTNEED"):  # not on Windows
+        if sys.platform != "win32":
             pages.madvise(mmap.MADV_DONTNEED)
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
@@ -20,7 +20,7 @@ from forcetorque.evaluation.load_cases.verdict import (
 )
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import AGAIN, EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
@@ -239,8 +239,9 @@ def to_export(calibration: str, sensor: str) -> tuple[str, str]:
 
 def _is_file(calibration: str) -> bool:
     """Whether a calibration is in a file, which commands take; from Python it may have any name."""
+    # by its ending where it can be, because the result may be shown in another folder than it was made in
     try:
-        return Path(calibration).is_file()
+        return PurePath(calibration).suffix == ".json" or Path(calibration).is_file()
     except OSError:  # too long for the name of a file
         return False
 
@@ -273,7 +274,7 @@ def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
         if failed:
             step, command = _acceptance_step(worst)
         elif unsure:
-            step, command = _step_to_decide(unsure[0], _file_alone(acceptance.specification_file, criteria))
+            step, command = _step_to_decide(unsure[0])
         else:
             step, command = _after_acceptance(worst)
         yield Answer(
@@ -305,19 +306,10 @@ def _compared(criterion: Criterion) -> str:
     return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
 
 
-def _step_to_decide(use: LoadCaseVerdict, specification: str | None) -> tuple[str, str]:
+def _step_to_decide(use: LoadCaseVerdict) -> tuple[str, str]:
     """What gives an undecided sensor a verdict: where it is a change of a file, `accept` again."""
     step, command = next_step(use)
-    if command and not _states_loads(use):
-        return step, command
-    if specification is None or not _is_file(use.calibration):
-        return step, ""
-    return step, typed("accept", EXPERIMENT, "--spec", specification, "-c", use.calibration)
-
-
-def _file_alone(specification: str | None, criteria: Sequence[Criterion]) -> str | None:
-    """The acceptance file, where it is all that limits need: not with `[population]`, which needs matrices too."""
-    return None if any(one.criterion.startswith("population.") for one in criteria) else specification
+    return step, command if command and not _states_loads(use) else AGAIN
 
 
 def _after_acceptance(criterion: Criterion) -> tuple[str, str]:

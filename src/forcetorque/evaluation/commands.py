@@ -119,9 +119,7 @@ def accept(
     name, reader = one_named(calibration)
     chosen = None if name is None or reader is None else (name, reader)
     with nullcontext() if isinstance(spec, AcceptanceFile) else stated_in(str(spec)):
-        accepted = accept(run, limits, chosen, others=others, population=population)
-    file = None if isinstance(spec, AcceptanceFile) else str(spec)
-    return accepted.model_copy(update={"specification_file": file})
+        return accept(run, limits, chosen, others=others, population=population)
 
 
 @command("contact force and joint torques by calibration, with their intervals")

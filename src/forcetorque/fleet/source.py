@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.output_file import real_path
+from forcetorque.base.output_file import real_path, relative_path
 from forcetorque.base.toml_file import toml_content
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import InMemory, Inputs, changed_inputs
@@ -117,7 +116,7 @@ class RecordingSource:
                 f"{self.experiment}: expected [recording] with path, in whose place logs are read, got none"
             )
         folder = real_path(self.experiment).parent
-        path = Path(os.path.relpath(real_path(log), folder)).as_posix()
+        path = relative_path(log, folder)
         named = tables | {"recording": recording | {"path": path}}
         if "name" in tables:
             named["name"] = f"{tables['name']}, {log.stem}"

@@ -17,6 +17,8 @@ EXPERIMENT: Final = "{experiment}"
 """Stands in a command for the experiment files that were typed."""
 FIRST_EXPERIMENT: Final = "{first experiment}"
 """Stands in a command that takes one experiment file for the first of them."""
+AGAIN: Final = "{again}"
+"""A command that stands for the one that was typed, with all its options; from Python there is none."""
 _ANY = "EXPERIMENT.toml"
 MOST_LINES: Final = 12
 """Lines of the answer about one sensor or one thing at 80 characters, warnings included; a further one adds a line."""
@@ -93,6 +95,7 @@ def answer_text(
     experiment: str = "",
     first: str = "",
     *,
+    again: str = "",
     most: int | None = None,
     coloured: bool = False,
 ) -> str:
@@ -103,6 +106,7 @@ def answer_text(
         width: Characters of a line.
         experiment: What stands for the experiment files in commands; a word for any if empty.
         first: What stands for the first of them.
+        again: What stands for `AGAIN`; such a command is left out if empty.
         most: Lines. Where there is no room for all of why, its sentences are cut, the last ones first, then left
             out; one line of the worst answer stays. None for as many lines as there are.
         coloured: Whether the words of each verdict that are in capitals have the colour of its concern.
@@ -114,6 +118,7 @@ def answer_text(
         return ""
     ordered = sorted(answers, key=lambda answer: -answer.concern)
     names = {EXPERIMENT: experiment or _ANY, FIRST_EXPERIMENT: first or experiment or _ANY}
+    names = {AGAIN: again, **names}  # first, because it has the experiment in it
     headlines = [_headline(answer, width, coloured) for answer in ordered]
     end = [*_end(ordered, width, names)]
     # the reasons of further answers that ask for attention, before more of the worst
@@ -162,7 +167,8 @@ def _end(answers: Sequence[Answer], width: int, names: Mapping[str, str]) -> Ite
         command = worst.command
         for placeholder, name in names.items():
             command = command.replace(placeholder, name)
-        yield _command(f"forcetorque {command}", width)
+        if command:
+            yield _command(f"forcetorque {command}", width)
 
 
 def _headline(answer: Answer, width: int, coloured: bool) -> str:

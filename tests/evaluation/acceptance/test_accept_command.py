@@ -118,6 +118,17 @@ def test_the_forms_hold_the_same_and_fit_the_schema(arm: Path, run: Run) -> None
     assert snapshot(arm) == before
 
 
+def test_the_next_command_of_an_undecided_sensor(arm: Path, run: Run) -> None:
+    """It has what was typed, the matrices of the population too."""
+    _population(arm / "old ones", np.random.default_rng(5))
+    spec = _write("[evaluate]\nforce_error_mean_N = 1e6\n\n[population]\nrobust_z = 1e6\n")
+    words = ("accept", "--spec", spec, PARQUET, "--population", "old ones", "-c", "fitted.json")
+    ended = run(*words)
+    assert ended.code == 3
+    command = f"forcetorque accept {PARQUET} --spec {spec} --population 'old ones' -c fitted.json"
+    assert ended.out.splitlines()[-2].strip() == command
+
+
 def test_static_checks_are_there_without_limits(arm: Path, run: Run) -> None:
     """Full scale, resolution, offsets and saturation of the sensor; the population only where it is given."""
     words = (

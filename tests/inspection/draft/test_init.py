@@ -138,7 +138,7 @@ NAMES = ("t", "fx", "fy", "fz", "tx", "ty", "tz")
 
 def _numbers(path: Path, head: str = "") -> Path:
     rows = np.column_stack([0.01 * np.arange(300), np.random.default_rng(5).normal(size=(300, 6))])
-    path.write_text(head + "".join(",".join(f"{value:.6g}" for value in row) + "\n" for row in rows))
+    path.write_text(head + "".join(",".join(f"{value:.6g}" for value in row) + "\n" for row in rows), encoding="utf-8")
     return path
 
 

@@ -52,7 +52,7 @@ def _readings(load: RobotLoad, gravity: float) -> FloatArray:
 
 def _broadcaster(path: Path, reading: FloatArray) -> FloatArray:
     """ros2_controllers: (raw + offset) * multiplier; the weight stays."""
-    (parameters,) = (entry["ros__parameters"] for entry in yaml.safe_load(path.read_text()).values())
+    (parameters,) = (entry["ros__parameters"] for entry in yaml.safe_load(path.read_text(encoding="utf-8")).values())
     offset, factor = (
         [parameters[name][part][axis] for part in ("force", "torque") for axis in "xyz"]
         for name in ("offset", "multiplier")
@@ -63,7 +63,7 @@ def _broadcaster(path: Path, reading: FloatArray) -> FloatArray:
 
 def _gravity_filter(path: Path, reading: FloatArray) -> FloatArray:
     """control_toolbox: minus mass * gravity_field in the sensor's frame, and CoG x that; the bias stays."""
-    parameters = yaml.safe_load(path.read_text())["sensor_filter_chain"]["filter1"]["params"]
+    parameters = yaml.safe_load(path.read_text(encoding="utf-8"))["sensor_filter_chain"]["filter1"]["params"]
     tool = parameters["tool"]
     force = POSES.inv().apply(np.array(tool["gravity_field"]) * tool["mass"])
     assert (parameters["world_frame"], parameters["sensor_frame"]) == (WORLD, "wrist_ft")
@@ -72,7 +72,7 @@ def _gravity_filter(path: Path, reading: FloatArray) -> FloatArray:
 
 def _ft_tools(path: Path, reading: FloatArray) -> FloatArray:
     """ft_tools_ros2: minus mass * gravity, com x that, and the offsets; gravity [0, 0, -9.81] in the base."""
-    p = yaml.safe_load(path.read_text())
+    p = yaml.safe_load(path.read_text(encoding="utf-8"))
     force = p["mass"] * POSES.inv().apply([0.0, 0.0, -9.81])
     moment = np.cross(p["sensor_frame_to_com"], force)
     return reading - np.hstack([force, moment]) - [*p["force_offset"], *p["torque_offset"]]
@@ -80,14 +80,14 @@ def _ft_tools(path: Path, reading: FloatArray) -> FloatArray:
 
 def _force_torque_tools(path: Path, reading: FloatArray) -> FloatArray:
     """KTH: minus the bias, minus mass times an IMU that reads +9.81 upwards, and com x that."""
-    p = yaml.safe_load(path.read_text())
+    p = yaml.safe_load(path.read_text(encoding="utf-8"))
     force = p["gripper_mass"] * POSES.inv().apply([0.0, 0.0, 9.81])
     return reading - p["bias"] - np.hstack([force, np.cross(p["gripper_com_pose"][:3], force)])
 
 
 def _mc_rtc(path: Path, reading: FloatArray) -> FloatArray:
     """mc_rtc: minus (offset + the weight at the centre of mass, in the sensor), couple before force."""
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     assert text.endswith("\n")  # or the stream of the program is not good after the last number
     x = np.array(text.split(), dtype=float)
     force = POSES.inv().apply([0.0, 0.0, -x[0] * 9.81])
@@ -99,7 +99,7 @@ def _mc_rtc(path: Path, reading: FloatArray) -> FloatArray:
 
 def _hrpsys(path: Path, reading: FloatArray) -> FloatArray:
     """hrpsys: turned to the world minus offsets, minus (0, 0, -m g) and centroid x that, turned back."""
-    name, *words = path.read_text().split()
+    name, *words = path.read_text(encoding="utf-8").split()
     assert name == "wrist"
     x = np.array(words, dtype=float)
     weight = np.array([0.0, 0.0, -x[9] * 9.80665])

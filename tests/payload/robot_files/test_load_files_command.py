@@ -93,7 +93,7 @@ def test_a_robot_is_told_one_load_with_a_whole_bias(weighed: Path, run: Run, tmp
     sensor = SensorRun(content, content.sensors[0])
     with pytest.raises(ExperimentError, match="the data leave fz, tx open"):
         robot_load(sensor, (1.0, 2.0, None, None, 0.0, 0.0))
-    text = weighed.read_text()
+    text = weighed.read_text(encoding="utf-8")
     second = '[[load]]\nname = "other"\n\n[recording]'
     several = tmp_path / "wrist.toml"
     several.write_text(
@@ -140,7 +140,7 @@ def test_no_file_is_written_of_a_load_that_the_readings_contradict(
     weighed: Path, run: Run, tmp_path: Path, count: int, old: str, new: str, match: str
 ) -> None:
     """A file with a wrong frame, sense or unit gives another load than what hangs there, alone and with others."""
-    text = weighed.read_text()
+    text = weighed.read_text(encoding="utf-8")
     assert text.count(old) == 1
     files = []
     for number in range(count):

@@ -208,7 +208,9 @@ def test_a_list_that_is_too_short_is_named_with_what_it_lacks(
 
 def test_an_error_that_is_set_needs_recordings_to_take_it_over(scenario: Path, run: Run) -> None:
     """Without a recording for validation there is nothing whose mean could be set."""
-    scenario.write_text(SMALL.replace("[[recording]]", ERROR, 1).replace('"validation"', '"calibration"'))
+    scenario.write_text(
+        SMALL.replace("[[recording]]", ERROR, 1).replace('"validation"', '"calibration"'), encoding="utf-8"
+    )
     error = run("simulate", scenario, "-o", "out").error()
     assert 'sensors.workbench_error is taken over recordings with use = "validation"' in error
 

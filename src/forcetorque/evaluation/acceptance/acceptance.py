@@ -50,8 +50,6 @@ class Acceptance(DrawnResult):
     """Name of the experiment; of several recordings their names, apart by semicolons."""
     specification: str
     """Name of the specification."""
-    specification_file: str | None = Field(default=None, exclude=True)
-    """Its file, for the next command; None where it was not read from one."""
     accepted: bool = False
     """Whether every criterion holds for every sensor, and none is undecided; computed, a given value is ignored."""
     undecided: bool = False

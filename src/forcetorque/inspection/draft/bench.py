@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any, Final
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
+from forcetorque.base.output_file import relative_path
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.bench_file import THESIS_TABLE
 from forcetorque.formats.headings import Heading, is_time_name, read_heading, without_bracket
 from forcetorque.formats.log_format import LogSketch
-from forcetorque.inspection.draft.streams import DraftedLog, column_matches, relative, time_column
+from forcetorque.inspection.draft.streams import DraftedLog, column_matches, time_column
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
 
 BENCH_SCHEMA: Final = "forcetorque/bench/1"
@@ -118,10 +119,10 @@ def bench_lines(table: LogSketch, loads: str | None, folder: Path) -> list[str]:
     if not in_table and loads is not None:
         if loads != THESIS_TABLE and not Path(loads).is_file():
             raise MissingFileError(f"--loads {loads}: expected a table of weights (CSV) or {THESIS_TABLE}, got no file")
-        shown = loads if loads == THESIS_TABLE else relative(Path(loads), folder)
+        shown = loads if loads == THESIS_TABLE else relative_path(Path(loads), folder)
         words = "a row per row of the readings, in the same order"
         lines += ["", "[loads]", line("table", shown, words)]
-    lines += ["", "[measurements]", line("format", "rows"), line("file", relative(table.path, folder))]
+    lines += ["", "[measurements]", line("format", "rows"), line("file", relative_path(table.path, folder))]
     if table.delimiter != ",":
         lines.append(line("delimiter", table.delimiter))
     names = [column.name for column in table.columns]

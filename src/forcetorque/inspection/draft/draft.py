@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_bytes_atomically
+from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, relative_path, write_bytes_atomically
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.kept_parts import parts_kept
@@ -51,7 +51,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     sensor_lines,
     support_lines,
 )
-from forcetorque.inspection.draft.streams import DraftedLog, relative
+from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names, few_components
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
@@ -372,10 +372,10 @@ def _robot_line(
 ) -> str | None:
     """The key of the robot; a question where the log's own description is not written."""
     if urdf is not None:
-        named = str(urdf) if is_robot_name(urdf, Path()) else relative(Path(urdf), folder)
+        named = str(urdf) if is_robot_name(urdf, Path()) else relative_path(Path(urdf), folder)
         return line("urdf", named, f"it differs from {logged.source}" if is_kept else "")
     if robot_file is not None:
-        return line("urdf", relative(robot_file, folder), f"written from {logged.source}")
+        return line("urdf", relative_path(robot_file, folder), f"written from {logged.source}")
     if logged.urdf is None:
         return None
     return question("urdf", f"file of the robot; `forcetorque init` with -o FILE writes that of {logged.source}")

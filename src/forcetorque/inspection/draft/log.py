@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.base.output_file import relative_path
 from forcetorque.base.toml_file import OPEN
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
@@ -21,7 +22,6 @@ from forcetorque.inspection.draft.streams import (
     DraftedStream,
     array_groups,
     column_matches,
-    relative,
     time_column,
 )
 from forcetorque.inspection.draft.tables_and_arrays import (
@@ -209,7 +209,7 @@ def _described_lines(
 ) -> list[str]:
     content = description.table.model_dump(mode="json", exclude_none=True, warnings=False)
     streams = content.pop("stream", ())
-    content["path"] = relative(description.table.path, folder)
+    content["path"] = relative_path(description.table.path, folder)
     undetermined = {key: question(key, words) for key, words in description.undetermined.items()}
     known = {key: line(key, value) for key, value in content.items() if value not in ({}, [])}
     if all(str(name).startswith(_MADE_UP) for name in content.get("joints", ())) and "joints" in known:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.base.output_file import relative_path
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, is_called
-from forcetorque.inspection.draft.streams import relative
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark
 
 _SCALES = "of fx fy fz in N and tx ty tz in N m, of its data sheet, as [300, 300, 300, 30, 30, 30]"
@@ -109,10 +109,10 @@ def prior_lines(
     if (matrix := matrix_of(sensor, sensors, files)) is not None:
         if matrix.serial is not None:
             serial = line("serial", matrix.serial, "of its matrix file")
-        return [serial, line("prior", relative(matrix.path, folder))]
+        return [serial, line("prior", relative_path(matrix.path, folder))]
     if files:
         names = listed([file.path.name for file in files], _MOST_FILES)
-        place = relative(files[0].path.parent, folder)
+        place = relative_path(files[0].path.parent, folder)
         return [question("prior", f'file of its own matrix, "{place}/" and the name: {names}'), serial]
     if sensor.components:
         words = "where the columns are newtons already; else the matrix file, whose other rows are zeros"

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -380,15 +379,3 @@ class DraftedLog:
     """Streams of sensors that are not drafted."""
     description: LogDescription | None = None
     """Its own description; None for tables and arrays."""
-
-
-def relative(path: Path, folder: Path) -> str:
-    """Make a path relative to the folder of the experiment file.
-
-    Returns:
-        Relative, with `/`; absolute on another drive.
-    """
-    try:
-        return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
-    except ValueError:  # on another drive
-        return path.resolve().as_posix()

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from forcetorque.base.output_file import relative_path
 from forcetorque.base.toml_file import OPEN
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
@@ -23,7 +24,6 @@ from forcetorque.inspection.draft.streams import (
     array_groups,
     array_words,
     column_matches,
-    relative,
     time_column,
 )
 from forcetorque.inspection.draft.toml_lines import (
@@ -181,7 +181,7 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         Its lines.
     """
     root = Path(os.path.commonpath([path.resolve().parent for path in log.paths]))
-    lines = ["[recording]", line("format", "tabular"), line("path", relative(root, folder))]
+    lines = ["[recording]", line("format", "tabular"), line("path", relative_path(root, folder))]
     for stream in log.streams:
         sketch = stream.table
         if sketch is not None:
@@ -205,7 +205,11 @@ def episode_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frame
         Its lines.
     """
     path = log.paths[0]
-    lines = ["[recording]", line("format", log.format), line("path", relative(dataset_of_file(path) or path, folder))]
+    lines = [
+        "[recording]",
+        line("format", log.format),
+        line("path", relative_path(dataset_of_file(path) or path, folder)),
+    ]
     for stream in log.streams:
         sketch = stream.table
         if sketch is None:
@@ -445,7 +449,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
     Returns:
         Its lines.
     """
-    lines = ["[recording]", line("format", log.format), line("path", relative(log.paths[0], folder))]
+    lines = ["[recording]", line("format", log.format), line("path", relative_path(log.paths[0], folder))]
     for stream in log.streams:
         sketch = stream.table
         if sketch is None:

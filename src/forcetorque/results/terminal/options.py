@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar
 import typer
 from typer.core import TyperGroup
 
-from forcetorque.results.terminal.output import Format
+from forcetorque.results.terminal.output import TYPED, Format
 
 ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
 ExperimentsArgument = Annotated[
@@ -84,10 +84,26 @@ _WHOLE = 1000
 
 
 class WholeSentences(TyperGroup):
-    """A group whose help cuts nothing off."""
+    """A group whose help cuts nothing off; that of the program remembers what was typed."""
 
     panels: ClassVar[Mapping[str, tuple[str, ...]] | None] = None
     """Titles, and commands in their order, the last with all others; None for one panel of all."""
+
+    def make_context(self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any) -> Any:
+        """Parse what was typed, of the program or of a group in it.
+
+        Args:
+            info_name: Name of the group.
+            args: What was typed after it.
+            parent: Context of the program; None for the program.
+            extra: Settings of the context.
+
+        Returns:
+            The context.
+        """
+        if parent is None:
+            TYPED.set(tuple(args))
+        return super().make_context(info_name, args, parent=parent, **extra)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write a section for every panel.

@@ -9,6 +9,7 @@ import os
 import shlex
 import sys
 from collections.abc import Collection, Sequence
+from contextvars import ContextVar
 from enum import StrEnum
 from glob import escape
 from io import TextIOWrapper
@@ -43,6 +44,8 @@ class Format(StrEnum):
     CSV = "csv"
 
 
+TYPED: Final[ContextVar[tuple[str, ...]]] = ContextVar("typed words", default=())
+"""What was typed after the name of the program."""
 HELD: Final = {"held": True}
 """Extra of a message that waits for the result, to be counted with its warnings."""
 
@@ -193,6 +196,7 @@ def show_table(
         columns,
         files_text(experiments),
         files_text(experiments[:1]),
+        again=_again(experiments),
         most=None if details or columns < STANDARD_WIDTH else room,
         coloured=shows_colours(sys.stdout),
     )
@@ -219,6 +223,14 @@ def shows_colours(stream: TextIO) -> bool:
     without = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     old_console = os.name == "nt" and "WT_SESSION" not in os.environ
     return stream.isatty() and not without and not old_console
+
+
+def _again(experiments: Sequence[Path]) -> str:
+    """The command that was typed, with its experiment files as in any other next command."""
+    from forcetorque.results.answer import EXPERIMENT, typed
+
+    command, *others = TYPED.get() or ("",)
+    return typed(command, EXPERIMENT, *(word for word in others if Path(word) not in experiments)) if command else ""
 
 
 def files_text(files: Sequence[Path]) -> str:
