@@ -142,6 +142,11 @@ class SensorOffset:
         known = np.repeat([1.0, 0.0 if self.not_logged else 1.0], 3)
         return known * self.estimate.value
 
+    @property
+    def reading(self) -> FloatArray:
+        """Mean of the readings that it is of, it added; shape (6,); N, N m."""
+        return self.load - self.estimate.value + self.wrench
+
 
 def offset_policies(words: Collection[OffsetPolicy | str]) -> tuple[OffsetPolicy, ...]:
     """Understand policies, each once.

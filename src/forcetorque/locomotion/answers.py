@@ -107,16 +107,18 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
     rows = sorted(coherence.summary, key=lambda row: (row.force_error_mean_N is None, row.force_error_mean_N or 0.0))
     for row in rows:
         offset = row.offset.value if row.offset_interval is None else f"{row.offset}:{row.offset_interval}"
+        counted = f"{row.phases} phase{'s' * (row.phases != 1)}"
         yield Answer(
             subject=f"{coherence.experiment}, {names[row.calibration]}, {offset} offset",
             verdict=_net_error(row),
             why=(
-                f"net contact force of {row.phases} phase{'s' * (row.phases != 1)} less the weight, "
-                f"{amount(coherence.weight_N, 'N')}: mean of the norm, and the largest{_against_prior(row)}",
+                f"net contact force of {counted} less the weight, {amount(coherence.weight_N, 'N')}: mean of the norm, "
+                f"and the largest{_against_prior(row)}",
+                *_predicted(row),
                 "phases that gave offset or matrix are not counted; forces of one foot against the other cancel",
             ),
             written=(coherence.figure_file,),
-            concern=Concern.NONE if row.phases else Concern.UNCERTAIN,
+            concern=Concern.BAD if row.is_worse else Concern.NONE if row.phases else Concern.UNCERTAIN,
         )
 
 
@@ -129,10 +131,22 @@ def _against_prior(row: CoherenceSummary) -> str:
     )
 
 
+def _predicted(row: CoherenceSummary) -> Iterator[str]:
+    if row.force_predicted_N is None:
+        return
+    predicted = (
+        f"predicted of the {'prior ' * (row.common_phases is None)}matrices: {amount(row.force_predicted_N, 'N')}"
+    )
+    yield predicted + (
+        "; fit these contacts too, or state how good the prior is (prior_uncertainty_percent)" if row.is_worse else ""
+    )
+
+
 def _net_error(row: CoherenceSummary) -> str:
     if row.force_error_mean_N is None or row.force_error_largest_N is None:
         return "NO EVIDENCE"
-    return f"net force error {amount(row.force_error_mean_N, 'N')} (largest {amount(row.force_error_largest_N, 'N')})"
+    error = f"net force error {amount(row.force_error_mean_N, 'N')} (largest {amount(row.force_error_largest_N, 'N')})"
+    return f"WORSE THAN PRIOR: {error}" if row.is_worse else error
 
 
 def motion_answers(motion: Motion) -> Iterator[Answer]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -14,11 +15,13 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.estimation.skin_contacts import clock_stream
+from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of, still_seconds
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.locomotion.commands import coherence
+from forcetorque.locomotion.net_force.net_contact import readers_of
 from forcetorque.locomotion.net_force.net_force import force_error
 from forcetorque.locomotion.net_force.result import Coherence
 from forcetorque.recording.recording import Interval, Use
@@ -197,6 +200,29 @@ def test_estimates_take_the_same_offsets_and_say_where_there_is_none(switched: S
     left = corrections_of(experiment, {}, offset="none")
     warnings = summarise_estimates(experiment, left, estimate_experiment(experiment, left)).warnings
     assert [words.partition(":")[0] for words in warnings if "no offset removed" in words] == list(FEET)
+
+
+def test_predicted_errors_are_those_of_loads_that_moved(switched: Switched) -> None:
+    """The error of the matrix grows with the change of load; a sensor that the net force does not read says nothing."""
+
+    class Twice:
+        """Errors of .1 of the force."""
+
+        def error_covariance(self, wrench: FloatArray) -> FloatArray:
+            return np.diag([*(0.1 * wrench[:3]) ** 2, 0.0, 0.0, 0.0])
+
+    (reader,) = readers_of(switched.experiment, {}, OffsetPolicy.of(OFFSETS[0]))
+    known = cast("Posterior", Twice())
+    gains = {"l_foot_ft": np.eye(3, 6), "r_foot_ft": np.zeros((3, 6))}
+    moved = np.array([3.0, 0.0, 40.0, 1.0, 0.0, 0.0])
+    means = {name: reader.offsets[name].reading + moved for name in gains}
+    one = replace(reader, by_prior=(), posteriors={"l_foot_ft": known, "r_foot_ft": None})
+    predicted = one.predicted_force(gains, means)
+    assert predicted == pytest.approx(0.1 * np.hypot(3.0, 40.0))
+    assert one.predicted_force({**gains, "r_foot_ft": np.eye(3, 6)}, means) is None  # nothing is known of it
+    both = replace(one, posteriors=dict.fromkeys(gains, known))
+    assert both.predicted_force(dict.fromkeys(gains, np.eye(3, 6)), means) == pytest.approx(2**0.5 * 4.011234, rel=1e-6)
+    assert reader.predicted_force(gains, means) is None  # no calibration tells how far the priors may be off
 
 
 @pytest.mark.long

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,13 +16,13 @@ from forcetorque.estimation.estimate import IntervalProblem
 from forcetorque.estimation.skin_contacts import clock_stream
 from forcetorque.experiment.applicability import one_per_sensor, overlapping
 from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.offsets import SensorOffset, with_policy, without_calibration
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.locomotion.net_force.result import CoherenceSummary, policy_words
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.contacts import Contact, Wrenches
@@ -31,6 +31,8 @@ from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
 
+_NO_GAIN = 1e-9
+"""Change of the net force per change of a reading below which it is rounding; N/N, N/(N m)."""
 SLIP_M = 0.01
 """How far two links that both touch may move against each other; m. Further, one of them does not stand still."""
 
@@ -267,6 +269,33 @@ class Reader:
     """Sensors that no calibration of the candidate reads."""
     fitted_on: tuple[Interval, ...]
     """Calibration intervals of the experiment."""
+    posteriors: Mapping[str, Posterior | None]
+    """What is known of the errors of every sensor; where the prior reads it, from a candidate that has its prior."""
+
+    def predicted_force(self, gains: Mapping[str, FloatArray], means: Mapping[str, FloatArray]) -> float | None:
+        """Predict what errors of the matrices make of the net force, by the loads that moved since the offsets.
+
+        Args:
+            gains: Change of the net force per change of every reading; shape (3, 6) by sensor.
+            means: Mean wrench of every sensor over a phase; shape (6,) each; N, N m.
+
+        Returns:
+            Root mean square norm, the sensors taken as independent; N; None where a sensor that counts has no
+            posterior, or no interval gave its offset.
+        """
+        total = 0.0
+        for sensor, gain in gains.items():
+            if np.abs(gain).max() < _NO_GAIN:
+                continue
+            posterior, offset = self.posteriors[sensor], self.offsets.get(sensor)
+            if posterior is None or offset is None:
+                return None
+            of_load = posterior.prior_error_covariance if sensor in self.by_prior else posterior.error_covariance
+            covariance = of_load(means[sensor] - offset.reading)
+            if covariance is None:
+                return None
+            total += float(np.trace(gain @ covariance @ gain.T))
+        return total**0.5
 
     def evidence(self, experiment: Experiment, interval: Interval) -> bool:
         """Check whether neither offset nor matrix come from a phase.
@@ -303,6 +332,7 @@ def readers_of(
     every = {name: one for group in candidates.values() for name, one in group.items()}
     for candidate, calibrations in {PRIOR: {}, **candidates}.items():
         chosen = one_per_sensor(experiment, calibrations)
+        posteriors: dict[str, Posterior | None] = {}
         corrections: dict[str, Correction] = {}
         offsets: dict[str, SensorOffset] = {}
         by_prior: list[str] = []
@@ -311,9 +341,11 @@ def readers_of(
             run = SensorRun(experiment, sensor)
             if sensor.name in chosen:
                 correction = run.read_by(*chosen[sensor.name])
+                posteriors[sensor.name] = chosen[sensor.name][1].posterior
             else:
                 correction = _of_prior(run, every, policy)
                 by_prior.append(sensor.name)
+                posteriors[sensor.name] = next(_about_prior(run, every.values()), None)
             corrections[sensor.name], gave = with_policy(run, correction, policy)
             offsets.update((offset.sensor, offset) for offset in gave)
         yield Reader(
@@ -324,7 +356,17 @@ def readers_of(
             offsets=offsets,
             by_prior=tuple(by_prior),
             fitted_on=fitted_on,
+            posteriors=posteriors,
         )
+
+
+def _about_prior(run: SensorRun, calibrations: Iterable[Calibration]) -> Iterator[Posterior]:
+    """What calibrations know of the errors of the prior by which a sensor is read."""
+    for calibration in calibrations:
+        prior, own = calibration.prior, run.sensor.prior
+        same = prior is not None and (own is None or np.array_equal(prior.matrix, own))
+        if same and calibration.sensor.serial == run.sensor.serial and calibration.posterior is not None:
+            yield calibration.posterior
 
 
 def _of_prior(run: SensorRun, calibrations: Mapping[str, Calibration], policy: OffsetPolicy) -> Correction:
@@ -400,12 +442,11 @@ def leans(phases: Sequence[NetContact]) -> Iterator[str]:
                 )
 
 
-def measurement_warnings(readers: Sequence[Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:
-    """Give warnings about measurements, and about calibrations under test that err more than the prior matrix.
+def measurement_warnings(readers: Sequence[Reader]) -> Iterator[str]:
+    """Give warnings about measurements.
 
     Args:
         readers: All that read the sensors.
-        summary: Their errors.
 
     Yields:
         A sentence for each.
@@ -427,10 +468,3 @@ def measurement_warnings(readers: Sequence[Reader], summary: Sequence[CoherenceS
                     f"offset {reader.policy}, {sensor}: {', '.join(offset.not_logged)} are in no stream and are taken "
                     "to be at rest: the offset of forces is known, that of moments is not"
                 )
-    for one in summary:
-        prior, mean = one.prior_force_error_mean_N, one.common_force_error_mean_N
-        if prior is not None and mean is not None and mean > prior:
-            yield (
-                f"{one.calibration}, offset {policy_words(one.offset, one.offset_interval)}: error {mean:.2f} N, more "
-                f"than the {prior:.2f} N of the prior over the same {one.common_phases} phase(s)"
-            )

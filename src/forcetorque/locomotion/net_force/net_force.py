@@ -77,7 +77,7 @@ def net_force_errors(
         rows=tuple(sorted(rows, key=lambda row: _order(row, policies, phases))),
         offsets=tuple(row for reader in readers for row in _offset_rows(reader)),
         summary=summary,
-        warnings=(*warnings, *leans(phases), *measurement_warnings(readers, summary)),
+        warnings=(*warnings, *leans(phases), *measurement_warnings(readers)),
     )
 
 
@@ -122,7 +122,8 @@ def _default_policy(experiment: Experiment) -> OffsetPolicy:
 def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], weight: float) -> Iterator[PhaseForce]:
     moments_known = not any(offset.not_logged for offset in reader.offsets.values())
     for phase in phases:
-        wrench = phase.wrench(phase.problem.measured(reader.corrections))
+        measured = phase.problem.measured(reader.corrections)
+        wrench = phase.wrench(measured)
         error = np.concatenate([force_error(wrench[:, :3], weight), _moment_error(phase, wrench)], axis=1)
         # where moments are not known their columns are no gaps
         columns = 6 if moments_known and phase.demanded is not None else 3
@@ -132,7 +133,9 @@ def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], 
             raise ExperimentError(f"interval {label!r}: expected a sample in which all sensors read, got none")
         error = error[whole, :columns]
         samples = sample_statistics(error, phase.time_s[whole])
-        by_offset = _offset_half_width(experiment, reader, phase, int(np.flatnonzero(whole)[whole.sum() // 2]))
+        sensitivity = _sensitivity(experiment, phase, int(np.flatnonzero(whole)[whole.sum() // 2]))
+        by_offset = _offset_half_width(reader, sensitivity)
+        means = {name: measured.of_name(name)[whole].mean(axis=0) for name in sensitivity}
         half_width = np.hypot(samples.half_width, by_offset[:columns])
         yield PhaseForce(
             phase=label,
@@ -152,6 +155,7 @@ def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], 
             moment_deviation_Nm=_axes(samples.deviation[3:]) if columns == 6 else None,
             moment_smallest_Nm=samples.smallest[3:] if columns == 6 else None,
             moment_largest_Nm=samples.largest[3:] if columns == 6 else None,
+            force_predicted_N=reader.predicted_force({name: gain[:3] for name, gain in sensitivity.items()}, means),
             evidence=reader.evidence(experiment, phase.problem.interval),
         )
 
@@ -165,21 +169,22 @@ def _moment_error(phase: NetContact, wrench: FloatArray) -> FloatArray:
     return error[:, 3:] - np.cross(point, error[:, :3])
 
 
-def _offset_half_width(experiment: Experiment, reader: Reader, phase: NetContact, row: int) -> FloatArray:
-    """What the intervals of the offsets make of the net wrench at one instant; shape (6,)."""
-    if not reader.offsets:
-        return np.zeros(6)
+def _sensitivity(experiment: Experiment, phase: NetContact, row: int) -> dict[str, FloatArray]:
+    """Change of force and moment error per change of every reading at one instant, by sensor; shape (6, 6) each."""
     sensitivity = phase.sensitivity(row)
     if phase.demanded is not None:
         force, moment = phase.demanded[row, :3], phase.demanded[row, 3:]
         point = np.array([-moment[1], moment[0], 0.0]) / force[2]
         sensitivity[3:] -= np.cross(point, sensitivity[:3].reshape(3, -1), axisb=0).T.reshape(sensitivity[:3].shape)
+    return {sensor.name: sensitivity[:, k] for k, sensor in enumerate(experiment.sensors)}
+
+
+def _offset_half_width(reader: Reader, sensitivity: Mapping[str, FloatArray]) -> FloatArray:
+    """What the intervals of the offsets make of the net wrench; shape (6,)."""
     squares = np.zeros(6)
-    for k, sensor in enumerate(experiment.sensors):
-        if sensor.name in reader.offsets:
-            half = reader.offsets[sensor.name].estimate.half_width
-            gain = sensitivity[:, k]
-            squares += (np.where(np.abs(gain) > 1e-12, gain * half, 0.0) ** 2).sum(axis=1)
+    for sensor, offset in reader.offsets.items():
+        gain, half = sensitivity[sensor], offset.estimate.half_width
+        squares += (np.where(np.abs(gain) > 1e-12, gain * half, 0.0) ** 2).sum(axis=1)
     return np.sqrt(squares)
 
 
@@ -210,10 +215,13 @@ def _offset_rows(reader: Reader) -> Iterator[OffsetOfSensor]:
 
 def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
     groups: dict[tuple[str, Offset, str | None], dict[str, float]] = {}
+    predicted: dict[tuple[str, Offset, str | None], list[float | None]] = {}
     for row in rows:
-        norms = groups.setdefault((row.calibration, row.offset, row.offset_interval), {})
+        key = row.calibration, row.offset, row.offset_interval
+        norms = groups.setdefault(key, {})
         if row.evidence:
             norms[row.phase] = float(np.linalg.norm(row.force_error_N))
+            predicted.setdefault(key, []).append(row.force_predicted_N)
     for (candidate, offset, interval), norms in groups.items():
         by_prior = {} if candidate == PRIOR else groups.get((PRIOR, offset, interval), {})
         common = [phase for phase in norms if phase in by_prior]
@@ -224,10 +232,16 @@ def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
             phases=len(norms),
             force_error_mean_N=float(np.mean([*norms.values()])) if norms else None,
             force_error_largest_N=max(norms.values(), default=None),
+            force_predicted_N=_root_mean_square(predicted.get((candidate, offset, interval), [])),
             prior_force_error_mean_N=float(np.mean([by_prior[phase] for phase in common])) if common else None,
             common_phases=None if candidate == PRIOR else len(common),
             common_force_error_mean_N=float(np.mean([norms[phase] for phase in common])) if common else None,
         )
+
+
+def _root_mean_square(values: Sequence[float | None]) -> float | None:
+    known = [value for value in values if value is not None]
+    return float(np.sqrt(np.mean(np.square(known)))) if known and len(known) == len(values) else None
 
 
 def _order(row: PhaseForce, policies: Sequence[OffsetPolicy], phases: Sequence[NetContact]) -> tuple[int, int]:

@@ -59,6 +59,10 @@ class PhaseForce(Row):
     """Smallest error of a sample, with its sign."""
     moment_largest_Nm: AxisValues | None
     """Largest error of a sample, with its sign."""
+    force_predicted_N: float | None = None
+    """Root mean square norm of the force error that the calibrations predict of their matrices, or of their priors, by
+    the loads that moved since the offset was taken; null where no interval gave it, or a calibration predicts none.
+    Sensors are taken as independent."""
     evidence: bool
     """Whether the phase carries information: in one that gave the offset, or the matrix, the error is near zero by
     construction."""
@@ -102,12 +106,20 @@ class CoherenceSummary(Row):
     """Mean over these phases of the norm of the error; null for none."""
     force_error_largest_N: float | None
     """Largest of these norms."""
+    force_predicted_N: float | None = None
+    """Root mean square of what is predicted for them; null where one is not."""
     prior_force_error_mean_N: float | None = None
     """Mean over the same phases, as far as they are evidence of the prior too, with its offset; null for the prior."""
     common_phases: int | None = None
     """Number of these phases; null for the prior."""
     common_force_error_mean_N: float | None = None
     """Mean over them of what reads the sensors here; null for the prior."""
+
+    @property
+    def is_worse(self) -> bool:
+        """Whether a calibration errs more than the prior does over the same phases."""
+        prior, own = self.prior_force_error_mean_N, self.common_force_error_mean_N
+        return prior is not None and own is not None and own > prior
 
 
 class Coherence(DrawnResult):
