@@ -415,6 +415,25 @@ def test_roll_pitch_and_yaw_are_an_orientation_where_no_joint_tells_it(tmp_path:
     assert column_matches([read_heading(f"neck_{name}") for name in ("roll", "pitch", "yaw")], []) == ()
 
 
+def test_headings_of_another_language_are_a_wrench_by_their_units(tmp_path: Path) -> None:
+    """With decimal commas, and rotation vectors whose form is asked; of two sensors none is chosen."""
+    names = [f"{word} {axis} [{unit}]" for word, unit in (("Kraft", "N"), ("Drehmoment", "Nm")) for axis in "XYZ"]
+    head = ";".join(["Zeit [s]", "RX [rad]", "RY [rad]", "RZ [rad]", *names])
+    rows = "\n".join(f"{k},5;0,1;0,2;0,3;1,5;2,5;3,5;4,5;5,5;{k},25" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    text = draft_experiment([tmp_path / "log.csv"]).content
+    assert _keys(text) == ["frame", "form", "sense", "serial", "measure_direction"]
+    (stream,) = tomllib.loads(text)["recording"]["stream"]
+    assert [signal["quantity"] for signal in stream["signal"]] == ["orientation", "wrench"]
+    assert stream["signal"][1]["columns"] == names
+    answers = {"form": "rotation_vector", "sense": "sensor_to_world", "gravity": 9.8}
+    assert OrientationTable.model_validate(answers).layout().count == 3
+    two = [read_heading(f"{name[:-4]} {side} {name[-4:]}") for side in "AB" for name in names]
+    assert column_matches(two, []) == ()
+    by_side = [read_heading(f"{side} {name}") for side in ("links", "rechts") for name in names]
+    assert column_matches(by_side, []) == ()
+
+
 def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:
     """One range of both would hide that moments are in N mm."""
     rows = "\n".join(f"{k},{k},{k},{k},{1000 * k},0,0" for k in range(9))

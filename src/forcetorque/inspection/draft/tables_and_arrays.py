@@ -18,6 +18,7 @@ from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.inspection.draft.joints import joints_question
 from forcetorque.inspection.draft.streams import (
+    FORMS_OF_THREE,
     ColumnMatch,
     DraftedLog,
     DraftedStream,
@@ -68,6 +69,18 @@ _EULER_LINES = (
     question("sense", _SENSE, "sensor_to_world"),
 )
 """How angles are an orientation."""
+_VECTOR_LINES = (
+    "",
+    "[recording.stream.signal.orientation]",
+    question(
+        "form",
+        "rotation_vector where they are axis times angle, as of Universal Robots; euler, then also with "
+        'axes = "zyx" or as it is, and about = "moving" or "fixed"',
+        "rotation_vector",
+    ),
+    question("sense", _SENSE, "sensor_to_world"),
+)
+"""How three numbers are an orientation."""
 _QUATERNION_LINES = (
     "",
     "[recording.stream.signal.orientation]",
@@ -152,7 +165,7 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]
     for group in column_matches(_headings(sketch), joints, sketch.quaternion):
         groups.setdefault(group.quantity, group)
     if "position" in groups:  # which tell the pose
-        groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
+        groups = {name: group for name, group in groups.items() if group.form not in FORMS_OF_THREE}
     if "orientation" in groups:
         unclear = groups.pop(OPEN, None)
         if joints:
@@ -360,7 +373,7 @@ def _group_lines(
         question("quantity", group.words) if quantity is None else line("quantity", group.quantity),
         line("columns", names),
     ]
-    if group.quantity == "orientation" and group.form is not OrientationForm.EULER:
+    if group.quantity == "orientation" and group.form not in FORMS_OF_THREE:
         units = ["1"] * len(names)
     if group.quantity == "raw" and names == list(few_components(sketch).values()):
         units = ["counts"] * len(names)  # of newtons too
@@ -385,6 +398,8 @@ def _group_lines(
         lines.append(axes_line(group.quantity, stream, frames))
     if group.form is OrientationForm.EULER:
         lines += _EULER_LINES
+    elif group.form is OrientationForm.ROTATION_VECTOR:
+        lines += _VECTOR_LINES
     elif group.quantity == "orientation" and group.form is None:
         lines += _QUATERNION_LINES
     elif group.form is not None:
