@@ -554,6 +554,24 @@ def test_a_sensor_is_drafted_alone(two_legs: Path) -> None:
         draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["leg"])
 
 
+def test_an_estimated_wrench_is_a_sensor_where_it_is_alone_or_named(tmp_path: Path) -> None:
+    """Controllers of arms publish one beside the sensor, about which nothing needs to be asked; the notes name it."""
+    names = ("netft_wrench", "external_wrench_in_base")
+    for name in names:
+        (tmp_path / f"{name}.csv").write_text("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n")
+    (tmp_path / "pose.csv").write_text("t_s,qx,qy,qz,qw\n0,0,0,0,1\n1,0,0,0,1\n")
+    logs = [tmp_path / f"{name}.csv" for name in (*names, "pose")]
+    for paths, wanted, expected in (
+        (logs, (), ["netft_wrench"]),
+        (logs[1:], (), ["external_wrench_in_base"]),
+        (logs, (names[1],), ["external_wrench_in_base"]),
+    ):
+        draft = draft_experiment(paths, sensors=wanted)
+        assert [one["stream"] for one in tomllib.loads(draft.content)["sensor"]] == expected
+        left_out = [note for note in draft.notes if "left out, an estimated wrench" in note]
+        assert len(left_out) == (paths == logs and not wanted)
+
+
 def test_the_size_of_several_sensors_is_asked_once(two_legs: Path) -> None:
     """As the accuracy of what they are fitted to; the file that is answered so is calibrated without full scales."""
     draft = draft_experiment([two_legs], two_legs.parent / "x.toml", urdf=BIPED_URDF)
