@@ -209,13 +209,17 @@ def test_dates_are_a_time_of_which_nothing_is_asked(tmp_path: Path, drafted: str
 
 @pytest.mark.parametrize(("kept", "is_asked"), [(3, False), (1, True)])
 def test_times_that_come_twice_are_times(tmp_path: Path, kept: int, is_asked: bool) -> None:
-    """Of rounded times some come again; where half of them do, nothing rises, and the time is a question."""
+    """Of rounded times some come again; where half of them do, the time is a question that names its column."""
     first, *rows = log_text().splitlines()
     cells = [row.split(",", 1) for row in rows]
     times = [cells[k - (k % (kept + 1) == kept)][0] for k in range(len(cells))]
     lines = [f"{time},{rest}" for time, (_, rest) in zip(times, cells, strict=True)]
     log = _written(tmp_path, "\n".join([first, *lines]) + "\n")
-    assert ("stamp" in _keys(draft_experiment([log], urdf=tmp_path / "robot.urdf").content)) is is_asked
+    draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
+    asked = [one.question for one in draft.questions if one.key == "stamp"]
+    assert [text[:46] for text in asked] == ["most times of time_s come twice or more, or on"] * is_asked
+    assert all('{ column = "time_s", unit = "s" }' in text for text in asked)
+    assert "a load cell or a sensor of three axes" not in draft.content  # of a wrench nothing else is offered
 
 
 def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafted: str) -> None:

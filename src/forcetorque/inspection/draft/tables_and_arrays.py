@@ -12,7 +12,7 @@ from forcetorque.base.output_file import relative_path
 from forcetorque.base.toml_file import OPEN
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.formats.headings import Heading, read_heading
+from forcetorque.formats.headings import Heading, is_time_name, read_heading
 from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
@@ -280,8 +280,17 @@ def example_names(sketch: LogSketch) -> list[str]:
 
 
 def _stamp_lines(sketch: LogSketch) -> list[str]:
-    place = time_column(_headings(sketch), [column.step for column in sketch.columns])
+    headings = _headings(sketch)
+    place = time_column(headings, [column.step for column in sketch.columns])
     if place is None:
+        times = [heading for heading in headings if is_time_name(heading.name)]
+        if times:
+            words = f"most times of {times[0].text} come twice or more, or one falls"
+            stated = {"column": times[0].text, "unit": times[0].unit or OPEN}
+            choice = (
+                f"{words}: {toml_value(stated)} takes them as they are; or the two lines below for rows at even steps"
+            )
+            return [question("stamp", choice), *RATE_LINES]
         words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
         choice = (
             f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place; of known loads on a '
@@ -331,7 +340,7 @@ def _signal_lines(
         lines += [
             "",
             remark(f"not read: {listed(rest)}"),
-            *_few_component_lines(sketch, is_read=bool(stream.components)),
+            *_few_component_lines(sketch, is_read=bool(stream.components) or "wrench" in stream.quantities),
         ]
     return lines
 
