@@ -30,6 +30,8 @@ FORMS = [
     (OrientationForm.EULER, "zyx", EulerAxes.MOVING, "deg", lambda r: r.as_euler("ZYX", degrees=True)),
     (OrientationForm.EULER, "xyz", EulerAxes.FIXED, "rad", lambda r: r.as_euler("xyz")),
     (OrientationForm.EULER, "zxz", EulerAxes.FIXED, "rad", lambda r: r.as_euler("zxz")),
+    (OrientationForm.ROTATION_VECTOR, None, None, "rad", lambda r: r.as_rotvec()),
+    (OrientationForm.ROTATION_VECTOR, None, None, "deg", lambda r: r.as_rotvec(degrees=True)),
 ]
 
 

@@ -15,7 +15,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.lerobot.dataset import INFO, Feature, LeRobotDataset
-from forcetorque.inspection.draft.streams import array_words, column_matches
+from forcetorque.inspection.draft.streams import FORMS_OF_THREE, array_words, column_matches
 from forcetorque.recording.orientation import OrientationForm, OrientationLayout, OrientationSense, orientation_signals
 
 _WORDS = {"wrench", "force", "forces", "torque", "torques", "moment", "moments", "effort", "ft", "tau"}
@@ -190,7 +190,7 @@ def orientation_candidates(dataset: LeRobotDataset) -> dict[str, tuple[tuple[str
     labels = [label for label, (feature, _) in dataset.labels.items() if not feature.name.startswith(_COMMANDED)]
     found: dict[str, tuple[tuple[str, ...], OrientationForm]] = {}
     for match in column_matches([read_heading(label) for label in labels], ()):
-        if match.quantity == "orientation" and match.form not in (None, OrientationForm.EULER):
+        if match.quantity == "orientation" and match.form not in (None, *FORMS_OF_THREE):
             chosen = tuple(labels[k] for k in match.columns)
             found[dataset.labels[chosen[0]][0].name] = (chosen, OrientationForm(match.form))
     return found
@@ -243,6 +243,6 @@ def orientation_field(
             "qz qw; the format does not say"
         )
     layout = OrientationLayout(form=written, sense=OrientationSense(sense), gravity=gravity)
-    if written is OrientationForm.EULER or layout.count != len(labels):
+    if layout.unit != "1" or layout.count != len(labels):
         raise FormatError(f"{where}: {chosen}: expected {layout.count} numbers of {written}, got {len(labels)}")
     return OrientationField(name=chosen, labels=labels, layout=layout)

@@ -83,7 +83,7 @@ class OrientationTable(SenseTable):
     """How a log writes the orientation of a frame; nothing of it is inferred."""
 
     form: OrientationForm
-    """quat_xyzw, quat_wxyz, matrix_rows, matrix_columns or euler."""
+    """quat_xyzw, quat_wxyz, matrix_rows, matrix_columns, rotation_vector or euler."""
     axes: Text | None = None
     """Of Euler angles the axes in the order of the columns, such as `zyx`."""
     about: EulerAxes | None = None

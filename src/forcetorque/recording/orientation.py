@@ -40,6 +40,8 @@ class OrientationForm(StrEnum):
     """Rotation matrix, column after column."""
     EULER = "euler"
     """Three angles, about axes that are specified."""
+    ROTATION_VECTOR = "rotation_vector"
+    """Axis of the rotation, as long as its angle, as Universal Robots write it."""
 
 
 class OrientationSense(StrEnum):
@@ -66,6 +68,7 @@ _COUNTS = {
     OrientationForm.MATRIX_ROWS: 9,
     OrientationForm.MATRIX_COLUMNS: 9,
     OrientationForm.EULER: 3,
+    OrientationForm.ROTATION_VECTOR: 3,
 }
 
 
@@ -116,7 +119,7 @@ class OrientationLayout(ArrayRecord):
     @property
     def unit(self) -> str:
         """SI unit of the numbers."""
-        return "rad" if self.form is OrientationForm.EULER else "1"
+        return "rad" if self.count == 3 else "1"
 
     @property
     def world_gravity(self) -> FloatArray:
@@ -190,6 +193,9 @@ def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[i
         _require_angles(values, where)
         axes = layout.axes or ""
         rotation = Rotation.from_euler(axes.upper() if layout.about is EulerAxes.MOVING else axes, values)
+    elif layout.form is OrientationForm.ROTATION_VECTOR:
+        _require_angles(values, where)
+        rotation = Rotation.from_rotvec(values)
     elif layout.count == 4:
         _require_unit(values, where)
         xyzw = np.roll(values, -1, axis=1) if layout.form is OrientationForm.QUAT_WXYZ else values
@@ -245,7 +251,7 @@ def _angle_findings(values: FloatArray, unit: str, stream: str) -> list[Finding]
         return []
     largest = float(np.abs(values).max())
     text = (
-        f"Euler angles that are specified in rad reach {largest:.4g}, more than one turn; "
+        f"angles of an orientation that are specified in rad reach {largest:.4g}, more than one turn; "
         'where they are degrees, specify units = ["deg", "deg", "deg"]'
     )
     count = int(np.count_nonzero(turns))

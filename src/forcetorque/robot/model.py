@@ -166,7 +166,7 @@ class RobotModel(ArrayRecord):
                 return sensor
         raise RobotError(
             f"robot {self.name!r} has no force-torque sensor {name!r}; {known_names(name, self.sensors)}; "
-            "a sensor without a tag is declared by its fixed joint and measure_direction"
+            "a sensor without a tag is declared by its fixed joint and measure_direction, from Python by with_sensor"
         )
 
     def with_sensor(

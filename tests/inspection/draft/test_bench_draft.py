@@ -135,6 +135,9 @@ def test_loads_of_units_that_are_not_known_are_asked(tmp_path: Path) -> None:
     assert tomllib.loads(draft.content)["measurements"]["known"] == loads
     (question,) = [one.question for one in draft.questions if one.key == "known_units"]
     assert question == 'unit of each, as ["N", "N", "kN", "N m", "?", "N m"]; not known: known_ty [mN m]'
+    behind = [f"{component} applied" for component in WRENCH_COMPONENTS]
+    draft = draft_experiment([_write(tmp_path / "behind.csv", ["pos", *channels, *behind], rows[:, [0, *range(12)]])])
+    assert tomllib.loads(draft.content)["measurements"]["known"] == behind
     twice = [f"{word}_f{axis}" for word in ("known", "applied") for axis in "xyz"]
     content = draft_experiment([_write(tmp_path / "twice.csv", [*channels, *twice], rows)]).content
     assert tomllib.loads(content)["measurements"]["known"] == twice[:3]

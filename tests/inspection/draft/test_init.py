@@ -209,13 +209,17 @@ def test_dates_are_a_time_of_which_nothing_is_asked(tmp_path: Path, drafted: str
 
 @pytest.mark.parametrize(("kept", "is_asked"), [(3, False), (1, True)])
 def test_times_that_come_twice_are_times(tmp_path: Path, kept: int, is_asked: bool) -> None:
-    """Of rounded times some come again; where half of them do, nothing rises, and the time is a question."""
+    """Of rounded times some come again; where half of them do, the time is a question that names its column."""
     first, *rows = log_text().splitlines()
     cells = [row.split(",", 1) for row in rows]
     times = [cells[k - (k % (kept + 1) == kept)][0] for k in range(len(cells))]
     lines = [f"{time},{rest}" for time, (_, rest) in zip(times, cells, strict=True)]
     log = _written(tmp_path, "\n".join([first, *lines]) + "\n")
-    assert ("stamp" in _keys(draft_experiment([log], urdf=tmp_path / "robot.urdf").content)) is is_asked
+    draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
+    asked = [one.question for one in draft.questions if one.key == "stamp"]
+    assert [text[:46] for text in asked] == ["most times of time_s come twice or more, or on"] * is_asked
+    assert all('{ column = "time_s", unit = "s" }' in text for text in asked)
+    assert "a load cell or a sensor of three axes" not in draft.content  # of a wrench nothing else is offered
 
 
 def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafted: str) -> None:
@@ -415,6 +419,25 @@ def test_roll_pitch_and_yaw_are_an_orientation_where_no_joint_tells_it(tmp_path:
     assert column_matches([read_heading(f"neck_{name}") for name in ("roll", "pitch", "yaw")], []) == ()
 
 
+def test_headings_of_another_language_are_a_wrench_by_their_units(tmp_path: Path) -> None:
+    """With decimal commas, and rotation vectors whose form is asked; of two sensors none is chosen."""
+    names = [f"{word} {axis} [{unit}]" for word, unit in (("Kraft", "N"), ("Drehmoment", "Nm")) for axis in "XYZ"]
+    head = ";".join(["Zeit [s]", "RX [rad]", "RY [rad]", "RZ [rad]", *names])
+    rows = "\n".join(f"{k},5;0,1;0,2;0,3;1,5;2,5;3,5;4,5;5,5;{k},25" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    text = draft_experiment([tmp_path / "log.csv"]).content
+    assert _keys(text) == ["frame", "form", "sense", "serial", "measure_direction"]
+    (stream,) = tomllib.loads(text)["recording"]["stream"]
+    assert [signal["quantity"] for signal in stream["signal"]] == ["orientation", "wrench"]
+    assert stream["signal"][1]["columns"] == names
+    answers = {"form": "rotation_vector", "sense": "sensor_to_world", "gravity": 9.8}
+    assert OrientationTable.model_validate(answers).layout().count == 3
+    two = [read_heading(f"{name[:-4]} {side} {name[-4:]}") for side in "AB" for name in names]
+    assert column_matches(two, []) == ()
+    by_side = [read_heading(f"{side} {name}") for side in ("links", "rechts") for name in names]
+    assert column_matches(by_side, []) == ()
+
+
 def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:
     """One range of both would hide that moments are in N mm."""
     rows = "\n".join(f"{k},{k},{k},{k},{1000 * k},0,0" for k in range(9))
@@ -533,6 +556,24 @@ def test_a_sensor_is_drafted_alone(two_legs: Path) -> None:
     assert [one["name"] for one in content["recording"]["stream"]] == ["right_leg/analog:o"]
     with pytest.raises(ExperimentError, match=r"--sensor: the log has no sensor 'leg'; .*known: l_leg_ft"):
         draft_experiment([two_legs], urdf=BIPED_URDF, sensors=["leg"])
+
+
+def test_an_estimated_wrench_is_a_sensor_where_it_is_alone_or_named(tmp_path: Path) -> None:
+    """Controllers of arms publish one beside the sensor, about which nothing needs to be asked; the notes name it."""
+    names = ("netft_wrench", "external_wrench_in_base")
+    for name in names:
+        (tmp_path / f"{name}.csv").write_text("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n")
+    (tmp_path / "pose.csv").write_text("t_s,qx,qy,qz,qw\n0,0,0,0,1\n1,0,0,0,1\n")
+    logs = [tmp_path / f"{name}.csv" for name in (*names, "pose")]
+    for paths, wanted, expected in (
+        (logs, (), ["netft_wrench"]),
+        (logs[1:], (), ["external_wrench_in_base"]),
+        (logs, (names[1],), ["external_wrench_in_base"]),
+    ):
+        draft = draft_experiment(paths, sensors=wanted)
+        assert [one["stream"] for one in tomllib.loads(draft.content)["sensor"]] == expected
+        left_out = [note for note in draft.notes if "left out, an estimated wrench" in note]
+        assert len(left_out) == (paths == logs and not wanted)
 
 
 def test_the_size_of_several_sensors_is_asked_once(two_legs: Path) -> None:

@@ -20,6 +20,7 @@ from forcetorque.inspection.draft.toml_lines import line, listed, question, rema
 BENCH_SCHEMA: Final = "forcetorque/bench/1"
 """Form of a workbench file."""
 _KNOWN = re.compile(r"^(?:known|applied|load|loads|reference|ref|true)[ _./-]+(?P<rest>.+)$", re.IGNORECASE)
+_KNOWN_BEHIND = re.compile(r"^(?P<rest>.+?)[ _./-]+(?:known|applied|reference|ref|true)$", re.IGNORECASE)
 _COMPONENT = re.compile(
     r"^(?P<kind>force|f|torque|moment|tau|t|m)[ _./-]*(?P<axis>[xyz])(?:[ _./-]+(?P<unit>\S+))?$", re.IGNORECASE
 )
@@ -198,7 +199,8 @@ def _has_time(table: LogSketch) -> bool:
 
 
 def _load_component(heading: Heading) -> re.Match[str] | None:
-    named = _KNOWN.match(without_bracket(heading.name)[0])  # also of a unit that is not known: it is asked
+    name, _ = without_bracket(heading.name)  # also of a unit that is not known: it is asked
+    named = _KNOWN.match(name) or _KNOWN_BEHIND.match(name)
     return None if named is None else _COMPONENT.match(named["rest"])
 
 

@@ -295,7 +295,11 @@ def draft_experiment(
     text, notes, drafted = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
     if kept is not None:
         notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
-    notes = (*_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model), *notes)
+    notes = (
+        *_about_others(found, chosen, asked=bool(sensors)),
+        *_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model),
+        *notes,
+    )
     if robot_file is not None and logged.urdf is not None:
         write_bytes_atomically(robot_file, logged.urdf.encode())
     if output is not None:
@@ -477,6 +481,13 @@ def _contacts(
             stream = recording.stream(sensor.stream)
             spans += contact_spans(model, joint, base, recording, stream, fit, link_H_sensor=pose)
     return spans
+
+
+def _about_others(found: Sequence[DraftedSensor], chosen: Sequence[DraftedSensor], *, asked: bool) -> Iterator[str]:
+    """Wrenches that are no sensor, where none was asked for by name."""
+    for sensor in found:
+        if not asked and sensor not in chosen:
+            yield f"{sensor.stream}: left out, an estimated wrench by its name; --sensor {sensor.name} takes it"
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:

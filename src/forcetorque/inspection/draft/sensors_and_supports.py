@@ -34,6 +34,8 @@ _OF_SENSORS = {
     "data",
 }
 """Words that tell no sensor from another."""
+_ESTIMATED = re.compile(r"external_wrench|estimated_wrench|wrench_estimat|f_ext")
+"""Names of wrenches that controllers compute from the torques of joints."""
 _MOST_CANDIDATES = 12
 _DIGITS = 4
 """Decimals of a mount; deg, mm."""
@@ -113,7 +115,8 @@ def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> t
 
     Args:
         sensors: All sensors of the log.
-        wanted: Names of sensors, or of their streams; all sensors if empty.
+        wanted: Names of sensors, or of their streams; all sensors if empty, without wrenches that are called estimated
+            where there are others.
 
     Returns:
         The sensors, in the order of the log.
@@ -125,7 +128,9 @@ def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> t
     for name in wanted:
         if name not in known:
             raise ExperimentError(f"--sensor: the log has no sensor {name!r}; {known_names(name, known)}")
-    return tuple(one for one in sensors if not wanted or {one.name, one.stream} & set(wanted))
+    if not wanted:
+        return tuple(one for one in sensors if not _ESTIMATED.search(one.stream.lower())) or tuple(sensors)
+    return tuple(one for one in sensors if {one.name, one.stream} & set(wanted))
 
 
 def sensor_joints(sensor: DraftedSensor, model: RobotModel) -> tuple[str, ...]:

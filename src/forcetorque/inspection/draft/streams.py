@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from forcetorque.base.toml_file import OPEN
+from forcetorque.base.units import SI_FACTORS
 from forcetorque.formats.headings import Heading, is_time_name
 from forcetorque.formats.log_format import LogDescription, LogSketch, SketchedColumns
 from forcetorque.recording.orientation import OrientationForm
@@ -29,9 +30,15 @@ _ANGLES = re.compile(
     r"(?P<axis>roll|pitch|yaw)$"
 )
 """Alone or of a frame: those of a neck or a hip are joints."""
+_ROTATION_VECTOR = re.compile(
+    rf"^(?P<before>|.*[ _./:])(?:rotation_vector|rotvec|rotation|rot|rv|r){_APART}(?P<axis>[xyz])$"
+)
+_WITH_AXIS = re.compile(rf"^(?P<before>.*?){_APART}(?P<axis>[xyz])$")
 _MATRIX = re.compile(r"^(?P<before>.*?)r" + _APART + r"(?P<axis>[123]_?[123])$")
 _NUMBERED = re.compile(r"^(?P<before>.*?)(?P<number>\d+)(?P<behind>\D*)$")
 _ELEMENT = re.compile(r"^(?P<before>.+)\[(?P<number>\d+)\]$")
+FORMS_OF_THREE = (OrientationForm.EULER, OrientationForm.ROTATION_VECTOR)
+"""Forms that three numbers may have, which their headings do not tell apart for sure."""
 _ORDERS = (OrientationForm.QUAT_XYZW, OrientationForm.QUAT_WXYZ)
 _CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
 _MOTIONS = {
@@ -118,11 +125,13 @@ def column_matches(
         _rotations,
         _quaternions,
         _angles,
+        _rotation_vectors,
         _vectors,
         _temperatures,
         partial(_listed_quaternions, unit_fours),
         _lists,
         _numbered,
+        partial(_wrenches_by_unit, headings),
     ):
         free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
@@ -214,6 +223,31 @@ def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]
         for axes in _axes(free, _ANGLES).values()
         if len(axes) == 3
     ]
+
+
+def _rotation_vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    """Three numbers, which may be Euler angles too: the form is asked."""
+    return [
+        ColumnMatch(
+            quantity="orientation",
+            columns=tuple(axes[axis] for axis in "xyz"),
+            form=OrientationForm.ROTATION_VECTOR,
+        )
+        for axes in _axes(free, _ROTATION_VECTOR).values()
+        if len(axes) == 3
+    ]
+
+
+def _wrenches_by_unit(headings: Sequence[Heading], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    """The only three columns x, y, z in units of force and of moment, by names of any language."""
+    parts = []
+    for si_unit in ("N", "N m"):
+        names = {k: name for k, name in free.items() if SI_FACTORS.get(headings[k].unit or "", ("",))[0] == si_unit}
+        (axes, *others) = _axes(names, _WITH_AXIS).values() or ({},)
+        if others or len(axes) < 3:
+            return []
+        parts += [axes[axis] for axis in "xyz"]
+    return [ColumnMatch(quantity="wrench", columns=tuple(parts))]
 
 
 def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:

@@ -12,12 +12,13 @@ from forcetorque.base.output_file import relative_path
 from forcetorque.base.toml_file import OPEN
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.formats.headings import Heading, read_heading
+from forcetorque.formats.headings import Heading, is_time_name, read_heading
 from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.inspection.draft.joints import joints_question
 from forcetorque.inspection.draft.streams import (
+    FORMS_OF_THREE,
     ColumnMatch,
     DraftedLog,
     DraftedStream,
@@ -68,6 +69,18 @@ _EULER_LINES = (
     question("sense", _SENSE, "sensor_to_world"),
 )
 """How angles are an orientation."""
+_VECTOR_LINES = (
+    "",
+    "[recording.stream.signal.orientation]",
+    question(
+        "form",
+        "rotation_vector where they are axis times angle, as of Universal Robots; euler, then also with "
+        'axes = "zyx" or as it is, and about = "moving" or "fixed"',
+        "rotation_vector",
+    ),
+    question("sense", _SENSE, "sensor_to_world"),
+)
+"""How three numbers are an orientation."""
 _QUATERNION_LINES = (
     "",
     "[recording.stream.signal.orientation]",
@@ -152,7 +165,7 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]
     for group in column_matches(_headings(sketch), joints, sketch.quaternion):
         groups.setdefault(group.quantity, group)
     if "position" in groups:  # which tell the pose
-        groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
+        groups = {name: group for name, group in groups.items() if group.form not in FORMS_OF_THREE}
     if "orientation" in groups:
         unclear = groups.pop(OPEN, None)
         if joints:
@@ -267,8 +280,17 @@ def example_names(sketch: LogSketch) -> list[str]:
 
 
 def _stamp_lines(sketch: LogSketch) -> list[str]:
-    place = time_column(_headings(sketch), [column.step for column in sketch.columns])
+    headings = _headings(sketch)
+    place = time_column(headings, [column.step for column in sketch.columns])
     if place is None:
+        times = [heading for heading in headings if is_time_name(heading.name)]
+        if times:
+            words = f"most times of {times[0].text} come twice or more, or one falls"
+            stated = {"column": times[0].text, "unit": times[0].unit or OPEN}
+            choice = (
+                f"{words}: {toml_value(stated)} takes them as they are; or the two lines below for rows at even steps"
+            )
+            return [question("stamp", choice), *RATE_LINES]
         words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
         choice = (
             f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place; of known loads on a '
@@ -318,7 +340,7 @@ def _signal_lines(
         lines += [
             "",
             remark(f"not read: {listed(rest)}"),
-            *_few_component_lines(sketch, is_read=bool(stream.components)),
+            *_few_component_lines(sketch, is_read=bool(stream.components) or "wrench" in stream.quantities),
         ]
     return lines
 
@@ -360,7 +382,7 @@ def _group_lines(
         question("quantity", group.words) if quantity is None else line("quantity", group.quantity),
         line("columns", names),
     ]
-    if group.quantity == "orientation" and group.form is not OrientationForm.EULER:
+    if group.quantity == "orientation" and group.form not in FORMS_OF_THREE:
         units = ["1"] * len(names)
     if group.quantity == "raw" and names == list(few_components(sketch).values()):
         units = ["counts"] * len(names)  # of newtons too
@@ -385,6 +407,8 @@ def _group_lines(
         lines.append(axes_line(group.quantity, stream, frames))
     if group.form is OrientationForm.EULER:
         lines += _EULER_LINES
+    elif group.form is OrientationForm.ROTATION_VECTOR:
+        lines += _VECTOR_LINES
     elif group.quantity == "orientation" and group.form is None:
         lines += _QUATERNION_LINES
     elif group.form is not None:
