@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from difflib import SequenceMatcher, get_close_matches
 
 _LONGEST_QUOTE = 40
@@ -110,6 +110,22 @@ def known_names(wanted: object, known: Iterable[str]) -> str:
     likely = (close for close in get_close_matches(text, spelled, n=_COMPARED) if _are_same_words(text, close))
     hint = next((f'did you mean "{spelled[close]}"? ' for close in likely), "")
     return f"{hint}known: {', '.join(names) if names else 'none'}"
+
+
+def require_known(wanted: object, known: Collection[str], error: type[ForceTorqueError], message: str) -> None:
+    """Refuse a name that does not exist, and list those that do.
+
+    Args:
+        wanted: The name.
+        known: Names that exist.
+        error: Class of the error.
+        message: Where the name stands and what it should name; the list of names is appended.
+
+    Raises:
+        ForceTorqueError: Of that class, if the name is not known.
+    """
+    if wanted not in known:
+        raise error(f"{message}; {known_names(wanted, known)}")
 
 
 def _are_same_words(text: str, other: str) -> bool:

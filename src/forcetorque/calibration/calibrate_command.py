@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, known_names
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, require_known
 from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.results.terminal.output import (
     Format,
@@ -260,8 +260,7 @@ def _sensors(
     else:
         known = {one.sensor.name: one.sensor.serial for one in stored.values()}
         for name in wanted or ():
-            if name not in known:
-                raise ExperimentError(f"--sensor: no file of moments is of {name!r}; {known_names(name, known)}")
+            require_known(name, known, ExperimentError, f"--sensor: no file of moments is of {name!r}")
         sensors = [(name, known[name]) for name in dict.fromkeys(wanted or known)]
     for path, one in stored.items():
         # who names sensors leaves the others out on purpose

@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, names, read_only
-from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, known_names
+from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, require_known
 from forcetorque.base.input_file import read_text
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.bench_file import THESIS_TABLE
@@ -273,10 +273,9 @@ class LoadTable:
         return headings[0], units[unit]
 
     def _cells(self, name: str) -> list[str]:
-        if name not in self._heading:
-            raise FormatError(
-                f"{self._where}:{self._heading_line}: expected a column {name!r}; {known_names(name, self._heading)}"
-            )
+        require_known(
+            name, self._heading, FormatError, f"{self._where}:{self._heading_line}: expected a column {name!r}"
+        )
         index = self._heading.index(name)
         return [cells[index] for _, cells in self._rows]
 
