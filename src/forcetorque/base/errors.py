@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 from difflib import SequenceMatcher, get_close_matches
 
 _LONGEST_QUOTE = 40
@@ -86,6 +87,23 @@ def install_line(extra: str) -> str:
         The line, in quotes for shells that expand brackets.
     """
     return f"pip install 'forcetorque[{extra}]'"
+
+
+@contextmanager
+def needs_extra(what: str, extra: str) -> Iterator[None]:
+    """Refuse what an extra does while it is not installed.
+
+    Args:
+        what: What is done by which library, such as `HDF5 is read by h5py`.
+        extra: Name of the extra, which what is imported inside the context belongs to.
+
+    Raises:
+        MissingExtraError: If an import inside the context fails.
+    """
+    try:
+        yield
+    except ImportError as error:
+        raise MissingExtraError(f"{what}: {install_line(extra)}") from error
 
 
 class SerialNumberError(ForceTorqueError, ValueError):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, require_known
+from forcetorque.base.units import parsed_number
 from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.results.terminal.output import (
     Format,
@@ -311,10 +312,7 @@ def _lambda(text: str | None) -> float | Literal["held-out"] | None:
         return None
     if text == "held-out":
         return "held-out"
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
+    value = parsed_number(text)
     if not value >= 0.0:
         raise FitError(f"--lambda: expected a number of at least 0 counts2 or `held-out`, got {text!r}")
     return value

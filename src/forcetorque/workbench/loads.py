@@ -16,6 +16,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, names, read_only
 from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, require_known
 from forcetorque.base.input_file import read_text
+from forcetorque.base.units import parsed_number
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.bench_file import THESIS_TABLE
 
@@ -293,10 +294,7 @@ class LoadTable:
 
 
 def _number(where: str, cell: str) -> float:
-    try:
-        number = float(cell)
-    except ValueError:
-        number = np.nan
+    number = parsed_number(cell)
     if not np.isfinite(number):
         raise FormatError(f"{where}: expected a finite number, got {cell!r}")
     return number
