@@ -18,10 +18,13 @@ ROOT = Path(__file__).resolve().parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
 
 
+_NAMES_EXTRA = r"(?:install_line\(|needs_extra\([^\n]*, )['\"]([\w-]+)['\"]\)"
+
+
 def _named_extras() -> set[str]:
     """Extras that errors of the library name."""
     texts = (path.read_text(encoding="utf-8") for path in (ROOT / "src").rglob("*.py"))
-    return {name for text in texts for name in re.findall(r"install_line\(['\"]([\w-]+)['\"]\)", text)}
+    return {name for text in texts for name in re.findall(_NAMES_EXTRA, text)}
 
 
 def test_errors_name_extras_that_exist() -> None:

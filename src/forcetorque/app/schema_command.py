@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from forcetorque.base.errors import ForceTorqueError, known_names
+from forcetorque.base.errors import ForceTorqueError, require_known
 
 
 def schema(
@@ -38,8 +38,7 @@ def schema(
 
 
 def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
-    if name not in known:
-        raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
+    require_known(name, known, ForceTorqueError, f"no schema is called {name!r}")
 
 
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 from difflib import SequenceMatcher, get_close_matches
 
 _LONGEST_QUOTE = 40
@@ -88,6 +89,23 @@ def install_line(extra: str) -> str:
     return f"pip install 'forcetorque[{extra}]'"
 
 
+@contextmanager
+def needs_extra(what: str, extra: str) -> Iterator[None]:
+    """Refuse what an extra does while it is not installed.
+
+    Args:
+        what: What is done by which library, such as `HDF5 is read by h5py`.
+        extra: Name of the extra, which what is imported inside the context belongs to.
+
+    Raises:
+        MissingExtraError: If an import inside the context fails.
+    """
+    try:
+        yield
+    except ImportError as error:
+        raise MissingExtraError(f"{what}: {install_line(extra)}") from error
+
+
 class SerialNumberError(ForceTorqueError, ValueError):
     """A calibration was offered to a sensor with another serial number."""
 
@@ -110,6 +128,22 @@ def known_names(wanted: object, known: Iterable[str]) -> str:
     likely = (close for close in get_close_matches(text, spelled, n=_COMPARED) if _are_same_words(text, close))
     hint = next((f'did you mean "{spelled[close]}"? ' for close in likely), "")
     return f"{hint}known: {', '.join(names) if names else 'none'}"
+
+
+def require_known(wanted: object, known: Collection[str], error: type[ForceTorqueError], message: str) -> None:
+    """Refuse a name that does not exist, and list those that do.
+
+    Args:
+        wanted: The name.
+        known: Names that exist.
+        error: Class of the error.
+        message: Where the name stands and what it should name; the list of names is appended.
+
+    Raises:
+        ForceTorqueError: Of that class, if the name is not known.
+    """
+    if wanted not in known:
+        raise error(f"{message}; {known_names(wanted, known)}")
 
 
 def _are_same_words(text: str, other: str) -> bool:

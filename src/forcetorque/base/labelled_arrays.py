@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import IntArray
-from forcetorque.base.errors import MissingExtraError, install_line
+from forcetorque.base.errors import needs_extra
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 
 TIME: Final = "time"
@@ -67,10 +67,8 @@ def xarray_dataset(
     Raises:
         MissingExtraError: If xarray is not installed.
     """
-    try:
+    with needs_extra("to_xarray needs xarray", "frames"):
         import xarray
-    except ImportError as error:
-        raise MissingExtraError(f"to_xarray needs xarray: {install_line('frames')}") from error
     variables = {
         name: (
             array.dims,

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 
 from forcetorque.base.errors import UnitError, known_names
 
@@ -89,3 +90,30 @@ def si_factor(unit: str) -> tuple[str, float]:
         raise UnitError(f"unit {unit!r}: expected a positive factor, got {number}")
     si_unit, si = SI_FACTORS[name]
     return si_unit, factor * si
+
+
+def parsed_numbers(words: Iterable[str]) -> list[float]:
+    """Read words as numbers.
+
+    Args:
+        words: The words.
+
+    Returns:
+        Their numbers, which need not be finite; none where a word is no number.
+    """
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return []
+
+
+def parsed_number(text: str) -> float:
+    """Read a text as a number.
+
+    Args:
+        text: The text.
+
+    Returns:
+        The number, which need not be finite; NaN where it is none.
+    """
+    return next(iter(parsed_numbers([text])), math.nan)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, known_names
+from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, require_known
+from forcetorque.base.units import parsed_number
 from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.results.terminal.output import (
     Format,
@@ -260,8 +261,7 @@ def _sensors(
     else:
         known = {one.sensor.name: one.sensor.serial for one in stored.values()}
         for name in wanted or ():
-            if name not in known:
-                raise ExperimentError(f"--sensor: no file of moments is of {name!r}; {known_names(name, known)}")
+            require_known(name, known, ExperimentError, f"--sensor: no file of moments is of {name!r}")
         sensors = [(name, known[name]) for name in dict.fromkeys(wanted or known)]
     for path, one in stored.items():
         # who names sensors leaves the others out on purpose
@@ -312,10 +312,7 @@ def _lambda(text: str | None) -> float | Literal["held-out"] | None:
         return None
     if text == "held-out":
         return "held-out"
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
+    value = parsed_number(text)
     if not value >= 0.0:
         raise FitError(f"--lambda: expected a number of at least 0 counts2 or `held-out`, got {text!r}")
     return value

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from forcetorque.base.errors import ForceTorqueError, FormatError
+from forcetorque.base.units import parsed_numbers
 from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
@@ -86,10 +87,7 @@ _NAME = "observation.wrench"
 
 def _pose(text: str) -> tuple[float, ...]:
     """Six numbers of a pose as they are typed."""
-    try:
-        numbers = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        numbers = ()
+    numbers = tuple(parsed_numbers(text.split(",")))
     if len(numbers) != 6:
         raise ForceTorqueError(f"--pose: expected x,y,z in m and roll,pitch,yaw in rad, got {text!r}")
     return numbers

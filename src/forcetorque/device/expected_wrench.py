@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import SensorError, known_names
+from forcetorque.base.errors import SensorError, known_names, require_known
 from forcetorque.base.pose import split_pose
 from forcetorque.device.description import AttachedLoad, Device
 from forcetorque.device.model import BASE, device_model, device_root
@@ -125,10 +125,7 @@ class ExpectedWrench:
         """
         by_quantity = {name: np.broadcast_to(error, len(self.poses)) for name, error in (errors or {}).items()}
         for name in by_quantity:
-            if name not in QUANTITIES:
-                raise SensorError(
-                    f"errors of the expected wrench: unknown quantity {name!r}; {known_names(name, QUANTITIES)}"
-                )
+            require_known(name, QUANTITIES, SensorError, f"errors of the expected wrench: unknown quantity {name!r}")
         if any(name in by_quantity for name in IMU):
             wrench = self._by_imu(np.column_stack([by_quantity.get(name, np.zeros(len(self.poses))) for name in IMU]))
         else:

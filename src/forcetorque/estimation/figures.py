@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ShapeError, UnitError, known_names
+from forcetorque.base.errors import ShapeError, UnitError, require_known
 from forcetorque.base.units import NORMAL_95
 from forcetorque.results.figures import (
     DRAWN_SAMPLES,
@@ -80,8 +80,7 @@ def contact_figure(
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figures 5.6 and 5.7.
     """
-    if unit not in _AXES:
-        raise UnitError(f"unit: no contact force or torque is in {unit!r}; {known_names(unit, _AXES)}")
+    require_known(unit, _AXES, UnitError, f"unit: no contact force or torque is in {unit!r}")
     time = drawable(time_s, name="time_s", shape=(None,))
     by_name = drawable_each(candidates, name="candidates", shape=(len(time), 3))
     sessions = _end_to_end(time, spans or [("", 0, len(time))])

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading, Section
@@ -77,10 +77,9 @@ def _checked(motors: tuple[MotorTable, ...], loading: Loading) -> tuple[MotorTab
     file, model, recording = loading.file, loading.model, loading.recording
     for index, motor in enumerate(motors):
         where = f"{file}: motor[{index}]"
-        if motor.joint not in model.joints:
-            raise ExperimentError(
-                f"{where}: robot {model.name!r} has no joint {motor.joint!r}; {known_names(motor.joint, model.joints)}"
-            )
+        require_known(
+            motor.joint, model.joints, ExperimentError, f"{where}: robot {model.name!r} has no joint {motor.joint!r}"
+        )
         if motor.joint in [earlier.joint for earlier in motors[:index]]:
             raise ExperimentError(f"{where}: the joint {motor.joint!r} is listed twice; keep one motor")
         if motor.quantity != motors[0].quantity:
@@ -90,11 +89,9 @@ def _checked(motors: tuple[MotorTable, ...], loading: Loading) -> tuple[MotorTab
             )
         with stated_in(where):
             signals = recording.joint_signals(motor.quantity)
-        if motor.joint not in signals:
-            raise ExperimentError(
-                f"{where}: no stream holds {motor.quantity} of joint {motor.joint!r}; "
-                f"{known_names(motor.joint, signals)}"
-            )
+        require_known(
+            motor.joint, signals, ExperimentError, f"{where}: no stream holds {motor.quantity} of joint {motor.joint!r}"
+        )
     return motors
 
 

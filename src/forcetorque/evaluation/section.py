@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.toml_file import NotNegative, Positive, Table, Text
-from forcetorque.experiment.section import Loading, Section
+from forcetorque.experiment.section import Loading, Section, require_link
 from forcetorque.robot.model import RobotModel
 
 
@@ -122,10 +122,8 @@ def require_load_cases(tables: Sequence[LoadCaseTable], file: Path, model: Robot
             raise ExperimentError(f"{where}: two load cases are called {table.name!r}; expected one of each name")
         for key in ("frame", "weight_on"):
             link = getattr(table, key)
-            if link is not None and link not in model.links:
-                raise ExperimentError(
-                    f"{where}: {key}: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}"
-                )
+            if link is not None:
+                require_link(model, link, f"{where}: {key}")
         sensors = {name for sensor in model.sensors.values() for name in (sensor.name, *sensor.aliases)}
         if table.sensor is not None and table.sensor not in sensors:
             raise ExperimentError(

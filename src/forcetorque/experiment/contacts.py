@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.experiment import ExperimentContact
@@ -41,8 +41,7 @@ def read_contacts(
     for index, entry in enumerate(parsed.contact):
         where = f"{file}: contact[{index}]"
         for label in entry.intervals or ():
-            if label not in labels:
-                raise ExperimentError(f"{where}: no interval is labelled {label!r}; {known_names(label, labels)}")
+            require_known(label, labels, ExperimentError, f"{where}: no interval is labelled {label!r}")
         with stated_in(where):
             point = np.zeros(3) if entry.position_m is None else entry.position_m
             contact = Contact.at_point(
@@ -90,8 +89,7 @@ def contact_in_words(text: str, model: RobotModel) -> ExperimentContact:
     frame, *rest = text.split(":")
     word = rest[0] if rest else ContactType.WRENCH.value
     kinds = [kind.value for kind in ContactType if kind is not ContactType.KNOWN]
-    if word not in kinds:
-        raise ExperimentError(f"contact {text!r}: no type is called {word!r}; {known_names(word, kinds)}")
+    require_known(word, kinds, ExperimentError, f"contact {text!r}: no type is called {word!r}")
     direction = None
     if len(rest) > 1:
         try:
@@ -156,10 +154,7 @@ def contacts_at_sensors(tree: BodyTree, sensors: Iterable[str]) -> tuple[Contact
 
 
 def _require_link(contact: Contact, model: RobotModel) -> None:
-    if contact.link not in model.links:
-        raise ExperimentError(
-            f"robot {model.name!r} has no link {contact.link!r}; {known_names(contact.link, model.links)}"
-        )
+    require_known(contact.link, model.links, ExperimentError, f"robot {model.name!r} has no link {contact.link!r}")
 
 
 def _require_wrench(name: str, frame: str, recording: Recording) -> None:

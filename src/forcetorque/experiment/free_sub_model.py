@@ -9,7 +9,14 @@ from enum import StrEnum
 from typing import Final, TypeVar
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import EstimationError, ExperimentError, RecordingError, RobotError, known_names
+from forcetorque.base.errors import (
+    EstimationError,
+    ExperimentError,
+    RecordingError,
+    RobotError,
+    known_names,
+    require_known,
+)
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.campaign import Campaign
@@ -142,8 +149,7 @@ class ContactForceValidation:
         if self.contact is None:
             body = cut.body if self.part.sensor == self.sensor else self.tree.bodies[cut.body].parent
             return Contact(link=self.tree.bodies[body].links[0], name="contact")
-        if self.contact.link not in frames:
-            raise RobotError(f"contact: no link {self.contact.link!r}; {known_names(self.contact.link, frames)}")
+        require_known(self.contact.link, frames, RobotError, f"contact: no link {self.contact.link!r}")
         if frames[self.contact.link][0] not in self.part.bodies:
             links = [link for body in self.part.bodies for link in self.tree.bodies[body].links]
             raise EstimationError(
@@ -162,8 +168,7 @@ class ContactForceValidation:
         support = self.tree.root_link if self.support is None and modelled else self.support
         if support is None:
             return
-        if support not in self.tree.frames:
-            raise RobotError(f"support: no link {support!r}; {known_names(support, self.tree.frames)}")
+        require_known(support, self.tree.frames, RobotError, f"support: no link {support!r}")
         if self.tree.frames[support][0] in self.part.bodies:
             raise EstimationError(
                 f"sub_model: {self.part.name!r} bears the support {support!r}, so that it is not free of contact; "

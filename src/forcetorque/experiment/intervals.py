@@ -12,6 +12,7 @@ from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment import file as schema
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.intervals_of_files import with_intervals_of_files
+from forcetorque.experiment.section import require_link
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.mechanics.root_motion import imu_frame, imu_streams
 from forcetorque.robot.model import RobotModel
@@ -40,10 +41,7 @@ def read_supports(
     supports: dict[str, Support | MovingSupport] = {}
     for index, entry in enumerate(entries):
         where = f"{file}: support[{index}]"
-        if entry.frame not in model.links:
-            raise ExperimentError(
-                f"{where}: robot {model.name!r} has no link {entry.frame!r}; {known_names(entry.frame, model.links)}"
-            )
+        require_link(model, entry.frame, where)
         if entry.frame in supports:
             raise ExperimentError(f"{where}: the frame {entry.frame!r} is listed twice; keep one")
         with stated_in(where):
@@ -118,10 +116,7 @@ def _support(
     if span.contact_links is None or model is None:
         return None if span.support is None else supports[span.support]
     for link in span.contact_links:
-        if link not in model.links:
-            raise ExperimentError(
-                f"contact_links: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}"
-            )
+        require_link(model, link, "contact_links")
     imu = imu_streams(recording)
     if not imu:
         raise ExperimentError(

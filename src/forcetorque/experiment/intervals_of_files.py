@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.experiment.file import EACH_FILE, ExperimentFile, Interval
 from forcetorque.recording.recording import Recording
 
@@ -41,10 +41,9 @@ def with_intervals_of_files(parsed: ExperimentFile, file: Path, recording: Recor
 
 def _of_files(where: str, parsed: ExperimentFile, span: Interval, recording: Recording) -> Iterator[Interval]:
     stream = span.files or ""
-    if stream not in recording.files:
-        raise ExperimentError(
-            f"{where}: files: expected a stream of text tables, got {stream!r}; {known_names(stream, recording.files)}"
-        )
+    require_known(
+        stream, recording.files, ExperimentError, f"{where}: files: expected a stream of text tables, got {stream!r}"
+    )
     if parsed.clock:
         raise ExperimentError(f"{where}: files: expected no [[clock]] beside it; state start_s and end_s of each file")
     files, stamps = recording.files[stream], recording.stream(stream).stamp_ns

@@ -18,7 +18,7 @@ from forcetorque.base.arrays import (
     names,
     require_shape,
 )
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, stated_prior_size
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import ExperimentSensor
@@ -115,8 +115,7 @@ def chosen_intervals(runs: Sequence[SensorRun], labels: Collection[str]) -> list
     """
     known = {interval.label for run in runs for interval in run.experiment.recording.intervals}
     for label in labels:
-        if label not in known:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
+        require_known(label, known, ExperimentError, f"no interval is labelled {label!r}")
     return [
         (run, interval)
         for run in runs

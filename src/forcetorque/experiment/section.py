@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.inertia import Inertia
 from forcetorque.experiment.input_files import Inputs
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support
@@ -17,6 +18,20 @@ from forcetorque.robot.model import RobotModel
 
 TableT = TypeVar("TableT")
 ContentT = TypeVar("ContentT")
+
+
+def require_link(model: RobotModel, link: str, where: str) -> None:
+    """Refuse a link that the robot does not have.
+
+    Args:
+        model: The robot.
+        link: Name of the link.
+        where: File and table that name it, for the message.
+
+    Raises:
+        ExperimentError: If there is no such link.
+    """
+    require_known(link, model.links, ExperimentError, f"{where}: robot {model.name!r} has no link {link!r}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

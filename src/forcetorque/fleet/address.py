@@ -11,14 +11,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from forcetorque.base.errors import (
-    ChangingFileError,
-    ExperimentError,
-    MissingExtraError,
-    MissingFileError,
-    OutputError,
-    install_line,
-)
+from forcetorque.base.errors import ChangingFileError, ExperimentError, MissingFileError, OutputError, needs_extra
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")  # two letters, beside drives
 
@@ -128,8 +121,6 @@ def copied(address: str) -> Iterator[Path]:
 
 
 def _fsspec() -> ModuleType:
-    try:
+    with needs_extra("addresses of logs need fsspec", "fleet"):
         import fsspec
-    except ImportError:
-        raise MissingExtraError(f"addresses of logs need fsspec: {install_line('fleet')}") from None
     return fsspec

@@ -12,14 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final, Generic, Protocol, TypeVar
 
-from forcetorque.base.errors import (
-    ChangingFileError,
-    ForceTorqueError,
-    MissingExtraError,
-    MissingFileError,
-    OutputError,
-    install_line,
-)
+from forcetorque.base.errors import ChangingFileError, ForceTorqueError, MissingFileError, OutputError, needs_extra
 
 _Argument = TypeVar("_Argument")
 _Value = TypeVar("_Value")
@@ -206,10 +199,8 @@ class DaskPool:
 
     @contextmanager
     def _client(self) -> Iterator[Any]:
-        try:
+        with needs_extra("--dask needs dask.distributed", "fleet"):
             from distributed import Client
-        except ImportError:
-            raise MissingExtraError(f"--dask needs dask.distributed: {install_line('fleet')}") from None
         try:
             connect: Any = Client  # without types of its own
             client = connect(self.address, timeout=_WAIT_S, set_as_default=False)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, install_line
+from forcetorque.base.errors import ForceTorqueError, FormatError, needs_extra
 from forcetorque.base.input_file import require_file, require_unpacked
 
 if TYPE_CHECKING:
@@ -172,10 +172,8 @@ def opened_hdf5(path: Path) -> Iterator[h5py.File]:
         FormatError: If it is another file, or what is read inside the context is damaged.
         ForceTorqueError: As it was raised inside the context.
     """
-    try:
+    with needs_extra(f"{path}: HDF5 is read by h5py", "hdf5"):
         import h5py
-    except ImportError as error:
-        raise MissingExtraError(f"{path}: HDF5 is read by h5py: {install_line('hdf5')}") from error
     require_file(path, "an HDF5 file")
     if not is_hdf5_file(path):
         raise FormatError(f"{path}: expected an HDF5 file, got another one; name the file of the log")

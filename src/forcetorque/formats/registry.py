@@ -17,7 +17,7 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import FormatError, require_known
 from forcetorque.base.input_file import accept_input, read_xml
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.formats.c3d.log_format import C3dFormat
@@ -147,8 +147,7 @@ def format_named(name: str) -> LogFormat[Any]:
         FormatError: If no format is called so.
     """
     formats = {format_name(known): known for known in LOG_FORMATS}
-    if name not in formats:
-        raise FormatError(f"no format of logs is called {name!r}; {known_names(name, formats)}")
+    require_known(name, formats, FormatError, f"no format of logs is called {name!r}")
     return formats[name]
 
 

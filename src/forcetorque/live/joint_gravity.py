@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import RecordingError, known_names
+from forcetorque.base.errors import RecordingError, require_known
 from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
@@ -59,10 +59,7 @@ class JointGravity:
         Raises:
             RecordingError: If the robot has no such link.
         """
-        if frame not in model.links:
-            raise RecordingError(
-                f"--frame {frame}: expected a link of {model.name!r}; {known_names(frame, model.links)}"
-            )
+        require_known(frame, model.links, RecordingError, f"--frame {frame}: expected a link of {model.name!r}")
         self.vector = np.full(3, np.nan)
         """Acceleration of free fall in the frame; shape (3,); m/s2; NaN until all joints on the way have come."""
         self._tree, self._frame, self._base_gravity = build_tree(model, model.root_link), frame, base_gravity

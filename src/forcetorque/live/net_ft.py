@@ -18,7 +18,7 @@ import numpy as np
 
 from forcetorque.base.errors import FormatError, RecordingError, UnitError, known_names
 from forcetorque.base.input_file import xml_of_text
-from forcetorque.base.units import si_factor
+from forcetorque.base.units import parsed_number, si_factor
 from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sample_status import Status
 from forcetorque.live.sources import WAIT_S
@@ -104,10 +104,7 @@ class CountUnits:
             per_unit, name = (root.findtext(key, "").strip() for key in (counts, unit))
             if name not in known:
                 raise FormatError(f"netftapi2.xml: {unit}: {known_names(name, known)}; got {name[:40]!r}")
-            try:
-                number = float(per_unit)
-            except ValueError:
-                number = 0.0
+            number = parsed_number(per_unit)
             if not number > 0.0:
                 raise FormatError(f"netftapi2.xml: {counts}: expected a number above 0, got {per_unit[:40]!r}")
             factors.append(si_factor(known[name])[1] / number)

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.base.errors import RecordingError, known_names
+from forcetorque.base.errors import RecordingError, require_known
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.live.choices import HeldQuantity, OffsetSource
 from forcetorque.live.corrector import Corrector
@@ -181,10 +181,7 @@ def _joint_positions(settings: Settings, frames: Mapping[str, str]) -> JointPosi
         raise RecordingError("--robot: a page needs --joints too, the topic of JointState")
     model = read_urdf(settings.robot)
     for frame in frames.values():
-        if frame not in model.links:
-            raise RecordingError(
-                f"--frame {frame}: expected a link of {model.name!r}; {known_names(frame, model.links)}"
-            )
+        require_known(frame, model.links, RecordingError, f"--frame {frame}: expected a link of {model.name!r}")
     return JointPositions([name for name, joint in model.joints.items() if joint.type.moves and joint.mimic is None])
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.errors import ForceTorqueError, RecordingError, known_names
+from forcetorque.base.units import parsed_numbers
 from forcetorque.live.bias_tracking import Tracking
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import CorrectorOptions
@@ -157,10 +158,7 @@ def numbers_of(option: str, text: str, count: int) -> list[float]:
     Raises:
         RecordingError: If they are not so many finite numbers.
     """
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        values = []
+    values = parsed_numbers(text.split(","))
     if len(values) != count or not all(map(math.isfinite, values)):
         raise RecordingError(f"{option}: expected {count} numbers between commas, got {text!r}")
     return values

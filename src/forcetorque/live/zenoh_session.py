@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Final
 
-from forcetorque.base.errors import MissingExtraError, RecordingError, install_line
+from forcetorque.base.errors import RecordingError, needs_extra
 
 ROUTER: Final = "tcp/localhost:7447"
 """Where `rmw_zenohd` listens."""
@@ -62,10 +62,8 @@ def zenoh_session(endpoint: str = ROUTER) -> Iterator[ZenohSession]:
         MissingExtraError: If zenoh is not installed.
         RecordingError: If the endpoint is none.
     """
-    try:
+    with needs_extra("--ros2: topics are carried by zenoh", "zenoh"):
         import zenoh
-    except ImportError as error:
-        raise MissingExtraError(f"--ros2: topics are carried by zenoh: {install_line('zenoh')}") from error
     config = zenoh.Config()
     try:
         config.insert_json5("mode", json.dumps("peer"))

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
-from forcetorque.base.errors import ExperimentError, RecordingError, UnitError, known_names
+from forcetorque.base.errors import ExperimentError, RecordingError, UnitError, require_known
 from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.file import parse_experiment
@@ -85,8 +85,7 @@ def motion_signals_of_arrays(
             raise UnitError(f"column {name!r}: expected its unit, got none; units are never guessed")
     wanted = {} if desired is None else dict(desired)
     for name in wanted:
-        if name not in columns:
-            raise ExperimentError(f"desired: no column {name!r}; {known_names(name, columns)}")
+        require_known(name, columns, ExperimentError, f"desired: no column {name!r}")
     return [
         MotionSignal(
             interval="arrays",
@@ -154,8 +153,7 @@ def motion_signals(
 def _chosen(log: RecordedLog, labels: Collection[str]) -> list[RecordedSpan]:
     known = [span.label for span in log.intervals]
     for label in labels:
-        if label not in known:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
+        require_known(label, known, ExperimentError, f"no interval is labelled {label!r}")
     spans = [span for span in log.intervals if (span.label in labels if labels else span.use is not Use.IGNORE)]
     if not spans:
         raise ExperimentError(

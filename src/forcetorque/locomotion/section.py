@@ -11,11 +11,11 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.section import Loading, Section
+from forcetorque.experiment.section import Loading, Section, require_link
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import RobotModel
@@ -70,10 +70,8 @@ def read_soles(
     soles: list[ExperimentSole] = []
     for index, entry in enumerate(entries):
         where = f"{file}: sole[{index}]"
-        if model is not None and entry.frame not in model.links:
-            raise ExperimentError(
-                f"{where}: robot {model.name!r} has no link {entry.frame!r}; {known_names(entry.frame, model.links)}"
-            )
+        if model is not None:
+            require_link(model, entry.frame, where)
         if entry.frame in (earlier.sole.frame for earlier in soles):
             raise ExperimentError(f"{where}: the frame {entry.frame!r} is listed twice; keep one")
         if sensed and entry.stream is not None:

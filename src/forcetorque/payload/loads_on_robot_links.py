@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.inertia import Inertia
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.section import Loading
+from forcetorque.experiment.section import Loading, require_link
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
@@ -328,10 +328,7 @@ def read_link_loads(tables: Sequence[LinkLoad], loading: Loading) -> LinkLoads |
     weighed: list[LoadFromFile] = []
     for index, table in enumerate(tables):
         where = f"{file}: load[{index}] {table.name!r}"
-        if table.link not in model.links:
-            raise ExperimentError(
-                f"{where}: robot {model.name!r} has no link {table.link!r}; {known_names(table.link, model.links)}"
-            )
+        require_link(model, table.link, where)
         with stated_in(where):
             if table.weighed is None:
                 loads.append(_specified(table))

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, FitError, known_names
+from forcetorque.base.errors import ExperimentError, FitError, require_known
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
 from forcetorque.experiment.additions import with_recording_notes
@@ -225,8 +225,7 @@ def _chosen(cases: Sequence[LoadCase], errors: Sequence[PredictedError], wanted:
     if wanted is None:
         ratios = [_excess(case, error) for case, error in zip(cases, errors, strict=True)]
         return int(np.argmax(ratios))
-    if wanted not in names:
-        raise ExperimentError(f"no load case of the sensor is called {wanted!r}; {known_names(wanted, names)}")
+    require_known(wanted, names, ExperimentError, f"no load case of the sensor is called {wanted!r}")
     return names.index(wanted)
 
 

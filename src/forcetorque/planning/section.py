@@ -9,9 +9,9 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, known_names, require_known
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
-from forcetorque.experiment.section import Loading, Section
+from forcetorque.experiment.section import Loading, Section, require_link
 from forcetorque.recording.recording import Support
 
 
@@ -81,16 +81,11 @@ def _checked(table: PlanTable | None, loading: Loading) -> PlanTable | None:
     file, model = loading.file, loading.model
     free = [joint.name for joint in model.joints.values() if joint.type.moves and joint.mimic is None]
     for joint in table.ranges:
-        if joint not in free:
-            raise ExperimentError(
-                f"{file}: plan: ranges: robot {model.name!r} has no free joint {joint!r}; {known_names(joint, free)}"
-            )
+        require_known(
+            joint, free, ExperimentError, f"{file}: plan: ranges: robot {model.name!r} has no free joint {joint!r}"
+        )
     for tool in table.tool:
-        if tool.frame not in model.links:
-            raise ExperimentError(
-                f"{file}: plan: tool {tool.name!r}: robot {model.name!r} has no link {tool.frame!r}; "
-                f"{known_names(tool.frame, model.links)}"
-            )
+        require_link(model, tool.frame, f"{file}: plan: tool {tool.name!r}")
     still = [support.frame for support in loading.supports.values() if isinstance(support, Support)]
     for frame in table.support:
         if frame not in still:

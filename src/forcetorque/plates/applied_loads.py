@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
-from forcetorque.base.errors import ExperimentError, FormatError, known_names
+from forcetorque.base.errors import ExperimentError, FormatError, require_known
 from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import MeasureDirection, reading_sign, transform_wrench
@@ -272,10 +272,9 @@ def _of_frames(plates: PlateFile, samples: FloatArray) -> FloatArray:
 
 def _channel(plates: PlateFile, label: str) -> FloatArray:
     file = plates.file
-    if label not in file.analog_labels:
-        raise ExperimentError(
-            f"{file.path}: --load-cell: no channel is called {label!r}; {known_names(label, file.analog_labels)}"
-        )
+    require_known(
+        label, file.analog_labels, ExperimentError, f"{file.path}: --load-cell: no channel is called {label!r}"
+    )
     k = file.analog_labels.index(label)
     factor = factor_of(stated_unit(file.analog_units[k]), "N")
     if factor is None:
@@ -287,10 +286,7 @@ def _channel(plates: PlateFile, label: str) -> FloatArray:
 
 def _marker(plates: PlateFile, label: str, option: str) -> FloatArray:
     file = plates.file
-    if label not in file.marker_labels:
-        raise ExperimentError(
-            f"{file.path}: {option}: no marker is called {label!r}; {known_names(label, file.marker_labels)}"
-        )
+    require_known(label, file.marker_labels, ExperimentError, f"{file.path}: {option}: no marker is called {label!r}")
     factor: Any = factor_of(stated_unit(file.length_unit) or plates.table.length_unit, "m")
     return np.asarray(factor * file.markers[:, file.marker_labels.index(label)], dtype=np.float64)
 

@@ -22,7 +22,7 @@ from forcetorque.base.arrays import (
     names,
     read_only,
 )
-from forcetorque.base.errors import RecordingError, known_names
+from forcetorque.base.errors import RecordingError, known_names, require_known
 from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.stream import Signal, Stream
@@ -236,8 +236,7 @@ class Recording(ArrayRecord):
         Raises:
             RecordingError: If there is none of that name.
         """
-        if name not in self.streams:
-            raise RecordingError(f"the recording has no stream {name!r}; {known_names(name, self.streams)}")
+        require_known(name, self.streams, RecordingError, f"the recording has no stream {name!r}")
         return self.streams[name]
 
     def joint_signals(self, quantity: str) -> dict[str, tuple[Stream, Signal]]:

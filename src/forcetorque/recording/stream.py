@@ -11,7 +11,7 @@ from typing import Any, Final, Self
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, is_frozen, read_only, read_only_mapping
-from forcetorque.base.errors import RecordingError, ShapeError, known_names
+from forcetorque.base.errors import RecordingError, ShapeError, known_names, require_known
 from forcetorque.base.labelled_arrays import AXIS, TIME, LabelledArray, xarray_dataset
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -287,8 +287,7 @@ class Signal:
         Raises:
             RecordingError: If there is no such column.
         """
-        if name not in self.columns:
-            raise RecordingError(f"{self.quantity}: no column {name!r}; {known_names(name, self.columns)}")
+        require_known(name, self.columns, RecordingError, f"{self.quantity}: no column {name!r}")
         return self.values[:, self.columns.index(name)]
 
 
@@ -375,6 +374,5 @@ class Stream:
         Raises:
             RecordingError: If the stream has no such signal.
         """
-        if quantity not in self.signals:
-            raise RecordingError(f"stream {self.name!r} has no {quantity}; {known_names(quantity, self.signals)}")
+        require_known(quantity, self.signals, RecordingError, f"stream {self.name!r} has no {quantity}")
         return self.signals[quantity]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from forcetorque.base.errors import ForceTorqueError, MissingExtraError, ShapeError, install_line
+from forcetorque.base.errors import ForceTorqueError, ShapeError, needs_extra
 from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.capability import named
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -150,10 +150,8 @@ class Result(Row):
         Raises:
             MissingExtraError: If pandas is not installed.
         """
-        try:
+        with needs_extra("to_pandas needs pandas", "frames"):
             import pandas
-        except ImportError:
-            raise MissingExtraError(f"to_pandas needs pandas: {install_line('frames')}") from None
         return pandas.DataFrame(self.records(), columns=self.columns())
 
     def text(self, width: int = NOTEBOOK_WIDTH) -> str:

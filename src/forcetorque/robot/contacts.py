@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, names, read_only
-from forcetorque.base.errors import RobotError, ShapeError, known_names
+from forcetorque.base.errors import RobotError, ShapeError, require_known
 from forcetorque.base.pose import make_pose
 
 
@@ -60,8 +60,7 @@ class Wrenches(ArrayRecord):
         Raises:
             RobotError: If there is none of that name.
         """
-        if name not in self.names:
-            raise RobotError(f"no wrench of {name!r}; {known_names(name, self.names)}")
+        require_known(name, self.names, RobotError, f"no wrench of {name!r}")
         return self.values[:, self.names.index(name)]
 
     def __len__(self) -> int:

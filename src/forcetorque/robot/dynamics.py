@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import RobotError, ShapeError, known_names
+from forcetorque.base.errors import RobotError, ShapeError, known_names, require_known
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import cross, invert_pose, make_pose, split_pose
 from forcetorque.base.wrench import transform_wrench
@@ -183,8 +183,7 @@ def joints_between(tree: BodyTree, link: str) -> tuple[str, ...]:
 
 def _path(tree: BodyTree, link: str) -> list[int]:
     """Indices of the bodies from the root to a link."""
-    if link not in tree.frames:
-        raise RobotError(f"the robot has no link {link!r}; {known_names(link, tree.frames)}")
+    require_known(link, tree.frames, RobotError, f"the robot has no link {link!r}")
     return list(reversed(path_to_root(tree, tree.frames[link][0])))
 
 

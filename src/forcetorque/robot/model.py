@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, mapping, read_only
-from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.errors import RobotError, known_names, require_known
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 
@@ -191,8 +191,7 @@ class RobotModel(ArrayRecord):
         Raises:
             RobotError: If the joint is unknown, moves, or has a sensor already, or the frame needs an origin.
         """
-        if joint not in self.joints:
-            raise RobotError(f"robot {self.name!r} has no joint {joint!r}; {known_names(joint, self.joints)}")
+        require_known(joint, self.joints, RobotError, f"robot {self.name!r} has no joint {joint!r}")
         if self.joints[joint].type.moves:
             raise RobotError(f"sensor {name!r}: expected a fixed joint, {joint!r} is {self.joints[joint].type}")
         holder = [s.name for s in self.sensors.values() if s.joint == joint]
@@ -230,11 +229,9 @@ def _require_tree(model: RobotModel) -> None:
     parent_joint: dict[str, Joint] = {}
     for joint in model.joints.values():
         for role, link in (("parent", joint.parent), ("child", joint.child)):
-            if link not in model.links:
-                raise RobotError(
-                    f"joint {joint.name!r}: its {role} link {link!r} is not in the robot; "
-                    f"{known_names(link, model.links)}"
-                )
+            require_known(
+                link, model.links, RobotError, f"joint {joint.name!r}: its {role} link {link!r} is not in the robot"
+            )
         if joint.child in parent_joint:
             raise RobotError(
                 f"link {joint.child!r} is the child of the joints {parent_joint[joint.child].name!r} and "

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, mapping, read_only
-from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.errors import RobotError, require_known
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose, rotation_about_z, rotation_with_z_along, skew
 from forcetorque.robot.model import Joint, JointType, RobotModel
@@ -70,8 +70,7 @@ class RobotErrors(ArrayRecord):
         """
         links, joints = dict(model.links), dict(model.joints)
         for link in {**self.mass, **self.centre_m}:
-            if link not in links:
-                raise RobotError(f"errors: robot {model.name!r} has no link {link!r}; {known_names(link, links)}")
+            require_known(link, links, RobotError, f"errors: robot {model.name!r} has no link {link!r}")
             share = 1.0 + self.mass.get(link, 0.0)
             if links[link].mass <= 0.0 or not share > 0.0:
                 raise RobotError(
@@ -80,8 +79,7 @@ class RobotErrors(ArrayRecord):
                 )
             links[link] = _changed(links[link], share, self.centre_m.get(link, np.zeros(3)))
         for name, angle in self.joint_zero_rad.items():
-            if name not in joints:
-                raise RobotError(f"errors: robot {model.name!r} has no joint {name!r}; {known_names(name, joints)}")
+            require_known(name, joints, RobotError, f"errors: robot {model.name!r} has no joint {name!r}")
             for joint in joints.values():
                 ratio = _ratio(model, joint, name)
                 if ratio:
@@ -137,8 +135,7 @@ def with_load(
     Raises:
         RobotError: If there is no such link, or the mass is negative or not finite.
     """
-    if link not in model.links:
-        raise RobotError(f"load: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}")
+    require_known(link, model.links, RobotError, f"load: robot {model.name!r} has no link {link!r}")
     centre = read_only(centre_of_mass_m, name="centre_of_mass_m", shape=(3,))
     if not 0.0 <= mass_kg < np.inf or not np.isfinite(centre).all():
         raise RobotError(f"load on {link!r}: expected a mass of at least 0 kg, got {mass_kg} kg at {centre.tolist()} m")

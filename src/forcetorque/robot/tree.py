@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, mapping
-from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.errors import RobotError, require_known
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import invert_pose, make_pose, rotation_with_z_along, split_pose
 from forcetorque.base.wrench import reading_sign
@@ -107,8 +107,7 @@ def build_tree(model: RobotModel, root_link: str) -> BodyTree:
     Raises:
         RobotError: If the robot has no such link, or joints mimic each other in a circle.
     """
-    if root_link not in model.links:
-        raise RobotError(f"robot {model.name!r} has no link {root_link!r}; {known_names(root_link, model.links)}")
+    require_known(root_link, model.links, RobotError, f"robot {model.name!r} has no link {root_link!r}")
     return _tree(model, root_link)
 
 
@@ -264,8 +263,7 @@ def needed_bodies(tree: BodyTree, sensors: Sequence[str]) -> tuple[BoolArray, Bo
     count = len(tree.bodies)
     outboard = np.zeros(count, dtype=bool)
     for name in sensors:
-        if name not in tree.cuts:
-            raise RobotError(f"no force-torque sensor {name!r} at a fixed joint; {known_names(name, tree.cuts)}")
+        require_known(name, tree.cuts, RobotError, f"no force-torque sensor {name!r} at a fixed joint")
         outboard[tree.cuts[name].body] = True
     has_weight = np.array([not body.inertia.is_zero for body in tree.bodies])
     for index, body in enumerate(tree.bodies):
@@ -369,8 +367,7 @@ def cut_of(tree: BodyTree, sensor: str) -> int:
     Raises:
         RobotError: If the sensor is not in the tree.
     """
-    if sensor not in tree.cuts:
-        raise RobotError(f"no force-torque sensor {sensor!r} at a fixed joint; {known_names(sensor, tree.cuts)}")
+    require_known(sensor, tree.cuts, RobotError, f"no force-torque sensor {sensor!r} at a fixed joint")
     return tree.cuts[sensor].body
 
 

@@ -19,6 +19,7 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.input_file import xml_of_text
 from forcetorque.base.pose import make_pose, rotation_from_rpy, split_pose
 from forcetorque.base.run_files import declare_input
+from forcetorque.base.units import parsed_numbers
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
 
@@ -243,10 +244,7 @@ def _simulated_pose(place: UrdfPlace, tag: Element) -> FloatArray:
         # degrees, relative_to and rotation_format change what the numbers mean
         raise place.inside("<pose>").error("no attributes: x y z in m, roll pitch yaw in rad", str(dict(pose.attrib)))
     text = (tag.findtext("pose") or "0 0 0 0 0 0").strip()
-    try:
-        values = [float(word) for word in text.split()]
-    except ValueError:
-        values = []
+    values = parsed_numbers(text.split())
     if len(values) != 6 or not all(math.isfinite(value) for value in values):
         raise place.inside("<pose>").error("six finite numbers, x y z roll pitch yaw", repr(text))
     return make_pose(rotation_from_rpy(values[3:]), values[:3])

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import FormatError, require_known
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, wrench_matrix
 from forcetorque.sensor.electronics import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT, Electronics
@@ -242,10 +242,7 @@ def draw_specimen(
     Raises:
         FormatError: If there is no such family.
     """
-    if described.family not in FAMILIES:
-        raise FormatError(
-            f"sensors: no family is called {described.family!r}; {known_names(described.family, FAMILIES)}"
-        )
+    require_known(described.family, FAMILIES, FormatError, f"sensors: no family is called {described.family!r}")
     sensitivity = FAMILIES[described.family].draw(rng)
     torque = np.array(described.screw_torque_Nm)
     screws = ScrewPattern(angle_rad=2.0 * np.pi * np.arange(len(torque)) / len(torque), torque_Nm=torque)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, mapping, read_only_mapping
-from forcetorque.base.errors import RobotError, known_names
+from forcetorque.base.errors import RobotError, require_known
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
@@ -112,10 +112,9 @@ class Trace(ArrayRecord):
     def _sensor_stream(
         self, name: str, sensor: SimulatedSensor, rng: np.random.Generator, ends: tuple[float, float] | None
     ) -> Stream:
-        if name not in self.loads:
-            raise RobotError(
-                f"movement {self.movement.name!r} was traced without sensor {name!r}; {known_names(name, self.loads)}"
-            )
+        require_known(
+            name, self.loads, RobotError, f"movement {self.movement.name!r} was traced without sensor {name!r}"
+        )
         stamps = self.stamp_ns[name]
         temperature = _temperature(seconds_since(stamps, self.start_ns) / self.movement.duration_s, ends)
         held = sensor.read(self.loads[name], rng, rate_hz=self.rate_hz, temperature_degC=temperature)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from forcetorque.base.errors import MissingExtraError, install_line
+from forcetorque.base.errors import needs_extra
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.results.figures import ROW_INCHES, in_figure_style, new_figure, shown_name
 from forcetorque.skin.figures import draw_field, draw_forces
@@ -48,10 +48,8 @@ def skin_film(picture: SkinWrenchPicture) -> bytes:
     Raises:
         MissingExtraError: If matplotlib or Pillow is not installed.
     """
-    try:
+    with needs_extra("films are written by Pillow", "report"):
         from PIL import Image
-    except ImportError as error:
-        raise MissingExtraError(f"films are written by Pillow: {install_line('report')}") from error
     figure = new_figure(ROW_INCHES[1])
     panel, lines = figure.subplots(1, 2, width_ratios=(2.0, 3.0))
     field = draw_field(figure, panel, picture)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.errors import FitError, known_names
+from forcetorque.base.errors import FitError, known_names, require_known
 from forcetorque.base.progress import TimeLeft
 from forcetorque.calibration.thesis.calibrate import estimation_of, sphere_centre, sphere_labels
 from forcetorque.calibration.thesis.regression import Regression, require_determined
@@ -139,8 +139,7 @@ def _require_labels(
                 names = known_names(label, known)
                 raise FitError(f"data set {name!r}: no calibration interval is called {label!r}; {names}")
     for label in sphere or ():
-        if label not in known:
-            raise FitError(f"sphere: no calibration interval is called {label!r}; {known_names(label, known)}")
+        require_known(label, known, FitError, f"sphere: no calibration interval is called {label!r}")
 
 
 def _raw_offset(moments: Mapping[str, Moments], labels: Collection[str], sphere: Collection[str] | None) -> FloatArray:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import ShapeError, known_names
+from forcetorque.base.errors import ShapeError, require_known
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.wrench import FORCE, MOMENT
@@ -260,10 +260,8 @@ def _sorted(curves: Mapping[str, Mapping[str, FloatArray]], order: IntArray) -> 
 
 def _force_at(chosen: tuple[str, str, float], rising: FloatArray, lines: _Curves) -> float:
     name, kind, value = chosen
-    if name not in lines:
-        raise ShapeError(f"chosen: no data set is called {name!r}; {known_names(name, lines)}")
-    if kind not in lines[name]:
-        raise ShapeError(f"chosen: {name!r} has no estimation type {kind!r}; {known_names(kind, lines[name])}")
+    require_known(name, lines, ShapeError, f"chosen: no data set is called {name!r}")
+    require_known(kind, lines[name], ShapeError, f"chosen: {name!r} has no estimation type {kind!r}")
     (places,) = np.nonzero(rising == value)
     if not len(places):
         raise ShapeError(f"chosen: expected one of the lambdas {rising.tolist()}, got {value!r}")

@@ -19,6 +19,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingExtraError, install_line
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.run_files import declare_input
+from forcetorque.base.units import parsed_number
 from forcetorque.robot.installed import package_roots
 
 FORMATS = (".stl", ".obj", ".ply", ".glb", ".dae")
@@ -132,10 +133,7 @@ def _collada_unit(file: Path) -> float:
     root = read_xml(file)
     unit = None if root is None else root.find("{*}asset/{*}unit")
     text = "1" if unit is None else unit.get("meter", "1")
-    try:
-        length = float(text)
-    except ValueError:
-        length = 0.0
+    length = parsed_number(text)
     if not (np.isfinite(length) and length > 0.0):
         raise FormatError(f"{file}: unit: expected meter to be a number above 0, got {text!r}")
     return length

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import MissingExtraError, install_line
+from forcetorque.base.errors import needs_extra
 from forcetorque.base.output_file import replaced_file
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.viewer.arrays import read_array
@@ -73,11 +73,8 @@ def imported_rerun(path: Path) -> Any:
     Raises:
         MissingExtraError: If it is not installed.
     """
-    try:
+    with needs_extra(f"{path}: recordings of Rerun are written by rerun-sdk", "rerun"):
         import rerun
-    except ImportError as error:
-        needed = install_line("rerun")
-        raise MissingExtraError(f"{path}: recordings of Rerun are written by rerun-sdk: {needed}") from error
     return rerun
 
 

@@ -14,8 +14,9 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, names, read_only
-from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, known_names
+from forcetorque.base.errors import FormatError, SensorError, ShapeError, UnitError, require_known
 from forcetorque.base.input_file import read_text
+from forcetorque.base.units import parsed_number
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.bench_file import THESIS_TABLE
 
@@ -273,10 +274,9 @@ class LoadTable:
         return headings[0], units[unit]
 
     def _cells(self, name: str) -> list[str]:
-        if name not in self._heading:
-            raise FormatError(
-                f"{self._where}:{self._heading_line}: expected a column {name!r}; {known_names(name, self._heading)}"
-            )
+        require_known(
+            name, self._heading, FormatError, f"{self._where}:{self._heading_line}: expected a column {name!r}"
+        )
         index = self._heading.index(name)
         return [cells[index] for _, cells in self._rows]
 
@@ -294,10 +294,7 @@ class LoadTable:
 
 
 def _number(where: str, cell: str) -> float:
-    try:
-        number = float(cell)
-    except ValueError:
-        number = np.nan
+    number = parsed_number(cell)
     if not np.isfinite(number):
         raise FormatError(f"{where}: expected a finite number, got {cell!r}")
     return number

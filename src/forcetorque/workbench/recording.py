@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.errors import ExperimentError, FormatError, UnitError, known_names
+from forcetorque.base.errors import ExperimentError, FormatError, UnitError, known_names, require_known
 from forcetorque.base.toml_file import one_for_each, read_toml
 from forcetorque.base.units import si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
@@ -351,8 +351,7 @@ def _full_scale(sensor: BenchSensorTable, channels: int) -> FloatArray:
 def _used(names: Sequence[str], loads: BenchLoads, left_out: Sequence[str]) -> list[tuple[int, int]]:
     """Indices of blocks that are used, with those of their positions; of a repeated position the last block."""
     for name in left_out:
-        if name not in loads.names:
-            raise ExperimentError(f"loads.leave_out: no position {name!r}; {known_names(name, loads.names)}")
+        require_known(name, loads.names, ExperimentError, f"loads.leave_out: no position {name!r}")
     last = {name: k for k, name in enumerate(names)}
     return [(k, loads.names.index(name)) for name, k in last.items() if name not in left_out]
 

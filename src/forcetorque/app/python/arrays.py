@@ -16,7 +16,7 @@ import numpy as np
 from forcetorque.app.python.experiment import Experiment
 from forcetorque.app.python.tables import brief, experiment_of_tables, numbers, stream_of_arrays
 from forcetorque.base.arrays import FloatArray, require_shape
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.toml_file import one_for_each
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.locomotion.motion_quality import BAND_SHARE, Motion
@@ -140,10 +140,7 @@ def experiment_of_arrays(
     ]
     if quantity == "wrench" and prior is None:
         raise ExperimentError("reading: a calibrated wrench needs the prior that made it, or numpy.eye(6); got none")
-    if support not in model.links:
-        raise ExperimentError(
-            f"support: the robot {model.name!r} has no link {support!r}; {known_names(support, model.links)}"
-        )
+    require_known(support, model.links, ExperimentError, f"support: the robot {model.name!r} has no link {support!r}")
     if not (isinstance(limit_counts, Real) and limit_counts > 0.0):
         raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
     _require_magnitude(streams[0]["signal"][0]["variable"], quantity, limit_counts)

@@ -9,7 +9,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.labelled_arrays import wrench_array, xarray_dataset
 from forcetorque.base.lazy import LazyMethod
 from forcetorque.collisions import command as _collisions
@@ -192,8 +192,7 @@ class Run(SensorRun):
                 it, so that mechanics does not say.
         """
         intervals = {interval.label: interval for interval in self.experiment.recording.intervals}
-        if label not in intervals:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, intervals)}")
+        require_known(label, intervals, ExperimentError, f"no interval is labelled {label!r}")
         (interval,) = self.known([intervals[label]])
         return ExpectedWrenches.of(self, interval)
 

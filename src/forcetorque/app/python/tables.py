@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from forcetorque.app.python.experiment import Experiment
 from forcetorque.base.arrays import FloatArray, require_shape
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, known_names, require_known
 from forcetorque.experiment.input_files import InMemory
 from forcetorque.experiment.loading import load_tables
 from forcetorque.recording.recording import Recording
@@ -92,12 +92,10 @@ def stream_of_arrays(
     time = numbers(time_s, f"{place}: time_s")
     require_shape(time, name=f"{place}: time_s", shape=(None,))
     for key in units or {}:
-        if key not in quantities:
-            raise ExperimentError(f"{place}: units: {key!r} is not given; {known_names(key, quantities)}")
+        require_known(key, quantities, ExperimentError, f"{place}: units: {key!r} is not given")
     signals = []
     for key, given in quantities.items():
-        if key not in QUANTITIES:
-            raise ExperimentError(f"{place}: no quantity is called {key!r}; {known_names(key, QUANTITIES)}")
+        require_known(key, QUANTITIES, ExperimentError, f"{place}: no quantity is called {key!r}")
         values, names = _columns(given, f"{place}: {key}")
         width = None if key == _OF_SEVERAL_FORMS else len(QUANTITIES[key].columns) or None
         require_shape(values, name=f"{place}: {key}", shape=(len(time), width))

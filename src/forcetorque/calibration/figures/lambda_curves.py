@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.errors import ShapeError, known_names
+from forcetorque.base.errors import ShapeError, require_known
 from forcetorque.results.figures import (
     GRID,
     MUTED,
@@ -368,8 +368,7 @@ def _checked(curves: Mapping[str, tuple[Any, Any, float | None]], ratios: Mappin
     if not curves:
         raise ShapeError("curves: expected at least one name with its curve to draw, got none")
     for name in ratios:
-        if name not in curves:
-            raise ShapeError(f"worst_ratios: no curve is called {name!r}; {known_names(name, curves)}")
+        require_known(name, curves, ShapeError, f"worst_ratios: no curve is called {name!r}")
     return {name: _curve(name, *columns, ratios.get(name)) for name, columns in curves.items()}
 
 

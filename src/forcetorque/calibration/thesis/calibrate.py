@@ -11,7 +11,7 @@ from enum import StrEnum
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FitError, ShapeError, known_names
+from forcetorque.base.errors import FitError, ShapeError, require_known
 from forcetorque.calibration.thesis.lambda_choice import (
     BLOCKS,
     RULE,
@@ -215,8 +215,7 @@ def sphere_labels(labels: Sequence[str], named: Collection[str] | None) -> tuple
             "in an experiment file they are sphere_intervals of [calibration]"
         )
     for label in named or ():
-        if label not in labels:
-            raise FitError(f"sphere offset: no data set is called {label!r}; {known_names(label, labels)}")
+        require_known(label, labels, FitError, f"sphere offset: no data set is called {label!r}")
     return tuple(label for label in labels if named is None or label in named)
 
 

@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
-from forcetorque.base.errors import EstimationError, ShapeError, known_names
+from forcetorque.base.errors import EstimationError, ShapeError, require_known
 from forcetorque.base.pose import make_pose
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.estimation.uncertain.equations import Scene, Undetermined, posterior_of, undetermined_of
@@ -291,10 +291,7 @@ def _checked(question: Question, uncertainty: Uncertainty, n: int) -> Uncertaint
         ("tangents", uncertainty.tangents, known),
     ):
         for name in given:
-            if name not in names:
-                raise EstimationError(
-                    f"uncertainty.{what}: the question has none of {name!r}; {known_names(name, names)}"
-                )
+            require_known(name, names, EstimationError, f"uncertainty.{what}: the question has none of {name!r}")
     for name, tangents in uncertainty.tangents.items():
         if len(tangents.maps) != n:
             raise ShapeError(f"tangents of {name!r}: expected {n} samples, got {len(tangents.maps)}")

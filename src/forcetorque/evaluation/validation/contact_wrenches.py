@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
-from forcetorque.base.errors import EstimationError, ShapeError, known_names
+from forcetorque.base.errors import EstimationError, ShapeError, known_names, require_known
 from forcetorque.base.noise.means import joined_times
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated
@@ -55,8 +55,7 @@ class EstimatedContactWrenches(ArrayRecord):
         Raises:
             EstimationError: If there is no such candidate.
         """
-        if candidate not in self.candidates:
-            raise EstimationError(f"no candidate {candidate!r}; {known_names(candidate, self.candidates)}")
+        require_known(candidate, self.candidates, EstimationError, f"no candidate {candidate!r}")
         return self.at_sensor[self.candidates.index(candidate)]
 
     def at_contact(self, candidate: str) -> FloatArray:

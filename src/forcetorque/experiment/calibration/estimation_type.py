@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, read_only
-from forcetorque.base.errors import FitError, known_names
+from forcetorque.base.errors import FitError, require_known
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 
 
@@ -73,8 +73,7 @@ def estimation_type(name: str) -> EstimationType:
     Raises:
         FitError: If none is called so.
     """
-    if name not in ESTIMATION_TYPES:
-        raise FitError(f"no estimation type is called {name!r}; {known_names(name, ESTIMATION_TYPES)}")
+    require_known(name, ESTIMATION_TYPES, FitError, f"no estimation type is called {name!r}")
     return ESTIMATION_TYPES[name]
 
 

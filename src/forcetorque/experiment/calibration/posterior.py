@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
-from forcetorque.base.errors import ShapeError, known_names
+from forcetorque.base.errors import ShapeError, require_known
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
@@ -165,8 +165,7 @@ class Posterior(StoredTable):
             require_shape(values, name="variables", shape=(*load.shape[:-1], v))
             design[..., 6 : 6 + v] = values
         if session is not None:
-            if session not in self.sessions:
-                raise ShapeError(f"no session is called {session!r}; {known_names(session, self.sessions)}")
+            require_known(session, self.sessions, ShapeError, f"no session is called {session!r}")
             design[..., 6 + v + self.sessions.index(session)] = 1.0
         covariance = self._in_wrench(np.einsum("...j,ijk,...k->...i", design, self.covariance, design))
         disturbed = load @ self.cross_talk.T

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, MissingExtraError, install_line
+from forcetorque.base.errors import FormatError, needs_extra
 from forcetorque.base.input_file import require_file
 
 _BLOCK = 512
@@ -136,10 +136,8 @@ def read_c3d(path: Path) -> C3dFile:
         MissingExtraError: If the library `c3d` is not installed.
         FormatError: If the file is damaged, cut, or contradicts itself.
     """
-    try:
+    with needs_extra(f"{path}: C3D files are read by c3d", "c3d"):
         import c3d
-    except ImportError as error:
-        raise MissingExtraError(f"{path}: C3D files are read by c3d: {install_line('c3d')}") from error
     require_file(path, "a C3D file")
     content = path.read_bytes()
     if not is_c3d(path):

@@ -18,7 +18,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from forcetorque.base.errors import FormatError, known_names, quoted
+from forcetorque.base.errors import FormatError, known_names, quoted, require_known
 from forcetorque.base.input_file import read_text, require_file
 from forcetorque.formats.tabular.list_columns import element_name
 from forcetorque.formats.tabular.row_readers import columnar_file
@@ -163,10 +163,7 @@ class LeRobotDataset:
             FormatError: If there is none of that name.
         """
         known = {one.name: one for one in self.numeric_features}
-        if name not in known:
-            raise FormatError(
-                f"{self.root / INFO}: no feature with numbers is called {name!r}; {known_names(name, known)}"
-            )
+        require_known(name, known, FormatError, f"{self.root / INFO}: no feature with numbers is called {name!r}")
         return known[name]
 
 

@@ -14,7 +14,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.arrow import arrow_numbers
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import FormatError, require_known
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.lerobot.dataset import (
@@ -167,8 +167,7 @@ def _read_stream(dataset: LeRobotDataset, episode: Episode, entry: LeRobotStream
     )
     labels = tuple(dict.fromkeys(column for signal in layout.signals for column in signal.columns))
     for label in labels:
-        if label not in dataset.labels:
-            raise FormatError(f"{dataset.root}: no column {label!r}; {known_names(label, dataset.labels)}")
+        require_known(label, dataset.labels, FormatError, f"{dataset.root}: no column {label!r}")
     rows = Rows(
         name=f"{episode.file}: episode {episode.index}",
         count=episode.frames,

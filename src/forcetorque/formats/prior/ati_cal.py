@@ -17,7 +17,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.pose import invert_pose, make_pose
-from forcetorque.base.units import si_factor
+from forcetorque.base.units import parsed_number, si_factor
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
@@ -210,10 +210,7 @@ def _positive(element: Element, key: str) -> float:
 
 
 def _float(element: Element, key: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = np.nan
+    value = parsed_number(text)
     if not abs(value) < _LARGEST:
         raise FormatError(f"{str(element.tag)[:40]}: {key}: expected a number, got {text[:40]!r}")
     return value

@@ -20,7 +20,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FormatError, MissingFileError, UnitError
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.base.units import si_factor
+from forcetorque.base.units import parsed_number, parsed_numbers, si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
@@ -142,10 +142,7 @@ def _factor(path: Path, unit: str, si: str) -> float:
 
 
 def _number(path: Path, cell: str | None) -> float:
-    try:
-        value = float(cell or "")
-    except ValueError:
-        value = np.nan
+    value = parsed_number(cell or "")
     if not abs(value) < _LARGEST:
         raise FormatError(f"{path}: expected a number, got {str(cell)[:40]!r}")
     return value
@@ -261,10 +258,7 @@ def _count(params: dict[str, str], name: str) -> int:
 def _six(where: str, text: str) -> list[float]:
     match = _LIST.fullmatch(text)
     numbers = [] if match is None else match[1].replace(",", " ").split()
-    try:
-        values = [float(word) for word in numbers]
-    except ValueError:
-        values = []
+    values = parsed_numbers(numbers)
     if len(values) != 6 or not all(abs(value) < _LARGEST for value in values):
         raise FormatError(f"{where}: expected six numbers in parentheses, got {text[:40]!r}")
     return values

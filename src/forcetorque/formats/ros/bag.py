@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import IntArray
-from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, MissingFileError, install_line
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, needs_extra
 from forcetorque.base.input_file import accept_input, require_unpacked
 
 LARGEST_CHUNK = 1 << 28
@@ -234,11 +234,9 @@ def opened_bag(path: Path) -> Iterator[Bag]:
         FormatError: If it is no bag, or what is read inside the context is damaged.
         ForceTorqueError: As it was raised inside the context.
     """
-    try:
+    with needs_extra(f"{path}: bags are read by rosbags", "ros"):
         from rosbags.rosbag1 import Reader as Reader1
         from rosbags.rosbag2 import Reader as Reader2
-    except ImportError as error:
-        raise MissingExtraError(f"{path}: bags are read by rosbags: {install_line('ros')}") from error
     _require_bag(path)
     bound_mcap()
     cdr = path.suffix != ".bag" or path.is_dir()

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from forcetorque.base.errors import MissingExtraError, install_line
+from forcetorque.base.errors import needs_extra
 from forcetorque.base.output_file import replaced_file
 
 
@@ -24,10 +24,8 @@ def typestore(path: Path) -> Any:
     Raises:
         MissingExtraError: If rosbags is not installed.
     """
-    try:
+    with needs_extra(f"{path}: MCAP is written by rosbags", "ros"):
         from rosbags.typesys import Stores, get_typestore
-    except ImportError as error:
-        raise MissingExtraError(f"{path}: MCAP is written by rosbags: {install_line('ros')}") from error
     return get_typestore(Stores.ROS2_HUMBLE)
 
 

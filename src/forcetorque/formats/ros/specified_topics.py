@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.base.errors import FormatError, known_names
+from forcetorque.base.errors import FormatError, require_known
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import LogTable, StreamReading
 from forcetorque.formats.ros.bag import Bag
@@ -87,8 +87,7 @@ def read_specified(
         FormatError: If there is no such topic, or it holds something else than what is specified.
     """
     types = bag.types
-    if entry.topic not in types:
-        raise FormatError(f"{bag.path}: no topic {entry.topic!r}; {known_names(entry.topic, types)}")
+    require_known(entry.topic, types, FormatError, f"{bag.path}: no topic {entry.topic!r}")
     kind = types[entry.topic]
     if kind not in MESSAGES:
         raise FormatError(f"{bag.path}: {entry.topic}: expected messages of {', '.join(MESSAGES)}, got {kind}")

@@ -14,7 +14,7 @@ import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
 from forcetorque.base.arrow import arrow_text, require_small_parquet
-from forcetorque.base.errors import ForceTorqueError, FormatError, known_names
+from forcetorque.base.errors import ForceTorqueError, FormatError, known_names, require_known
 from forcetorque.base.input_file import require_unpacked
 from forcetorque.formats.headings import named_columns, repeated_heading_message
 from forcetorque.formats.tabular.arrow_file import ArrowFile, is_arrow_file
@@ -53,8 +53,7 @@ def text_rows(file: Path, layout: TableLayout) -> Rows:
     if not count:
         raise FormatError(f"{file}:{first_line}: expected rows of numbers, got none")
     for column in wanted_columns(layout):
-        if column not in names:
-            raise FormatError(f"{file}: no column {column!r}; {known_names(column, names)}")
+        require_known(column, names, FormatError, f"{file}: no column {column!r}")
     return Rows(
         name=str(file),
         count=count,

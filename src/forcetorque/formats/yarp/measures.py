@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, RecordingError, known_names
+from forcetorque.base.errors import FormatError, RecordingError, require_known
 from forcetorque.base.units import si_factor
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, BottleValue, is_number
@@ -93,10 +93,7 @@ class MeasuresSensor:
     """Of an orientation what its numbers mean: YARP fixes form and sense, not in which direction things fall."""
 
     def __post_init__(self) -> None:
-        if self.list not in _ORDER:
-            raise RecordingError(
-                f"{self.stream}: no list is called {self.list!r}; {known_names(str(self.list), _ORDER)}"
-            )
+        require_known(self.list, _ORDER, RecordingError, f"{self.stream}: no list is called {self.list!r}")
         object.__setattr__(self, "list", MeasuresList(self.list))
         if self.list not in READ_LISTS:
             raise RecordingError(

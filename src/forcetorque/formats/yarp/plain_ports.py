@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, RecordingError, known_names
+from forcetorque.base.errors import FormatError, RecordingError, require_known
 from forcetorque.base.units import si_factor
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp.message import Bottle, is_number
@@ -89,8 +89,7 @@ def units_of_joints(joints: Sequence[str], joint_units: Mapping[str, str] | None
     """
     units = joint_units or {}
     for joint, unit in units.items():
-        if joint not in joints:
-            raise RecordingError(f"joint_units: no joint {joint!r} was named; {known_names(joint, joints)}")
+        require_known(joint, joints, RecordingError, f"joint_units: no joint {joint!r} was named")
         if unit not in JOINT_UNITS["position"]:
             raise RecordingError(f"joint_units: expected rad or m for {joint!r}, got {unit!r}")
     return tuple(units.get(joint, "rad") for joint in joints)

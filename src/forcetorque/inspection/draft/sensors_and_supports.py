@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.pose import make_pose
 from forcetorque.inspection.draft.gravity import LIGHT_KG, GravityFit, mass_beyond
 from forcetorque.inspection.draft.streams import DraftedStream
@@ -126,8 +126,7 @@ def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> t
     """
     known = [name for one in sensors for name in dict.fromkeys((one.name, one.stream))]
     for name in wanted:
-        if name not in known:
-            raise ExperimentError(f"--sensor: the log has no sensor {name!r}; {known_names(name, known)}")
+        require_known(name, known, ExperimentError, f"--sensor: the log has no sensor {name!r}")
     if not wanted:
         return tuple(one for one in sensors if not _ESTIMATED.search(one.stream.lower())) or tuple(sensors)
     return tuple(one for one in sensors if {one.name, one.stream} & set(wanted))

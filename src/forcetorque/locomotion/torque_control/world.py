@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.errors import MissingExtraError, RobotError, install_line
+from forcetorque.base.errors import RobotError, needs_extra
 from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import reading_sign
@@ -107,10 +107,8 @@ def import_mujoco() -> Any:
     Raises:
         MissingExtraError: If it is not installed.
     """
-    try:
+    with needs_extra("the closed loop runs in MuJoCo", "closed-loop"):
         import mujoco
-    except ImportError as error:
-        raise MissingExtraError(f"the closed loop runs in MuJoCo: {install_line('closed-loop')}") from error
     return mujoco
 
 

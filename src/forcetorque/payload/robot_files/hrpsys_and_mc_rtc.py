@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, MissingFileError, known_names
+from forcetorque.base.errors import FormatError, MissingFileError, require_known
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.payload.robot_files.yaml_parameters import number
@@ -76,8 +76,7 @@ def read_hrpsys(path: Path | str, *, sensor: str, frame: str) -> RobotLoad:
             if name in loads:
                 raise FormatError(f"{file}:{line}: expected every sensor once, got {name!r} again")
             loads[name] = values
-    if sensor not in loads:
-        raise FormatError(f"{file}: no sensor {sensor!r}; {known_names(sensor, loads)}")
+    require_known(sensor, loads, FormatError, f"{file}: no sensor {sensor!r}")
     values = loads[sensor]
     return RobotLoad(
         sensor=sensor,

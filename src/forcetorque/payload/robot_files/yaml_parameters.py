@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.errors import FormatError, MissingFileError, known_names
+from forcetorque.base.errors import FormatError, MissingFileError, require_known
 from forcetorque.base.units import DECIMAL_NUMBER
 
 _ENTRY = re.compile(r"(?P<key>[A-Za-z_]\w*):(?:\s+(?P<value>.*))?$")
@@ -73,8 +73,7 @@ def read_plain_yaml(path: Path | str, keys: Iterable[str]) -> dict[str, Value]:
                 items.append(_number(file, line, item["value"]))
         elif entry is not None and entry["key"] not in values:
             key = entry["key"]
-            if key not in wanted:
-                raise FormatError(f"{file}:{line}: unknown name {key!r}; {known_names(key, wanted)}")
+            require_known(key, wanted, FormatError, f"{file}:{line}: unknown name {key!r}")
             values[key] = _value(file, line, (entry["value"] or "").strip())
         else:
             raise FormatError(f"{file}:{line}: expected a name, a colon and its value, each once, got {text[:60]!r}")

@@ -13,7 +13,7 @@ from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING
 
-from forcetorque.base.errors import ForceTorqueError, FormatError, MissingExtraError, install_line
+from forcetorque.base.errors import ForceTorqueError, FormatError, needs_extra
 from forcetorque.results.figures import png_bytes
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
@@ -240,10 +240,8 @@ def html_bytes(document: Document) -> bytes:
     Raises:
         MissingExtraError: If jinja2 is not installed.
     """
-    try:
+    with needs_extra("reports are written by jinja2", "report"):
         from jinja2 import Environment, StrictUndefined
-    except ImportError as error:
-        raise MissingExtraError(f"reports are written by jinja2: {install_line('report')}") from error
     folder = resources.files("forcetorque.results.document")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces, "joined": with_joined_units}

@@ -8,7 +8,7 @@ from datetime import UTC
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from forcetorque.base.errors import MissingExtraError, install_line
+from forcetorque.base.errors import needs_extra
 from forcetorque.results.document.content import (
     NO_ROWS,
     Block,
@@ -215,10 +215,8 @@ def pdf_bytes(document: Document) -> bytes:
     Raises:
         MissingExtraError: If fpdf2 or matplotlib, whose letters it takes, is not installed.
     """
-    try:
+    with needs_extra("letters of a PDF are those of matplotlib", "report"):
         import matplotlib as mpl
-    except ImportError as error:
-        raise MissingExtraError(f"letters of a PDF are those of matplotlib: {install_line('report')}") from error
     page = _numbered_pages()
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
     try:
@@ -232,10 +230,8 @@ def pdf_bytes(document: Document) -> bytes:
 
 def _numbered_pages() -> FPDF:
     """An empty file that says on every page which of how many it is."""
-    try:
+    with needs_extra("PDF is written by fpdf2", "report"):
         from fpdf import FPDF
-    except ImportError as error:
-        raise MissingExtraError(f"PDF is written by fpdf2: {install_line('report')}") from error
 
     class Numbered(FPDF):
         """Pages with their number at the foot."""

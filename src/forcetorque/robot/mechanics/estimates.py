@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
-from forcetorque.base.errors import EstimationError, ShapeError, known_names
+from forcetorque.base.errors import EstimationError, ShapeError, require_known
 
 MakeArray = Callable[[str, tuple[int, ...], npt.DTypeLike], npt.NDArray[Any]]
 
@@ -188,6 +188,5 @@ def column_of(name: str, names: tuple[str, ...], what: str) -> int:
     Raises:
         EstimationError: If it was not asked for.
     """
-    if name not in names:
-        raise EstimationError(f"no {what} of {name!r} was asked for; {known_names(name, names)}")
+    require_known(name, names, EstimationError, f"no {what} of {name!r} was asked for")
     return names.index(name)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
-from forcetorque.base.errors import EstimationError, RobotError, ShapeError, known_names
+from forcetorque.base.errors import EstimationError, RobotError, ShapeError, known_names, require_known
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import root_vectors
 from forcetorque.robot.mechanics.question import Needs, Question, needs_of
@@ -139,8 +139,7 @@ def _columns(names: Sequence[str], wanted: Sequence[str]) -> IntArray:
 def _wrenches(given: Wrenches | None, wanted: Sequence[str], what: str, n: int) -> Wrenches:
     names = () if given is None else given.names
     for name in wanted:
-        if name not in names:
-            raise EstimationError(f"{what} {name!r} is missing; {known_names(name, names)}")
+        require_known(name, names, EstimationError, f"{what} {name!r} is missing")
     if given is None or not wanted:
         return Wrenches(names=(), values=np.empty((n, 0, 6)))
     if len(given) != n:
@@ -166,8 +165,7 @@ def activity_of(question: Question, active: Mapping[str, Any] | None, n: int) ->
     switches = dict(active or {})
     unknown = [contact.name for contact in question.unknown]
     for name in switches:
-        if name not in unknown:
-            raise EstimationError(f"active: the question has no unknown contact {name!r}; {known_names(name, unknown)}")
+        require_known(name, unknown, EstimationError, f"active: the question has no unknown contact {name!r}")
     if not switches:
         return np.broadcast_to(True, (n, len(unknown)))
     activity = np.ones((n, len(unknown)), dtype=bool)

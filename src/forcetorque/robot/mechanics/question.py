@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray
-from forcetorque.base.errors import EstimationError, RobotError, ShapeError, known_names
+from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError, require_known
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimates import Layout
 from forcetorque.robot.tree import BodyTree, SubModel, cut_of, outboard_bodies, path_to_root, sub_models
@@ -154,12 +154,11 @@ def moving_joints(tree: BodyTree) -> tuple[str, ...]:
 
 
 def _require_known(
-    wanted: Iterable[str], known: Iterable[str], what: str, error: type[Exception], *, once: bool = True
+    wanted: Iterable[str], known: Iterable[str], what: str, error: type[ForceTorqueError], *, once: bool = True
 ) -> None:
     names, seen = set(known), set()
     for name in wanted:
-        if name not in names:
-            raise error(f"the robot has no {what} {name!r}; {known_names(name, names)}")
+        require_known(name, names, error, f"the robot has no {what} {name!r}")
         if once and name in seen:
             raise error(f"{what} {name!r}: expected each once, got it twice")
         seen.add(name)

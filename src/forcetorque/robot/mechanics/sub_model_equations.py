@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import EstimationError, RobotError, known_names
+from forcetorque.base.errors import EstimationError, RobotError, known_names, require_known
 from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.wrench import transform_wrench, wrench_matrix
 from forcetorque.robot.dynamics import BodyState, move_to, net_wrench, root_state, stacked_root
@@ -81,8 +81,7 @@ def untouched_parts(tree: BodyTree, sensors: Sequence[str], touched: Sequence[st
         EstimationError: If every part is touched, or none has a sensor.
     """
     for link in touched:
-        if link not in tree.frames:
-            raise RobotError(f"touched: the robot has no link {link!r}; {known_names(link, tree.frames)}")
+        require_known(link, tree.frames, RobotError, f"touched: the robot has no link {link!r}")
     bodies = {tree.frames[link][0] for link in touched}
     parts = tuple(
         part for part in sub_models(tree, sensors) if sensors_of(part) and not bodies.intersection(part.bodies)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
-from forcetorque.base.errors import ExperimentError, RecordingError, known_names
+from forcetorque.base.errors import ExperimentError, RecordingError, require_known
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction, readings_at
@@ -294,8 +294,7 @@ def component_index(name: str) -> int:
     Raises:
         ExperimentError: If there is none of that name.
     """
-    if name not in WRENCH_COMPONENTS:
-        raise ExperimentError(f"no component {name!r}; {known_names(name, WRENCH_COMPONENTS)}")
+    require_known(name, WRENCH_COMPONENTS, ExperimentError, f"no component {name!r}")
     return WRENCH_COMPONENTS.index(name)
 
 

@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, SensorError
 from forcetorque.base.toml_file import Finite, Table, Text, first_error, read_toml
+from forcetorque.base.units import parsed_numbers
 
 Three = tuple[Finite, Finite, Finite]
 
@@ -134,10 +135,7 @@ def three_numbers(option: str, text: str) -> tuple[float, float, float]:
     Raises:
         ForceTorqueError: If there are not three finite numbers.
     """
-    try:
-        numbers = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        numbers = ()
+    numbers = tuple(parsed_numbers(text.split(",")))
     if len(numbers) != 3 or not np.isfinite(numbers).all():
         raise ForceTorqueError(f"{option} {text}: expected three numbers x,y,z with commas between them, as 0,0,500")
     return numbers

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.experiment import SensorVariable
@@ -248,10 +248,8 @@ def temperature_drift(
 
 def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
     known = {v.linear.name: v for v in run.sensor.variables if v.linear.unit == "degC"}
-    if wanted is not None and wanted not in known:
-        raise ExperimentError(
-            f"sensor {run.sensor.name!r}: no variable {wanted!r} in degC; {known_names(wanted, known)}"
-        )
+    if wanted is not None:
+        require_known(wanted, known, ExperimentError, f"sensor {run.sensor.name!r}: no variable {wanted!r} in degC")
     if wanted is None and len(known) != 1:
         got = (
             f"{', '.join(known)}; choose one by --variable, from Python variable"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, array
-from forcetorque.base.errors import FitError, MissingExtraError, SensorError, install_line
+from forcetorque.base.errors import FitError, SensorError, needs_extra
 from forcetorque.sensor.transfer.transfer_function import TransferFunction, calibration_points, least_squares
 
 if TYPE_CHECKING:
@@ -248,11 +248,9 @@ def fit_network(stimulus: Any, output: Any, *, neurons: int = 4, seed: int = 0) 
             does not end.
         MissingExtraError: If scikit-learn is not installed.
     """
-    try:
+    with needs_extra("networks are fitted by scikit-learn", "network"):
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.neural_network import MLPRegressor
-    except ImportError as error:
-        raise MissingExtraError(f"networks are fitted by scikit-learn: {install_line('network')}") from error
     if neurons < 1:
         raise FitError(f"network: expected at least 1 neuron, got {neurons}")
     stimuli, outputs = calibration_points(stimulus, output, parameters=3 * neurons + 1)

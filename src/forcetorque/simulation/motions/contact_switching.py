@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import RobotError, ShapeError, known_names
+from forcetorque.base.errors import RobotError, ShapeError, require_known
 from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.foot_loads import FootLoads, Hook, internal_pushes
@@ -279,8 +279,7 @@ def _other(feet: tuple[str, str], foot: str) -> str:
 def _require_trunk_link(stance: Stance, hook: str) -> None:
     """Refuse a hook on a leg: legs are to be free."""
     model, legs = stance.stand.model, {*stance.legs.support, *stance.legs.swing}
-    if hook not in model.links:
-        raise RobotError(f"hook: robot {model.name!r} has no link {hook!r}; {known_names(hook, model.links)}")
+    require_known(hook, model.links, RobotError, f"hook: robot {model.name!r} has no link {hook!r}")
     between = [joint for joint in joints_between(stance.tree, hook) if joint in legs]
     if between:
         raise RobotError(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, check_arrays, mapping, read_only
-from forcetorque.base.errors import RobotError, ShapeError, known_names
+from forcetorque.base.errors import RobotError, ShapeError, require_known
 from forcetorque.base.pose import make_pose, skew
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.dynamics import joints_between
@@ -133,10 +133,7 @@ class Stand(ArrayRecord):
             RobotError: If one is not a free joint of the robot.
         """
         for joint in joints:
-            if joint not in self.joints:
-                raise RobotError(
-                    f"robot {self.model.name!r} has no free joint {joint!r}; {known_names(joint, self.joints)}"
-                )
+            require_known(joint, self.joints, RobotError, f"robot {self.model.name!r} has no free joint {joint!r}")
         return [self.joints.index(joint) for joint in joints]
 
     def through(self, postures: FloatArray, *, hold_s: float = 0.0) -> Waypoints:
@@ -304,8 +301,7 @@ def legs_of(stand: Stand, swing: str, *, trunk: str | None = None) -> Legs:
         RobotError: If there is no such link, or a leg has no joints of its own.
     """
     for link in (swing, *(() if trunk is None else (trunk,))):
-        if link not in stand.model.links:
-            raise RobotError(f"robot {stand.model.name!r} has no link {link!r}; {known_names(link, stand.model.links)}")
+        require_known(link, stand.model.links, RobotError, f"robot {stand.model.name!r} has no link {link!r}")
     middle = _common_ancestor(stand, swing) if trunk is None else trunk
     tree = build_tree(stand.model, middle)
     standing, swinging = (joints_between(tree, foot) for foot in (stand.support, swing))

@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import read_text
+from forcetorque.base.units import parsed_numbers
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import (
     LARGEST_MESSAGE,
@@ -110,10 +111,7 @@ def _rows(path: Path, body: str, *, first_line: int) -> tuple[FloatArray, IntArr
 
 
 def _six(where: str, words: list[str]) -> list[float]:
-    try:
-        numbers = [float(word) for word in words]
-    except ValueError:
-        numbers = []
+    numbers = parsed_numbers(words)
     if len(numbers) != 6 or not np.isfinite(numbers).all():
         raise FormatError(f"{where}: expected six finite numbers x y z nx ny nz, got {' '.join(words)!r}")
     return numbers

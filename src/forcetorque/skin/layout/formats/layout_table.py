@@ -14,7 +14,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, UnitError
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.base.units import si_factor
+from forcetorque.base.units import parsed_number, si_factor
 from forcetorque.skin.layout.layout import PatchDescription, SkinLayout
 from forcetorque.skin.layout.modules import LARGEST_MESSAGE
 
@@ -141,10 +141,7 @@ class _Rows:
         return np.array(kinds, dtype=np.str_)
 
     def _number(self, row: int, name: str) -> float:
-        try:
-            number = float(self._rows[row][name])
-        except ValueError:
-            number = np.nan
+        number = parsed_number(self._rows[row][name])
         if not np.isfinite(number):
             raise FormatError(
                 f"{self._path}:{self.lines[row]}: {name} of taxel {self.columns[row]}: expected a finite number, got "
