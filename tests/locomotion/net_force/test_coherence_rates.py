@@ -42,7 +42,7 @@ def _recorded(experiment: Experiment, drawn: Scenario, simulated: SimulatedRecor
 
 
 def _errors(folder: Path, seeds: range) -> dict[tuple[str, str], list[tuple[float, float]]]:
-    """Norms of errors on the day that was not fitted, of phases that are evidence, and predicted; by offset and name."""
+    """Norms of errors on the day not fitted, of phases that are evidence, and predicted, by offset and name."""
     content = short_switching(names=FEET)
     recordings = tuple(
         entry.model_copy(update={"motion": entry.motion.model_copy(update={"still_s": 2.0})})
