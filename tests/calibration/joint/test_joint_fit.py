@@ -12,7 +12,11 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.fit import fit_jointly
-from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
+from forcetorque.calibration.joint.model_error_columns import (
+    delay_terms,
+    error_terms,
+    weight_error_columns,
+)
 from forcetorque.calibration.joint.robust_fit import (
     ROUNDS,
     JointResult,
@@ -24,8 +28,8 @@ from forcetorque.calibration.joint.robust_fit import (
 )
 from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
-from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
-from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
+from forcetorque.experiment.calibration.robot_model_error import EXACT, MASS, ModelTolerance
+from forcetorque.robot.mechanics.sub_model_equations import untouched_parts, weight_equations
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
 
 WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.3)), "acceleration": 0.05}
@@ -139,6 +143,17 @@ def test_a_body_that_is_heavier_than_its_file_says_is_found() -> None:
 
 
 @pytest.mark.long
+def test_masses_of_what_is_weighed_add_up_to_its_weight() -> None:
+    """Along the axes of the root, also of bodies that joints between the sensors turn."""
+    stretch = swaying(1).stretch
+    for part in untouched_parts(stretch.tree, SENSORS, FEET):
+        (equation,) = weight_equations(stretch.tree, [part], stretch.joints, stretch.root)
+        columns = weight_error_columns(stretch.tree, part, stretch.root, len(stretch))
+        assert np.abs(equation.demand[:, :3]).max() > 1.0
+        of_masses = sum(values for name, values in columns.items() if name.startswith(MASS))
+        np.testing.assert_allclose(-of_masses, equation.demand, atol=1e-9)
+
+
 def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
     """Nothing is learnt of what no load tells, and nothing gets worse."""
     fit = _fit(swaying(41, duration_s=0.6, **WRONG))

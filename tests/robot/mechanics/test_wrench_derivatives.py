@@ -10,8 +10,8 @@ from hypothesis import assume, given, settings, strategies as st
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.dynamics import expected_wrenches
-from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
-from forcetorque.robot.mechanics.wrench_derivatives import PartDerivatives, part_derivatives
+from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part, part_equations, sensors_of
+from forcetorque.robot.mechanics.wrench_derivatives import PartDerivatives, demand_derivatives, part_derivatives
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
@@ -71,3 +71,36 @@ def test_derivatives_are_differences(model: RobotModel, seed: int) -> None:
         bodies = tuple(replace(one, inertia=inertia) if one is body else one for one in tree.bodies)
         shifted = expected_wrenches(replace(tree, bodies=bodies), joints, root, [sensor])[sensor] - expected
         np.testing.assert_allclose(np.tensordot(SHIFT, columns[1:], 1), shifted.T, atol=1e-9 * size)
+
+
+@settings(max_examples=examples(60), deadline=None)
+@given(model=robots(), seed=st.integers(0, 1000))
+def test_derivatives_of_demands_are_differences(model: RobotModel, seed: int) -> None:
+    """Of parts between any number of sensors, that of the root link too, along its axes."""
+    assume(model.sensors and any(joint.type.moves for joint in model.joints.values()))
+    links = list(model.links)
+    tree = build_tree(model, links[seed % len(links)])
+    parts = [part for part in sub_models(tree, tuple(tree.cuts)) if heavy_bodies(tree, part) and sensors_of(part)]
+    assume(parts)
+    part = parts[seed % len(parts)]
+    joints, root = random_motion(model, samples=SAMPLES, seed=seed), random_root(samples=SAMPLES, seed=seed)
+
+    def demand(motion: JointMotion, of_tree: BodyTree = tree, of_root: RootMotion = root) -> FloatArray:
+        (equation,) = part_equations(of_tree, [part], motion, of_root)
+        return equation.demand.T
+
+    found, expected = demand_derivatives(tree, part, joints, root), demand(joints)
+    size = 1.0 + np.abs(expected).max()
+    for joint, column in found.joints.items():
+        up, down = (demand(joints.shifted({joint: step})) for step in (STEP, -STEP))
+        np.testing.assert_allclose(column, (up - down) / (2.0 * STEP), rtol=CLOSE, atol=CLOSE * size)
+    np.testing.assert_allclose(sum(column[0] for column in found.bodies.values()), expected, atol=1e-9 * size)
+    pushed = replace(root, proper_acceleration=root.proper_acceleration + SHIFT)
+    moved = demand(joints, of_root=pushed) - expected
+    np.testing.assert_allclose(np.tensordot(SHIFT, found.acceleration, 1), moved, atol=1e-9 * size)
+    for k, columns in found.bodies.items():
+        body = tree.bodies[k]
+        inertia = replace(body.inertia, first_moment=body.inertia.first_moment + body.inertia.mass * SHIFT)
+        bodies = tuple(replace(one, inertia=inertia) if one is body else one for one in tree.bodies)
+        shifted = demand(joints, of_tree=replace(tree, bodies=bodies)) - expected
+        np.testing.assert_allclose(np.tensordot(SHIFT, columns[1:], 1), shifted, atol=1e-9 * size)

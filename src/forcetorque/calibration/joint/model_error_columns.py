@@ -4,13 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Final
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.pose import cross
-from forcetorque.base.wrench import transform_wrench
 from forcetorque.experiment.calibration.robot_model_error import (
     ACCELERATION,
     CENTRE,
@@ -21,19 +18,14 @@ from forcetorque.experiment.calibration.robot_model_error import (
     ModelTolerance,
     TermKind,
 )
-from forcetorque.robot.dynamics import net_wrench
 from forcetorque.robot.mechanics.sub_model_equations import (
-    PartEquation,
     heavy_bodies,
     joints_of_cuts,
     joints_of_part,
-    part_equations,
 )
+from forcetorque.robot.mechanics.wrench_derivatives import demand_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, Connection, SubModel
-
-_STEP: Final = 1e-6
-"""Step of numerical derivatives by joint positions; rad or m."""
 
 
 def error_terms(
@@ -114,74 +106,49 @@ def delay_terms(recordings: Sequence[str], tolerance: ModelTolerance) -> tuple[E
     return tuple(term for term in terms if term.deviation > 0.0)
 
 
-def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:
-    """Say what a unit of every error of bodies, and of the acceleration of the root, adds to the left side.
+def model_error_columns(tree: BodyTree, part: SubModel, joints: JointMotion, root: RootMotion) -> dict[str, FloatArray]:
+    """Say what a unit of every error of the model adds to the left side of the equation of a part by what it demands.
 
     Centres move along the axes of the heaviest link of a body, after which it is called.
 
     Args:
         tree: The robot.
-        equation: Equation of a part; n samples.
+        part: A part of it.
+        joints: Motion of at least the joints that it needs; n samples.
+        root: Motion of the root link's frame; one sample or n.
 
     Returns:
         By the name of the term; shape (n, 6); N, N m per unit.
     """
-    columns: dict[str, FloatArray] = {}
-    for k, state in equation.states.items():
-        inertia, pose = tree.bodies[k].inertia, equation.poses[k]
-        omega, alpha, proper = state.angular_velocity, state.angular_acceleration, state.proper_acceleration
-        wrenches = [net_wrench(inertia, state)]
-        for unit in inertia.mass * link_axes(tree, k).T:
-            force = cross(alpha, unit) + cross(omega, cross(omega, unit))
-            wrenches.append(np.concatenate([force, cross(unit, proper)], axis=1))
-        at_root = -transform_wrench(pose[:, None], np.stack(wrenches, axis=1))
-        columns |= {own: equation.rows * at_root[:, place] for place, own in enumerate(terms_of_body(tree, k))}
-    return columns | acceleration_columns(tree, equation)
+    found = demand_derivatives(tree, part, joints, root)
+    columns = {f"{ZERO}{joint}": values for joint, values in found.joints.items()}
+    for k, by_body in found.bodies.items():
+        mass, centre = by_body[0], np.tensordot(link_axes(tree, k).T, by_body[1:], 1)
+        columns |= dict(zip(terms_of_body(tree, k), (mass, *centre), strict=True))
+    columns |= dict(zip(terms_of_acceleration(tree), found.acceleration, strict=True))
+    return {name: -values.T for name, values in columns.items()}
 
 
-def acceleration_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:
-    """Say what a unit of every error of the acceleration of the root adds to the left side.
+def weight_error_columns(tree: BodyTree, part: SubModel, root: RootMotion, samples: int) -> dict[str, FloatArray]:
+    """The same of a part of which only the weight is asked, whose joints add nothing.
 
     Args:
         tree: The robot.
-        equation: Equation of a part; n samples.
+        part: A part of it.
+        root: Motion of the root link's frame; one sample or n.
+        samples: n.
 
     Returns:
-        By the name of the term; shape (n, 6); N, N m per m/s2.
+        By the name of the term; shape (n, 6); N, N m per unit.
     """
-    columns: dict[str, FloatArray] = {}
-    mass, moment = 0.0, np.zeros((len(equation.demand), 3))
-    for k in equation.states:
-        inertia, pose = tree.bodies[k].inertia, equation.poses[k]
-        mass += inertia.mass
-        moment = moment + pose[:, :3, :3] @ inertia.first_moment + inertia.mass * pose[:, :3, 3]
-    for axis, unit in zip("xyz", np.eye(3), strict=True):
-        force = np.broadcast_to(mass * unit, moment.shape)
-        columns[_acceleration(axis, tree)] = -np.concatenate([force, cross(moment, unit)], axis=1)
-    return {name: equation.rows * values for name, values in columns.items()}
-
-
-def demand_columns(
-    tree: BodyTree, parts: Sequence[SubModel], joints: JointMotion, root: RootMotion
-) -> list[dict[str, FloatArray]]:
-    """Say what the zeros of joints add to the left side by way of what the bodies demand.
-
-    Args:
-        tree: The robot.
-        parts: Parts of it.
-        joints: Motion of the joints; n samples.
-        root: Motion of the root.
-
-    Returns:
-        For every part, by the name of the term; shape (n, 6); N, N m per rad or m.
-    """
-    columns: list[dict[str, FloatArray]] = [{} for _ in parts]
-    before = [equation.demand for equation in part_equations(tree, parts, joints, root)]
-    for joint in _joints(tree, parts):
-        affected = [k for k, part in enumerate(parts) if joint in joints_of_part(tree, part)]
-        again = part_equations(tree, [parts[k] for k in affected], joints.shifted({joint: _STEP}), root)
-        for k, equation in zip(affected, again, strict=True):
-            columns[k][f"{ZERO}{joint}"] = (before[k] - equation.demand) / _STEP
+    masses = {_mass(tree, k): tree.bodies[k].inertia.mass for k in heavy_bodies(tree, part)}
+    pushes = dict(zip(terms_of_acceleration(tree), np.eye(3), strict=True))
+    forces = {name: mass * root.proper_acceleration for name, mass in masses.items()}
+    forces |= {name: sum(masses.values()) * unit for name, unit in pushes.items()}
+    forces |= {f"{ZERO}{joint}": np.zeros(3) for joint in joints_of_cuts(tree, part)}
+    columns = {name: np.zeros((samples, 6)) for name in forces}
+    for name, force in forces.items():
+        columns[name][:, :3] = -force
     return columns
 
 

@@ -19,14 +19,13 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages, rows_where
-from forcetorque.calibration.joint.model_error_columns import body_columns, demand_columns
+from forcetorque.calibration.joint.model_error_columns import model_error_columns, weight_error_columns
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import DELAY, ZERO, ErrorTerm
 from forcetorque.robot.mechanics.sub_model_equations import (
     PartEquation,
-    joints_of_cuts,
     part_equations,
     weight_equations,
 )
@@ -224,21 +223,21 @@ def _piece_windows(
     windows = WindowNodes(stretch.time_s, WINDOW_S)
     nodes = windows.condensed(stretch)
     joints = nodes.joints.shifted(zeros)
-    of_zeros: Sequence[dict[str, FloatArray]] = [{} for _ in parts]
+    moving = part_equations(tree, parts, joints, nodes.root)
+    equations = [*moving, *weight_equations(tree, weighed, joints, nodes.root)]
+    columns: list[dict[str, FloatArray]] = [{} for _ in equations]
     if terms:
-        middle = slice(NODES // 2, None, NODES)
-        of_zeros = demand_columns(tree, parts, joints.samples(middle), nodes.root.samples(middle))
-    moving = zip(part_equations(tree, parts, joints, nodes.root), of_zeros, strict=True)
-    # where the bodies of what is weighed are does not matter, nor does how joints turn them
-    resting = (
-        (equation, {f"{ZERO}{joint}": np.zeros(LOADS) for joint in joints_of_cuts(tree, equation.part)})
-        for equation in weight_equations(tree, weighed, joints, nodes.root)
-    )
-    equations = list(chain(moving, resting))
-    columns = [_error_columns(stretch, equation, windows, nodes, about) if terms else {} for equation, _ in equations]
-    without_zeros = [_Terms.of(one, terms, own) for (one, _), own in zip(equations, columns, strict=True)]
+        of_parts = (model_error_columns(tree, part, joints, nodes.root) for part in parts)
+        # where the bodies of what is weighed are does not matter, nor does how joints turn them
+        of_weights = (weight_error_columns(tree, part, nodes.root, len(nodes)) for part in weighed)
+        columns = [
+            {name: windows.node_means(values) for name, values in own.items()} | _delay(stretch, one, windows, about)
+            for one, own in zip(equations, chain(of_parts, of_weights), strict=True)
+        ]
+    of_zeros = [{name: own.pop(name) for name in list(own) if name.startswith(ZERO)} for own in columns]
+    without_zeros = [_Terms.of(one, terms, own) for one, own in zip(equations, columns, strict=True)]
     wrenches = _balanced([one for one in without_zeros if one.equation.part in parts], nodes, about)
-    for (equation, demanded), own in zip(equations, columns, strict=True):
+    for equation, own, demanded in zip(equations, columns, of_zeros, strict=True):
         through = np.stack([wrenches[name] for name in equation.sensors], axis=1)
         for name, values in demanded.items():
             turned = equation.turned(tree, name.removeprefix(ZERO), through)
@@ -249,17 +248,15 @@ def _piece_windows(
         yield result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)])) if touched else result
 
 
-def _error_columns(
-    stretch: Stretch, equation: PartEquation, windows: WindowNodes, nodes: Stretch, about: JointFit | None
+def _delay(
+    stretch: Stretch, equation: PartEquation, windows: WindowNodes, about: JointFit | None
 ) -> dict[str, FloatArray]:
-    """Means of what a unit of every error of the model but zeros adds to the left side, by its name; shape (w, 6)."""
-    columns = {name: windows.node_means(values) for name, values in body_columns(stretch.tree, equation).items()}
+    """Means of what a unit of the delay of the readings adds to the left side, by its name; shape (w, 6)."""
     rates = [windows.rates(stretch.readings[name]) for name in equation.sensors]
     if about is not None:
         rates = [one @ about.change(name).T for name, one in zip(equation.sensors, rates, strict=True)]
     delayed = np.einsum("nkij,nkj->ni", equation.transmission, np.stack(rates, axis=1))
-    columns[DELAY + stretch.recording] = windows.node_means(delayed)
-    return columns
+    return {DELAY + stretch.recording: windows.node_means(delayed)}
 
 
 def _at_rest(nodes: Stretch) -> BoolArray:

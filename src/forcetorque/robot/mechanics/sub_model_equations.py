@@ -37,8 +37,6 @@ class PartEquation:
     """X of every sensor; shape (n, k, 6, 6)."""
     demand: FloatArray
     """What moves its bodies as they move; shape (n, 6); N, N m."""
-    states: dict[int, BodyState]
-    """Motion of its bodies that have inertia, by their index."""
     poses: dict[int, FloatArray]
     """`root_H_body` of all bodies between the root and it, and of its own; shape (n, 4, 4); m."""
     rows: FloatArray = field(default_factory=lambda: np.ones(6))
@@ -158,25 +156,20 @@ def weight_equations(
     Yields:
         The equation of every part; moments are all 0.
     """
-    proper = root.proper_acceleration
-    still = RootMotion(
-        proper_acceleration=proper, angular_velocity=np.zeros_like(proper), angular_acceleration=np.zeros_like(proper)
-    )
-    state, here = root_state(stacked_root(still, len(joints))), np.broadcast_to(np.eye(4), (len(joints), 4, 4))
     forces = np.repeat([1.0, 0.0], 3)
     _, poses = _motion(tree, _paths(tree, [cut for part in parts for cut in _cuts(tree, part)]), joints, root)
     for part in parts:
-        heavy = heavy_bodies(tree, part)
-        mass = sum(tree.bodies[k].inertia.mass for k in heavy)
+        mass = sum(tree.bodies[k].inertia.mass for k in heavy_bodies(tree, part))
+        demand = np.zeros((len(joints), 6))
+        demand[:, :3] = mass * root.proper_acceleration
         names = sensors_of(part)
         transmission = np.stack([_transmission(tree, part, name, poses) for name in names], axis=1)
         yield PartEquation(
             part=part,
             sensors=names,
             transmission=forces[:, None] * transmission,
-            demand=np.concatenate([mass * state.proper_acceleration, np.zeros((len(joints), 3))], axis=1),
-            states=dict.fromkeys(heavy, state),
-            poses={**dict.fromkeys(heavy, here), **poses},
+            demand=demand,
+            poses=poses,
             rows=forces,
         )
 
@@ -210,7 +203,6 @@ def part_equations(
             sensors=names,
             transmission=np.stack([_transmission(tree, part, name, poses) for name in names], axis=1),
             demand=demand,
-            states={k: states[k] for k in heavy},
             poses={k: poses[k] for k in _bodies(tree, part)},
         )
 

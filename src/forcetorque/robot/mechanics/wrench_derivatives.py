@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Derivatives of what the sensor at the base of a part must read, by the bodies of the part and by joint positions.
+"""Derivatives of the wrench that moves a part, and of what the sensor at its base must read, by bodies and joints.
 
 All is evaluated along the axes of the root link and about its origin. A joint that is elsewhere turns all that is
 outboard of it, and with that the motion inboard of it is seen in other axes from there. With the motion vector s of the
@@ -29,7 +29,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.inertia import Inertia
 from forcetorque.robot.dynamics import stacked_root
-from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies
+from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import Body, BodyTree, Connection, SubModel, path_to_root
 
@@ -39,7 +39,7 @@ CENTRES = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PartDerivatives:
-    """Derivatives of a reading in n samples; shape (6, n) each, in the sensor's frame and direction; N, N m."""
+    """Derivatives of a wrench in n samples; shape (6, n) each; N, N m."""
 
     bodies: dict[int, FloatArray]
     """By the mass of a body, relative to it, and by the place of its centre (m) along the axes of a link; shape
@@ -72,40 +72,79 @@ def part_derivatives(
         turned: Joints by whose positions is differentiated.
 
     Returns:
-        The derivatives.
+        The derivatives, in the sensor's frame and direction.
 
     Raises:
         ValueError: If the part has no sensor at its base.
     """
     if part.sensor is None:
         raise ValueError(f"{part.name}: expected a part with a sensor at its base, got that of the root")
-    cut, heavy = tree.cuts[part.sensor], heavy_bodies(tree, part)
-    needed = sorted({k for body in (*heavy, cut.body) for k in path_to_root(tree, body)})
+    cut = tree.cuts[part.sensor]
+    needed = _paths(tree, [*heavy_bodies(tree, part), cut.body])
     motions = _motions(tree, needed, joints, stacked_root(root, len(joints)).transpose(0, 2, 1))
-    own = {k: _Bodies.of(tree.bodies[k].inertia, motions[k]) for k in heavy}
+    # the sensor turns with the joints inboard of it
+    found = _derivatives(tree, part, motions, bare, axes, turned, carried=frozenset(path_to_root(tree, cut.body)))
+    at_sensor = _Sensor(motions[cut.body], cut.body_H_sensor, cut.sign)
+    return PartDerivatives(
+        bodies={k: np.stack([at_sensor.reads(one) for one in columns]) for k, columns in found.bodies.items()},
+        joints={name: at_sensor.reads(column) for name, column in found.joints.items()},
+        acceleration=np.stack([at_sensor.reads(column) for column in found.acceleration]),
+    )
+
+
+def demand_derivatives(tree: BodyTree, part: SubModel, joints: JointMotion, root: RootMotion) -> PartDerivatives:
+    """Differentiate the wrench that moves the bodies of a part.
+
+    Args:
+        tree: The robot.
+        part: Any part of it that has a body with inertia.
+        joints: Motion of at least the joints that it needs (`joints_of_part`); n samples.
+        root: Motion of the root link's frame; one sample or n.
+
+    Returns:
+        The derivatives by its bodies, along axes of these, by all joints that it needs, and by the acceleration, along
+        the axes of the root link and about its origin.
+    """
+    heavy = heavy_bodies(tree, part)
+    motions = _motions(tree, _paths(tree, heavy), joints, stacked_root(root, len(joints)).transpose(0, 2, 1))
+    return _derivatives(
+        tree, part, motions, tree, dict.fromkeys(heavy, np.eye(3)), joints_of_part(tree, part), carried=frozenset()
+    )
+
+
+def _paths(tree: BodyTree, bodies: Iterable[int]) -> list[int]:
+    return sorted({k for body in bodies for k in path_to_root(tree, body)})
+
+
+def _derivatives(
+    tree: BodyTree,
+    part: SubModel,
+    motions: dict[int, _Motion],
+    bare: BodyTree,
+    axes: dict[int, FloatArray],
+    turned: Sequence[str],
+    *,
+    carried: frozenset[int],
+) -> PartDerivatives:
+    """Along the axes of the root link; axes that joints of `carried` bodies turn are taken to turn with the wrench."""
+    own = {k: _Bodies.of(tree.bodies[k].inertia, motions[k]) for k in heavy_bodies(tree, part)}
     outboard = _outboard(tree, own)
-    inboard, whole = path_to_root(tree, cut.body), outboard[cut.body]
+    whole = outboard[0]
     of_joints = {name: np.zeros_like(whole.wrench) for name in turned}
-    for k in needed:
+    for k in outboard:
         body = tree.bodies[k]
         if body.coordinate is None or body.coordinate.joint not in of_joints:
             continue
-        bodies = whole if k in inboard else outboard[k]
-        change = _moved(body, motions[body.parent], motions[k], bodies, turns_wrench=k not in inboard)
+        change = _moved(body, motions[body.parent], motions[k], outboard[k], turns_wrench=k not in carried)
         of_joints[body.coordinate.joint] += body.coordinate.multiplier * change
-    at_sensor = _Sensor(motions[cut.body], cut.body_H_sensor, cut.sign)
-    by_bodies = {
-        k: np.stack([at_sensor.reads(column) for column in _by_body(bare.bodies[k].inertia, motions[k], axes[k])])
-        for k in axes
-    }
     pushed = [
         np.concatenate([np.broadcast_to(whole.mass * unit, whole.moment.shape), _cross(whole.moment, unit)])
         for unit in np.eye(3)[:, :, None]
     ]
     return PartDerivatives(
-        bodies=by_bodies,
-        joints={name: at_sensor.reads(column) for name, column in of_joints.items()},
-        acceleration=np.stack([at_sensor.reads(column) for column in pushed]),
+        bodies={k: np.stack(_by_body(bare.bodies[k].inertia, motions[k], axes[k])) for k in axes},
+        joints=of_joints,
+        acceleration=np.stack(pushed),
     )
 
 
