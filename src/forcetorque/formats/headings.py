@@ -58,7 +58,24 @@ _SPELLINGS = {
     "counts": "counts",
 }
 """How people write units, in small letters, and how experiment files do."""
-_BEHIND_LOW_LINE = {"n", "mn", "nm", "nmm", "rad", "deg", "radps", "mps2", "degc", "counts", "ms", "us", "ns", "ma"}
+_BEHIND_LOW_LINE = {
+    "n",
+    "mn",
+    "nm",
+    "nmm",
+    "rad",
+    "deg",
+    "radps",
+    "mps2",
+    "degc",
+    "counts",
+    "ms",
+    "us",
+    "ns",
+    "ma",
+    "pa",
+    "kpa",
+}
 """Spellings that are a unit behind a low line too: a single letter may be part of a name, as in `force_a`."""
 _TIMES = {"s", "sec"}
 _TIME_NAMES = {"t", "time", "stamp", "timestamp", "seconds"}

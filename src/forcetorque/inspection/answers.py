@@ -332,7 +332,7 @@ def inspection_answer(inspection: Inspection) -> Answer:
 def _step_of_events(spoiling: Sequence[Event], step: str) -> str:
     if spoiling:
         return "leave these events out of every [[interval]]"
-    return f"no interval has a sample of them that is used: {step}"
+    return f"no interval uses a sample of these events: {step}"
 
 
 def _most_harmful(grouped: Iterable[Event], in_use_s: Sequence[tuple[float, float]]) -> list[Event]:

@@ -182,6 +182,23 @@ def test_a_log_without_headings_is_read_by_the_names_of_its_columns(
     assert questions[0] == questions[1]
 
 
+def test_what_cannot_be_checked_is_not_called_checked(folder: Path, run: Run) -> None:
+    """Without the position of a joint nothing is compared with the model: the stage gives the reason."""
+    recording = read_recording(folder / "recording")
+    stream = recording.stream("joints")
+    lacking = {
+        quantity: replace(signal, columns=signal.columns[:-1], values=signal.values[:, :-1], units=signal.units[:-1])
+        for quantity, signal in stream.signals.items()
+    }
+    shorter = replace(stream, signals=lacking)
+    write_recording(folder / "recording", replace(recording, streams={**recording.streams, "joints": shorter}))
+    outcome = run("run", PARQUET, "-o", "results", "--no-report", "--format", "json")
+    assert outcome.code == 3
+    check, calibrate = json.loads(outcome.out)["stages"][-2:]
+    assert "; not checked: arm_ft: no comparison with the model" in check["text"]
+    assert calibrate["text"].split(": ")[-1] in check["text"]
+
+
 def test_a_log_without_a_sensor_is_refused(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """By the log, with what was expected; the file that was begun has nothing to ask."""
     monkeypatch.chdir(tmp_path)

@@ -23,9 +23,9 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.signals import OrientationTable
-from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
-from forcetorque.inspection.draft.questions import answer_questions
+from forcetorque.inspection.draft.questions import answer_questions, resume_experiment
 from forcetorque.inspection.draft.streams import column_matches
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
@@ -436,6 +436,29 @@ def test_headings_of_another_language_are_a_wrench_by_their_units(tmp_path: Path
     assert column_matches(two, []) == ()
     by_side = [read_heading(f"{side} {name}") for side in ("links", "rechts") for name in names]
     assert column_matches(by_side, []) == ()
+
+
+def test_counts_of_taxels_are_a_patch(tmp_path: Path) -> None:
+    """With a pressure they are to be fitted, without one a layout is asked; of a few cells none is made."""
+
+    def draft_of(names: list[str], word: str = "taxel", count: int = 12) -> Draft:
+        head = ",".join(["time_s", *(f"{word}_{k}" for k in range(count)), *names])
+        rows = "\n".join(",".join(map(str, [k / 10, *[240 - k] * (count + len(names))])) for k in range(30))
+        (tmp_path / "skin.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+        return draft_experiment([tmp_path / "skin.csv"], tmp_path / "skin.toml", force=True)
+
+    fitted = draft_of(["pressure_kPa"])
+    assert [one.key for one in fitted.questions] == ["name", "pressure_of"]
+    content = tomllib.loads(fitted.content)
+    (patch,), (interval,) = content["patch"], content["interval"]
+    assert (patch["counts"], patch["pressure"], interval["use"]) == ("skin", "skin", "calibration")
+    text = answered(fitted.content, {"name": '"pad"', "pressure_of": '"chamber"'})
+    (tmp_path / "skin.toml").write_text(text, encoding="utf-8")
+    assert resume_experiment(tmp_path / "skin.toml").proposals == ()
+    (answer,) = resume_experiment(tmp_path / "skin.toml").answers()
+    assert (answer.verdict, answer.command) == ("COMPLETE", f"inspect {tmp_path / 'skin.toml'}")
+    assert [one.key for one in draft_of([]).questions] == ["name", "layout"]
+    assert "[[patch]]" not in draft_of([], "cell", 6).content
 
 
 def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:

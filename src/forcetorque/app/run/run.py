@@ -350,7 +350,14 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
     """
     way.begin("check")
     contradicted: list[str] = []
-    unchecked: list[str] = []
+    inspections = [one for one in way.results if isinstance(one, Inspection)]
+    streams = {run.sensor.stream for campaign in campaigns.values() for run in campaign.runs}
+    unchecked = [
+        f"{row.stream}: {row.message}"
+        for one in inspections
+        for row in one.findings
+        if row.kind == "not_compared" and row.stream in streams
+    ]
     for name, campaign in campaigns.items():
         for one in campaign.runs:
             try:
@@ -359,7 +366,6 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
                 unchecked.append(f"{name}: {error}")
     if contradicted or wrong:
         # a fault that explains the measurements comes first, a refusal that explains nothing last
-        inspections = [one for one in way.results if isinstance(one, Inspection)]
         explained = any(row.kind != "implausible" for one in inspections for row in faults(one.findings))
         reasons = list(dict.fromkeys([*wrong, *contradicted] if explained else [*contradicted, *wrong]))
         if proposed is None:

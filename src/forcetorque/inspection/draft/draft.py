@@ -51,7 +51,7 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     sensor_lines,
     support_lines,
 )
-from forcetorque.inspection.draft.streams import DraftedLog
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names, few_components
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
@@ -428,6 +428,9 @@ def _written(
     for sensor in sensors:
         own = prior_lines(sensor, sensors, priors, folder, on_robot=model is not None)
         lines += sensor_lines(sensor, own, on_robot=model is not None)
+    for stream in log.streams:
+        if stream.is_skin:
+            lines += _patch_lines(stream)
     extra: list[str] = []
     wrist = None if log.description is None or model is not None or not sensors else log.description.wrist
     if wrist is not None:
@@ -444,7 +447,11 @@ def _written(
     if wrist is not None:
         lines += wrist_interval_lines(wrist)
         return "\n".join(lines) + "\n", tuple(notes), recording
-    for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
+    use = "calibration" if sensors else "ignore"
+    if not sensors and any(stream.is_skin for stream in log.streams):
+        words = "all of the log: put here what is to be fitted, or to be looked at"
+        use = "calibration" if any("pressure" in stream.quantities for stream in log.streams) else "validation"
+    for interval in intervals or whole_log(words, use=use):
         lines += interval_lines(interval, extra)
     lines += accuracy_lines(sensors, priors)
     return "\n".join(lines) + "\n", tuple(notes), recording
@@ -500,7 +507,7 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
     for sensor in sensors:
         what = "raw channels" if sensor.is_raw else "a wrench"
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
-    if not sensors:
+    if not sensors and not any(stream.is_skin for stream in log.streams):
         yield _NO_SENSOR
     if log.skipped_arrays:
         yield not_read_message(log.skipped_arrays)
@@ -547,6 +554,24 @@ def _why_no_interval(
         "no interval is offered: the reading could not be held against the orientation of its sensor, or does not turn "
         "with it as a weight does"
     )
+
+
+def _patch_lines(stream: DraftedStream) -> list[str]:
+    """The `[[patch]]` table of counts of taxels: with a pressure they are calibrated, with a layout contacts follow."""
+    words = "file with number, module, position and normal of each taxel; `forcetorque skin check FILE` examines it"
+    lines = ["", "[[patch]]", question("name", "name of the patch, the same in all its recordings", stream.name)]
+    lines.append(line("counts", stream.name))
+    if "pressure" not in stream.quantities:
+        return [*lines, question("layout", words)]
+    kinds = (
+        "chamber where the skin feels the pressure; bag where the gauge is inside a vacuum bag, whose pressure falls"
+    )
+    return [
+        *lines,
+        line("pressure", stream.name),
+        question("pressure_of", kinds),
+        f'# layout = "layout.csv"  # for contacts, before the fit: {words}',
+    ]
 
 
 def _imus(log: DraftedLog) -> list[str]:

@@ -86,6 +86,9 @@ def proposals(file: Path, settled: Collection[tuple[str, str]] = ()) -> tuple[Pr
         ForceTorqueError: If the file, or what it points to, cannot be read.
     """
     text = text_of(file)
+    content = tomllib.loads(text)
+    if tables_of(content, "patch") and not tables_of(content, "sensor"):
+        return ()  # of skin alone nothing is proposed
     experiment = load_experiment(file)
     runs = [SensorRun(experiment, sensor) for sensor in experiment.sensors]
     runs = [run for run in runs if run.sensor.quantity == "wrench" or run.sensor.prior is not None]

@@ -40,6 +40,9 @@ _ELEMENT = re.compile(r"^(?P<before>.+)\[(?P<number>\d+)\]$")
 FORMS_OF_THREE = (OrientationForm.EULER, OrientationForm.ROTATION_VECTOR)
 """Forms that three numbers may have, which their headings do not tell apart for sure."""
 _ORDERS = (OrientationForm.QUAT_XYZW, OrientationForm.QUAT_WXYZ)
+_TAXELS = re.compile(r"(?:^|_)(?:taxels?|skin|cells?)$")
+_FEWEST_TAXELS = 10
+"""Of a module of iCub's skin; fewer cells may be those of a force-torque sensor."""
 _CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
 _MOTIONS = {
     "": "position",
@@ -128,6 +131,7 @@ def column_matches(
         _rotation_vectors,
         _vectors,
         _temperatures,
+        _pressures,
         partial(_listed_quaternions, unit_fours),
         _lists,
         _numbered,
@@ -266,6 +270,11 @@ def _temperatures(free: Mapping[int, str], joints: Sequence[str]) -> list[Column
     return [ColumnMatch(quantity="temperature", columns=(k,)) for k in warm[:1]]
 
 
+def _pressures(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    gauges = [k for k, name in free.items() if _plain(name).rpartition("_")[2] == "pressure"]
+    return [ColumnMatch(quantity="pressure", columns=tuple(gauges))] if len(gauges) == 1 else []
+
+
 def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     """Channels of electronics, and as many joints by number as the robot has."""
     groups: dict[tuple[str, str], list[tuple[int, int]]] = {}
@@ -277,7 +286,9 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
     for (before, behind), members in groups.items():
         columns = tuple(k for _, k in sorted(members))
         word = _plain(before or behind)
-        if _CHANNELS.search(word) and len(columns) >= 6:
+        if _TAXELS.search(word) and len(columns) >= _FEWEST_TAXELS:
+            likeness.setdefault("taxel_counts", ColumnMatch(quantity="taxel_counts", columns=columns))
+        elif _CHANNELS.search(word) and len(columns) >= 6:
             likeness.setdefault("raw", ColumnMatch(quantity="raw", columns=columns))
         quantity = _motion(_plain(behind) or word) or _motion(word)
         of_joints = word in _OF_JOINTS or _STATES.match(word) is not None
@@ -388,6 +399,11 @@ class DraftedStream:
         if self.table is None or not self.table.is_table or len(self.table.columns) > _MOST_OF_SENSOR:
             return False
         return self.reads_load and set(self.quantities) <= {"wrench", "raw", "temperature"}
+
+    @property
+    def is_skin(self) -> bool:
+        """Whether it has the counts of taxels."""
+        return "taxel_counts" in self.quantities
 
     @property
     def reads_load(self) -> bool:

@@ -384,6 +384,8 @@ def _group_lines(
     ]
     if group.quantity == "orientation" and group.form not in FORMS_OF_THREE:
         units = ["1"] * len(names)
+    if group.quantity == "taxel_counts":
+        units = ["counts"] * len(names)
     if group.quantity == "raw" and names == list(few_components(sketch).values()):
         units = ["counts"] * len(names)  # of newtons too
     if all(units):

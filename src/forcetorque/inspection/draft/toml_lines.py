@@ -156,6 +156,7 @@ USUAL_UNITS = {
     "gravity": "m/s2",
     "temperature": "degC",
     "raw": "counts",
+    "pressure": "Pa or kPa",
 }
 """Usual units of quantities, for questions only."""
 

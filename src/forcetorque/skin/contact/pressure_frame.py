@@ -145,7 +145,7 @@ class PatchReader(ArrayRecord):
             raise SkinError(
                 f"table of patch {self.table.patch!r}: expected the layout of its {len(self.table)} taxels in "
                 f"{self.table.columns} columns, got {layout.name!r} with {len(layout)} in {layout.columns}; every "
-                "patch has its own table"
+                "patch has its own table, which is fitted with the layout stated in [[patch]]"
             )
 
     def frame(self, counts: FloatArray, *, drift: TaxelDrift | None = None) -> PressureFrame:
