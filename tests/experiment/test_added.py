@@ -36,7 +36,7 @@ from forcetorque.payload.tare_offset import tare
 from forcetorque.results.result import Result, result_classes
 from forcetorque.sensor.gains.gains import select_gains
 from tests.scenes.experiments import PARQUET, add
-from tests.test_import_order import NEEDS
+from tests.test_architecture import NEEDS
 
 RECORDED = r"\b(Runs|SensorRun|Campaign|Experiment|MotionSignal|FootForces)\b"
 """Arguments that hold recordings."""

@@ -117,9 +117,10 @@ def _moved(folder: Path) -> Moved:
 def _columns(moved: Moved) -> FloatArray:
     loads = link_loads(moved.experiment)
     assert loads is not None
-    columns = loads.problem(moved.experiment, use=Use.CALIBRATION).rows.columns
-    assert columns is not None
-    return columns
+    rows = loads.problem(moved.experiment, use=Use.CALIBRATION).rows
+    assert np.median(rows.share) == 1.0  # what a row counts is relative to a usual one
+    assert rows.columns is not None
+    return rows.columns
 
 
 def _from_pinocchio(moved: Moved, *, gravity: float = STANDARD_GRAVITY) -> FloatArray:

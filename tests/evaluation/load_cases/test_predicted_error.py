@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -193,3 +194,35 @@ def test_a_variable_that_was_not_fitted_is_refused() -> None:
     """By its name, with those that there are."""
     with pytest.raises(FitError, match="which are temperature, got humidity"):
         predict_from_posterior(_posterior(), _case(changes={"humidity": 1.0}))
+
+
+@pytest.mark.parametrize("offset", ["fitted", "tared"])
+@pytest.mark.parametrize(("unit", "factor"), [("force", 2.0), ("load", 1.0)])
+def test_predicted_errors_change_with_the_unit_of_force_alone(unit: str, factor: float, offset: str) -> None:
+    """All are twice as large where the matrix makes twice the force; loads in another unit leave them as they are."""
+    posterior, case = _posterior(), _case(offset=offset, changes={"temperature": 3.0})
+    if unit == "force":
+        changed, loads = posterior.model_copy(update={"to_wrench": 2.0 * posterior.to_wrench}), case
+    else:
+        by = np.array([*[0.5] * 6, 1.0, 1.0, 1.0])
+        covariance = posterior.covariance * np.outer(by, by)
+        changed = posterior.model_copy(
+            update={
+                "mean": posterior.mean * by,
+                "covariance": covariance,
+                "mean_covariance": covariance[:, :6, :6],
+                "load_centre": 2.0 * np.asarray(posterior.load_centre),
+            }
+        )
+        loads = replace(case, wrench=2.0 * case.wrench)
+    before, after = predict_from_posterior(posterior, case), predict_from_posterior(changed, loads)
+    rtol = 1e-9 if unit == "force" else 0.02  # draws along other axes of the same covariance differ by chance
+    for one, other in ((before.force, after.force), (before.moment, after.moment)):
+        for name in ("axes", "typical", "at_least", "at_most"):
+            wanted = factor * np.asarray(getattr(one, name))
+            np.testing.assert_allclose(getattr(other, name), wanted, rtol=rtol, err_msg=name)
+        assert one.sources
+        assert other.sources == pytest.approx({source: factor * size for source, size in one.sources.items()}, rel=rtol)
+        # by what each adds: no source is more than all together, and the axes add up to the expected square
+        assert 0.0 < one.at_least < one.typical < one.at_most
+        np.testing.assert_allclose((one.axes**2).sum(), (one.draws**2).mean(), rtol=0.1)

@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions, rows_of
-from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread
+from forcetorque.payload.identification.estimate_under_noise import noise_sizes
+from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, settled
+from forcetorque.payload.identification.measurement_model import load_wrench
+from forcetorque.payload.identification.robust_fit import plain_fit
+from tests.payload.identification.payloads import SIZES, poses, problem_of, weight
 
 FULL_SCALE = np.array([100.0, 100.0, 200.0, 10.0, 10.0, 10.0])
 
@@ -51,3 +55,30 @@ def test_sizes_that_explain_the_deviations_are_told(channels: int) -> None:
         assert 0.6 * min(expected) < told.min() <= told.max() < 1.5 * max(expected)
     unknown = spread.told(sizes, np.zeros((6, 6)), spread.covariance(sizes))
     np.testing.assert_allclose(unknown, spread.expected, rtol=1e-9)
+
+
+def test_sizes_settle_where_the_rows_tell_them_again() -> None:
+    """One more round by the equations of the module leaves the prior of the matrix as it is."""
+    rng = np.random.default_rng(4)
+    gravity = poses(60, rng)
+    spread = MatrixSpread.of(np.diag(FULL_SCALE) / 3e4, Assumptions(full_scale=np.full(6, 3e4)))
+    off = np.array([np.linalg.cholesky(one) @ rng.normal(size=6) for one in spread.covariance(0.5 * spread.expected)])
+    reading = weight(gravity) @ (np.eye(6) + off).T + SIZES * rng.normal(size=(60, 6))
+    problem = settled(problem_of(reading, gravity), spread)
+    assert problem.matrix_prior is not None
+    kinds = np.array([spread.covariance(np.tile(kind, (2, 1))) for kind in np.eye(2)])
+    sizes = np.sqrt(
+        [np.linalg.lstsq(kinds[:, own].reshape(2, -1).T, problem.matrix_prior[own].ravel())[0] for own in GROUPS]
+    )
+    guess, residual = plain_fit(problem, drift=False)
+    loads = load_wrench(problem, guess)
+    about = loads - loads.mean(axis=0)
+    information = np.einsum("ni,nj->ij", about, about) / noise_sizes(residual)[:, None, None] ** 2
+    posterior = np.linalg.inv(np.linalg.inv(problem.matrix_prior) + information)
+    told = spread.told(sizes, guess.response - np.eye(6), posterior)
+    np.testing.assert_allclose(told, sizes, rtol=1e-3)
+    assert np.abs(sizes / spread.expected - 1.0).max() > 0.05
+
+
+GROUPS = (slice(0, 3), slice(3, 6))
+"""Forces and moments."""
