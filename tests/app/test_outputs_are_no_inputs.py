@@ -63,6 +63,7 @@ WORDS = {
     "bench fit-plate": f"{PARQUET} --serial FP1 --measure-direction parent_to_child",
     "bench contest": f"{PARQUET}",
     "bench device": f"{PARQUET}",
+    "bench plate": f"{PARQUET}",
     "dataset check": f"{PARQUET}",
     "dataset compensate": f"{PARQUET}",
     "estimate": f"{PARQUET} -o new.csv",
