@@ -87,7 +87,7 @@ WORDS = {
     "skin check": f"{PARQUET}",
     "skin wrench": f"{PARQUET} --table fitted.json",
     "study sphere": f"{PARQUET}",
-    "study fits": f"{PARQUET}",
+    "study fits": f"{PARQUET} -o studied",
     "study skin": f"{PARQUET}",
     "tare": f"{PARQUET} --interval fit --to ft-tools",
     "bench sensor": f"{PARQUET}",
