@@ -173,6 +173,10 @@ def envelope_figure(rows: Sequence[EnvelopeRow]) -> Figure:
             ("rectangle around it", {"color": REFERENCE_COLOUR, "linestyle": "--"}),
         ],
     )
+    largest = max(rows, key=lambda row: row.rectangle_m2)
+    headline(
+        figure, f"The rectangle around the swept space has up to {largest.rectangle_m2:.2f} m2, from {largest.view}"
+    )
     return figure
 
 

@@ -306,9 +306,10 @@ def lambda_force_figure(
     if chosen is not None:
         name, kind = map(shown_name, chosen[:2])
         keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
-    legend_below(figure, keys, title=LAMBDA_MEANING)
-    if chosen is not None:
         headline(figure, f"Mean contact force of the choice: {best:.3g} N ({name}, {kind}, lambda {chosen[2]:g})")
+    elif np.isfinite(forces := _heights(lines, [])).any():
+        headline(figure, f"Least mean contact force: {np.nanmin(forces):.3g} N")
+    legend_below(figure, keys, title=LAMBDA_MEANING)
     return figure
 
 
