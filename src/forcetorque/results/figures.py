@@ -22,6 +22,7 @@ from forcetorque.results.visual_roles import CALIBRATIONS, EXPECTED, HIGHLIGHT, 
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.backend_bases import RendererBase
     from matplotlib.figure import Figure
 
@@ -208,6 +209,19 @@ def shown_name(name: str) -> str:
     if len(line) > LONGEST_NAME:
         line = f"{line[: LONGEST_NAME // 2]}…{line[-(LONGEST_NAME // 2 - 1) :]}"
     return (" " if line.startswith("_") else "") + line.replace("$", r"\$")
+
+
+def number_log_axis(axis: Axis) -> None:
+    """Number an axis that is logarithmic at 1, 2 and 5 of every decade, without powers of ten.
+
+    Args:
+        axis: Axis along or up a panel.
+    """
+    from matplotlib.ticker import LogLocator, NullLocator
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_locator(NullLocator())
 
 
 def two_digits(value: float) -> str:

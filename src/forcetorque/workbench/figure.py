@@ -11,11 +11,14 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
+    headline,
     in_figure_style,
     legend_below,
     look,
     new_figure,
+    rms_sizes,
     shown_name,
+    two_digits,
 )
 from forcetorque.workbench.result import BenchPicture
 
@@ -57,6 +60,11 @@ def bench_figure(picture: BenchPicture | None) -> Figure:
     for panel, axis in zip(below, range(3), strict=True):
         _histogram(panel, picture, axis)
     legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(picture.loads)])
+    sizes = dict(zip(picture.loads, map(rms_sizes, picture.errors), strict=True))
+    forces = {name: size[0] for name, size in sizes.items() if size is not None}
+    if forces:
+        worst = max(forces, key=forces.__getitem__)
+        headline(figure, f"Largest RMS error of the force: {two_digits(forces[worst])} N ({shown_name(worst)})")
     return figure
 
 
