@@ -110,3 +110,31 @@ def test_readings_that_come_late_are_found_to(delay_s: float) -> None:
     if delay_s:
         believing = fit_stretches(stretches, ModelTolerance(delay_s=0.0)).fit
         assert _errors(fit, other).mean() < _errors(believing, other).mean()
+
+
+@pytest.mark.long
+def test_a_hand_that_is_held_throughout_harms_no_foot() -> None:
+    """No window of the arm agrees with the model: its equation decides nothing of legs and feet, whose errors stay."""
+    feet = [SENSORS.index(name) for name in ("l_foot_ft", "r_foot_ft")]
+    for seed in (81, 82):
+        clean, other = swaying(seed, **WRONG), swaying(seed + 500, sensor_seed=seed, **WRONG)
+        pull = np.zeros((len(clean.stretch), 6))
+        pull[:, :3] = 25.0 * np.sin(clean.stretch.time_s[:, None] * [0.9, 1.3, 0.7] + [0.3, 1.2, 2.5])
+        held = _fitted(swaying(seed, touches={"l_hand": pull}, **WRONG))
+        ratio = _errors(held.fit, other)[feet] / _errors(_fitted(clean).fit, other)[feet]
+        assert (ratio < 1.7).all()
+
+
+def test_a_sensor_without_readings_on_one_day_is_left_out_of_it() -> None:
+    """It is named with day and part, and fitted on the other day; the other sensors on both."""
+    day, (dead, *_) = swaying(5, duration_s=5.0).stretch, SENSORS
+    parts = untouched_parts(day.tree, SENSORS, FEET)
+    readings = {**day.readings, dead: np.full_like(day.readings[dead], np.nan)}
+    later = replace(day, label="later", session="later", recording="later", readings=readings)
+    result = fit_stretches([UntouchedStretch(stretch=one, parts=parts) for one in (day, later)])
+    offsets = result.fit.places.offsets
+    assert (dead, "day") in offsets
+    assert (dead, "later") not in offsets
+    assert (SENSORS[1], "later") in offsets
+    assert result.left_out
+    assert all("is left out of 'later'" in words and dead in words for words in result.left_out)
