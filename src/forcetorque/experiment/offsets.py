@@ -225,6 +225,21 @@ def with_policy(
     return bare, offsets
 
 
+def intervals_in_use(experiment: Experiment) -> list[Interval]:
+    """Give the intervals that are not to be ignored.
+
+    Returns:
+        At least one, in the order of the file.
+
+    Raises:
+        ExperimentError: If there is none.
+    """
+    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not intervals:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
+    return intervals
+
+
 def labelled(experiment: Experiment, label: str | None) -> Interval:
     """Find an interval by its label.
 

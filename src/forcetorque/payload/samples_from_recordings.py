@@ -402,9 +402,7 @@ def _expected(
     experiment: Experiment, sensor: ExperimentSensor, loaded: LoadedInterval, at_ns: IntArray
 ) -> tuple[FloatArray, FloatArray]:
     """Derivative of the load's wrench by each parameter, (n, 6, 10), and the expected wrench by the URDF, (n, 6)."""
-    support = loaded.interval.support
-    if support is None:
-        raise ExperimentError(f"interval {loaded.interval.label!r}: expected a support frame, got none")
+    support = loaded.interval.required_support(ExperimentError)
     bare = experiment.mounted(experiment.model)
     tree, name, link = build_tree(bare, support.frame), bare.sensor(sensor.name).name, loaded.link
     question = Question(tree=tree, expected=(name,), equations=())
