@@ -37,7 +37,7 @@ from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.geometry import robot_geometry
-from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_stream
+from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_sensors, shown_stream
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
 from forcetorque.viewer.skin import scene_skin, scene_skin_events
@@ -97,8 +97,8 @@ def build_scene(
         RecordingError: If there is no sample to show.
     """
     groups = by_sensor(experiment, calibrations)
-    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
-    shown = [experiment.sensor(name) for name in names]
+    shown = shown_sensors(experiment, sensors)
+    names = [sensor.name for sensor in shown]
     recording, model = experiment.recording, experiment.model
     skin_alone = is_skin_alone(model)
     clock = shown_stream(experiment, shown)
