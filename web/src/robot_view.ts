@@ -3,6 +3,7 @@
 
 import { Box3, DirectionalLight, GridHelper, Group, HemisphereLight, Vector3 } from "three";
 
+import { toMatrix } from "./arrows";
 import { EARTH, FAINT, PALE, SKY } from "./colours";
 import { empty } from "./dispose";
 import { ErrorOnRobot } from "./error_on_robot";
@@ -95,6 +96,12 @@ export class RobotView extends View3D {
     }
     this.model.place(poses);
     this.model.updateMatrixWorld(true);
+    for (const { link, vertices } of this.data.scene.skin) {
+      const pose = poses.get(link);
+      if (!pose) continue;
+      const box = new Box3().setFromArray(this.data.floats(vertices));
+      room.union(box.applyMatrix4(toMatrix(pose)));
+    }
     return room.union(new Box3().setFromObject(this.model));
   }
 
