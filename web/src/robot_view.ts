@@ -53,7 +53,8 @@ export class RobotView extends View3D {
     const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
-    this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
+    const away = this.data.scene.sensors.length === 0 ? 1.25 * size : size; // skin alone fills its room, a robot does not
+    this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(away)), middle);
     return size;
   }
 
