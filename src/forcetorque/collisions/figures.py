@@ -78,8 +78,8 @@ def collisions_figure(result: Collisions) -> Figure:
     panels[-1].set_xlabel("time, s")
     legend_below(figure, [("force beyond the model", _FORCE), ("noticed from", LIMIT_LINE), ("contact", _CONTACT)])
     strongest = max(result.collisions, key=lambda row: row.force_N, default=None)
-    force = "" if strongest is None else f", up to {strongest.force_N:.3g} N on {shown_name(strongest.link)}"
-    headline(figure, f"{shown_name(result.experiment)}: {_contacts(len(result.collisions))}{force}")
+    size = "" if strongest is None else f", up to {strongest.force_N:.3g} N on {shown_name(strongest.link)}"
+    headline(figure, f"{shown_name(result.experiment)}: {_contacts(len(result.collisions))}{size}")
     return figure
 
 

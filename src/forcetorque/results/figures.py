@@ -109,7 +109,7 @@ def look(k: int) -> Look:
 
 
 def looks(names: Sequence[str]) -> dict[str, Look]:
-    """Looks of curves by name: grey for the prior and for what was logged, blue and on for calibrations.
+    """Looks of curves by name: black for what is expected, grey for prior and logged, blue and on for others.
 
     Args:
         names: Names of curves.
@@ -117,9 +117,14 @@ def looks(names: Sequence[str]) -> dict[str, Look]:
     Returns:
         The look of each.
     """
-    others = [name for name in names if name not in _BEFORE]
-    before = Look(colour=PRIOR.colour, marker=PRIOR.marker, dashes=(0, PRIOR.dash))
-    return {name: before if name in _BEFORE else look(others.index(name)) for name in names}
+    fixed = dict.fromkeys(_BEFORE, PRIOR) | {EXPECTED.word: EXPECTED}
+    others = [name for name in names if name not in fixed]
+    return {
+        name: Look(colour=role.colour, marker=role.marker, dashes=(0, role.dash) if role.dash else "-")
+        if (role := fixed.get(name)) is not None
+        else look(others.index(name))
+        for name in names
+    }
 
 
 _BEFORE = ("prior", "logged")

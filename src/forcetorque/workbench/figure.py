@@ -16,7 +16,6 @@ from forcetorque.results.figures import (
     legend_below,
     look,
     new_figure,
-    rms_sizes,
     shown_name,
     two_digits,
 )
@@ -60,11 +59,10 @@ def bench_figure(picture: BenchPicture | None) -> Figure:
     for panel, axis in zip(below, range(3), strict=True):
         _histogram(panel, picture, axis)
     legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(picture.loads)])
-    sizes = dict(zip(picture.loads, map(rms_sizes, picture.errors), strict=True))
-    forces = {name: size[0] for name, size in sizes.items() if size is not None}
-    if forces:
-        worst = max(forces, key=forces.__getitem__)
-        headline(figure, f"Largest RMS error of the force: {two_digits(forces[worst])} N ({shown_name(worst)})")
+    largest = [np.linalg.norm(errors[:, :3], axis=1).max(initial=0.0) for errors in picture.errors]
+    worst = int(np.argmax(largest))
+    message = f"Largest error of the force at a position: {two_digits(largest[worst])} N"
+    headline(figure, f"{message} ({shown_name(picture.loads[worst])})")
     return figure
 
 

@@ -47,6 +47,8 @@ _OUTLINE_POINTS = 181
 _MAPPED, _FREE = look(1), look(2)
 _FEW = 300
 """Points that can be told apart one by one."""
+CLOUD_POINTS = 1000
+"""Points of a cloud of which some stand for all; more hide each other and the outlines."""
 _FAR = 2.5
 """An outline that is so many times larger than the cloud would hide it and is not drawn."""
 
@@ -139,7 +141,7 @@ def _centre(sphere: SensorSphere) -> FloatArray:
 
 
 def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tuple[int, int]) -> None:
-    force = thinned_cloud(sphere.force - centre)[:, plane]
+    force = thinned_cloud(sphere.force - centre, CLOUD_POINTS)[:, plane]
     cloud = look(0)
     size_points = 5.0 if len(force) < _FEW else 1.8
     panel.plot(*force.T, cloud.marker, color=cloud.colour, markersize=size_points, markeredgewidth=0.0, alpha=0.5)
@@ -259,7 +261,12 @@ def _checked(clouds: Mapping[str, Sequence[tuple[str, Any]]]) -> dict[str, list[
 def _draw_force_plane(panel: Axes, clouds: list[tuple[Look, FloatArray]]) -> None:
     for style, points in clouds:
         panel.plot(
-            *thinned_cloud(points).T, style.marker, color=style.colour, markersize=2.4, markeredgewidth=0.0, alpha=0.5
+            *thinned_cloud(points, CLOUD_POINTS).T,
+            style.marker,
+            color=style.colour,
+            markersize=2.4,
+            markeredgewidth=0.0,
+            alpha=0.5,
         )
     for style, points in clouds:
         panel.plot(*outline(points).T, color=style.colour, linestyle=style.dashes, linewidth=1.2, zorder=3.0)
