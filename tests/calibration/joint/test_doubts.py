@@ -123,7 +123,7 @@ def test_wide_errors_of_the_model_are_counted_by_kind() -> None:
     """In whichever order they come; one alone is named."""
     for deviations in ((4.0, 40.0), (40.0, 4.0)):
         (one,) = _doubts(errors=[_error(0.0, deviation) for deviation in deviations])
-        assert "2 of the kind mass up to 40 times. " in one
+        assert "2 numbers of the kind mass up to 40 times. " in one
     assert "mass of shank 4 times. " in next(iter(_doubts(errors=[_error(0.0, 4.0)])))
 
 
