@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import errno
 import math
 import mmap
@@ -291,6 +292,13 @@ def forget_pages(arrays: Iterable[npt.NDArray[Any]]) -> None:
     for pages in {id(pages): pages for pages in map(_pages_of, arrays) if pages is not None}.values():
         if sys.platform != "win32":
             pages.madvise(mmap.MADV_DONTNEED)
+
+
+def return_freed_memory() -> None:
+    """Give the system back what was freed, which glibc keeps between large arrays; other C libraries are left alone."""
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
+    if trim is not None:
+        trim(ctypes.c_size_t(0))
 
 
 def _pages_of(array: Any) -> mmap.mmap | None:

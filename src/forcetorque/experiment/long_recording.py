@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.rows_on_disk import forget_pages
+from forcetorque.base.rows_on_disk import forget_pages, return_freed_memory
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
@@ -150,9 +150,10 @@ def keep_quality(run: SensorRun, segments: Sequence[Segment], qualities: Sequenc
 
 
 def forget_recording(experiment: Experiment) -> None:
-    """Let go of the memory that streams take which are mapped from files."""
+    """Let go of the memory that streams take which are mapped from files, and of what was computed of a segment."""
     for stream in experiment.recording.streams.values():
         forget_pages([stream.stamp_ns, *(signal.values for signal in stream.signals.values())])
+    return_freed_memory()
 
 
 def joined_findings(segments: Sequence[Segment], findings: Sequence[Iterable[Finding]]) -> tuple[Finding, ...]:
