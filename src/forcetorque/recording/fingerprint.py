@@ -18,14 +18,14 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.rows_on_disk import BLOCK_ROWS, forget_pages
 
 WINDOW = 16
-"""Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""
+"""Samples of a window: one sample, and the next few, may come again by chance."""
 KEPT = 64
 """Hashes that are kept."""
 
 _DIGITS = 4
 """Decimal digits that count."""
 _LEAST_DISTINCT = 12
-"""Samples of a window that must differ from the one before: a sensor that is stuck reads alike in all logs."""
+"""Different samples of a window: one of a resting sensor, whose few values go back and forth, comes again by chance."""
 
 Hashes = NDArray[np.uint64]
 """Hashes of windows."""
@@ -38,13 +38,12 @@ def window_hashes(values: FloatArray) -> Hashes:
         values: Samples; shape (n, k).
 
     Returns:
-        Hashes, each once, the smallest first; none of windows with a missing value, or that hardly change.
+        Hashes, each once, the smallest first; none of windows with a missing value, or with few different samples.
     """
-    # a block has the sample before it, from which its first may differ
     starts = range(0, max(len(values) - WINDOW + 1, 0), BLOCK_ROWS)
     hashes = [np.empty(0, dtype=np.uint64)]
     for start in starts:
-        hashes.append(_hashes(values[max(start - 1, 0) : start + BLOCK_ROWS + WINDOW - 1]))
+        hashes.append(_hashes(values[start : start + BLOCK_ROWS + WINDOW - 1]))
         forget_pages([values])
     return np.unique(np.concatenate(hashes))
 
@@ -60,8 +59,17 @@ def _hashes(values: FloatArray) -> Hashes:
         for place in range(WINDOW):
             total = _mixed(total ^ row[place : place + windows])
     whole = _summed(np.asarray(np.isfinite(values).all(axis=1))) == WINDOW
-    changes = np.concatenate([[False], row[1:] != row[:-1]])
-    return np.unique(total[whole & (_summed(changes) >= _LEAST_DISTINCT)])
+    return np.unique(total[whole & (_distinct(row) >= _LEAST_DISTINCT)])
+
+
+def _distinct(row: Hashes) -> NDArray[np.uint8]:
+    """How many samples of every window differ from all others before them in it."""
+    back = np.full(len(row), WINDOW, dtype=np.uint8)  # samples since the last like it
+    for lag in range(WINDOW - 1, 0, -1):
+        back[lag:][row[lag:] == row[:-lag]] = lag
+    windows = len(row) - WINDOW + 1
+    first = (back[place : place + windows] > place for place in range(WINDOW))
+    return np.add.reduce([*first], dtype=np.uint8)
 
 
 def fingerprint(values: FloatArray) -> str:
@@ -72,7 +80,7 @@ def fingerprint(values: FloatArray) -> str:
 
     Returns:
         At most `KEPT` hashes, hexadecimal numbers of 16 letters one behind the other; empty of samples that are too
-        few, or hardly change.
+        few, or of few different values.
     """
     return _text(window_hashes(values))
 
