@@ -10,6 +10,7 @@ import io
 import subprocess
 import sys
 import tempfile
+from itertools import product
 from pathlib import Path
 
 from PIL import Image
@@ -20,8 +21,11 @@ SHOWN = 2900
 """Sample of the picture of the viewer, in which the robot stands on one leg."""
 FLAGS = ("--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 """The processor draws, as in the tests."""
-COLOURS = 40
-"""Colours of a picture; more take more bytes."""
+COLOURS, SHARES = (40, 32, 24, 16), (1.0, 0.8)
+"""Colours and size of a picture: the first by which it has at most `MOST_BYTES`."""
+VIEWER_COLOURS = (120,)
+"""The same of the viewer, whose grounds take other colours with fewer."""
+MOST_BYTES = 60_000
 DEMO = ["-m", "forcetorque", "demo", "-o", "."]
 BENCH, SKIN, PLATES, CONTEST = (
     [str(ROOT / "examples" / f"{name}.py"), "."] for name in ("29_bench", "30_skin", "31_plates", "19_contest")
@@ -39,6 +43,7 @@ rmse = [0.15, 0.15, 0.05, 0.05, 0.05, 0.01]
 force_mean_N = 0.5
 """
 PICTURES = {
+    "before_and_after": (DEMO, "before_and_after.png"),
     "learnt": (DEMO, "calibrate experiment.toml -o again.json --figure {}"),
     "joint_torques": (DEMO, "estimate experiment.toml -c calibration.json -o samples.parquet --figure {}"),
     "sphere": (DEMO, "study sphere experiment.toml -c calibration.json --figure {}"),
@@ -94,6 +99,55 @@ def draw(folder: Path) -> None:
             (folder / f"{picture}.png").write_bytes(_small(drawn.read_bytes()))
 
 
+def draw_signs(folder: Path) -> None:
+    """Draw the sign of a sensor between two links, of which the outer one hangs.
+
+    Args:
+        folder: Folder for the file.
+    """
+    from matplotlib.patches import Rectangle
+
+    from forcetorque.results.figures import MUTED, in_figure_style, new_figure, png_bytes
+    from forcetorque.results.visual_roles import CALIBRATIONS, EXPECTED, SURFACES
+
+    @in_figure_style
+    def drawn() -> bytes:
+        figure = new_figure(3.2)
+        for panel, direction, other, sign, tail in zip(
+            figure.subplots(1, 2),
+            ("child_to_parent", "parent_to_child"),
+            ("the child on the parent", "the parent on the child"),
+            ("-", "+"),
+            (1.0, -0.2),
+            strict=True,
+        ):
+            links = {"parent, towards the known frame": (1.1, 0.5), "child, mass m beyond the sensor": (-0.9, 0.5)}
+            for name, (bottom, height) in links.items():
+                panel.add_patch(Rectangle((-1.5, bottom), 3.0, height, facecolor=SURFACES["line"][0]))
+                panel.text(0.0, bottom + 0.5 * height, name, ha="center", va="center")
+            panel.add_patch(Rectangle((-0.5, 0.2), 1.0, 0.3, facecolor=MUTED))
+            panel.text(0.6, 0.35, "sensor", va="center")
+            for x in (-0.3, 0.3):
+                panel.plot([x, x], [-0.4, 1.1], color=MUTED, linewidth=2.0, zorder=0)
+            for x, start, end, style in (
+                (-1.8, tail, tail + (-0.8 if sign == "-" else 0.8), CALIBRATIONS[0]),
+                (1.8, -0.3, -1.1, EXPECTED),
+            ):
+                arrow = {"arrowstyle": "-|>", "color": style.colour, "linewidth": 2.5, "mutation_scale": 18.0}
+                panel.annotate("", (x, end), (x, start), arrowprops=arrow)
+            panel.text(
+                -1.95, 0.5 * tail + 0.05, f"reading\n(0, 0, {sign}m g)", ha="right", color=CALIBRATIONS[0].colour
+            )
+            panel.text(1.95, -0.8, "weight\n(0, 0, -m g)", va="center")
+            panel.set_title(f"{direction}: {other}", fontweight="bold")
+            panel.set_xlim(-3.2, 3.2)
+            panel.set_ylim(-1.2, 1.8)
+            panel.set_axis_off()
+        return png_bytes(figure)
+
+    (folder / "signs.png").write_bytes(_small(drawn()))
+
+
 def draw_viewer(folder: Path) -> None:
     """Draw the page of the viewer on an iCub that balances, by a calibration from other motions.
 
@@ -126,7 +180,7 @@ def draw_viewer(folder: Path) -> None:
             page.evaluate(f"window.ft.show({SHOWN})")
             picture = page.screenshot()
             browser.close()
-    (folder / "viewer.png").write_bytes(_small(picture, 3 * COLOURS))
+    (folder / "viewer.png").write_bytes(_small(picture, VIEWER_COLOURS))
 
 
 def _run(arguments: list[str], folder: Path) -> None:
@@ -135,14 +189,19 @@ def _run(arguments: list[str], folder: Path) -> None:
         run.check_returncode()
 
 
-def _small(png: bytes, colours: int = COLOURS) -> bytes:
-    reduced = Image.open(io.BytesIO(png)).convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE, dither=0)
-    small = io.BytesIO()
-    reduced.save(small, "PNG", optimize=True)
+def _small(png: bytes, most: tuple[int, ...] = COLOURS) -> bytes:
+    whole = Image.open(io.BytesIO(png)).convert("RGB")
+    for share, colours in product(SHARES, most):
+        small = io.BytesIO()
+        picture = whole.resize((round(share * whole.width), round(share * whole.height)), Image.Resampling.LANCZOS)
+        picture.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=0).save(small, "PNG", optimize=True)
+        if small.tell() <= MOST_BYTES or most == VIEWER_COLOURS:
+            break
     return small.getvalue()
 
 
 if __name__ == "__main__":
     FOLDER = Path(sys.argv[1]) if len(sys.argv) > 1 else IMAGES
     draw(FOLDER)
+    draw_signs(FOLDER)
     draw_viewer(FOLDER)

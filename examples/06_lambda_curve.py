@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.calibration.thesis.calibrate import calibrate
-from forcetorque.experiment.calibrations_under_test import offset_removed, wrench_errors
+from forcetorque.experiment.calibrations_under_test import wrench_errors
+from forcetorque.experiment.evaluated_wrenches import offset_removed
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since

@@ -43,7 +43,7 @@ def main() -> None:
         spans = estimate_experiment(experiment, corrections_of(experiment, {}))
         measured = np.concatenate([span.measured.of_name(sensor)[:, :3] for span in spans])
         expected = np.concatenate([span.estimates.expected_of(sensor)[:, :3] for span in spans])
-        clouds[experiment.name] = [("prior matrix", measured), ("model", expected)]
+        clouds[experiment.name] = [("prior", measured), ("expected", expected)]
     arguments.output.write_bytes(png_bytes(force_space_figure(clouds)))
 
 

@@ -35,6 +35,24 @@ FLAGS = (
     "--disable-sync",
 )
 
+AXE = Path(__file__).resolve().parents[1] / "web/node_modules/axe-core/axe.min.js"
+needs_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: run `npm ci` in web")
+RUN_AXE = """() => axe.run({runOnly: {type: "tag", values:
+    ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}})"""
+
+
+def violations(page: Page, fewest_rules: int) -> list[tuple[str, list[str]]]:
+    """Give the rules of WCAG 2.2 AA and good practice that axe finds broken, and by what.
+
+    Args:
+        page: The page, at rest: axe fails where what it looks at is replaced meanwhile.
+        fewest_rules: Number of rules that must find something to check.
+    """
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    result: dict[str, list[dict[str, Any]]] = page.evaluate(RUN_AXE)
+    assert len(result["passes"]) + len(result["violations"]) >= fewest_rules
+    return [(rule["id"], [node["html"] for node in rule["nodes"]]) for rule in result["violations"]]
+
 
 class OneBrowser:
     """The browser of the system, started when it is first wanted.

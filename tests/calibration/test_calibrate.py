@@ -17,6 +17,7 @@ from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.cases import some_cases
@@ -154,6 +155,15 @@ def test_a_first_calibration_has_no_prior(arm: Path) -> None:
         _calibrated(experiment, regularisation="held-out")
     with pytest.raises(FitError, match="lambda: 5 counts2 needs a prior matrix to pull towards; give one or lambda 0"):
         _calibrated(experiment, regularisation=5.0)
+
+
+def test_a_stated_load_needs_no_prior(arm: Path) -> None:
+    """Whether the URDF has the load already is not tested then; the fit goes on."""
+    load = '[[load]]\nlink = "hand"\nmass_kg = 0.001\ncentre_of_mass_m = [0.0, 0.0, 0.0]\n\n[[support]]'
+    edit(arm / PARQUET, "[[support]]", load)
+    experiment = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
+    assert link_loads(experiment) is not None
+    assert _calibrated(experiment).prior is None
 
 
 def test_an_experiment_without_the_wanted_intervals_is_refused(arm: Path) -> None:

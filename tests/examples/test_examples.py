@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import json
 import os
 import re
@@ -50,6 +51,19 @@ def test_a_script_needs_no_arguments(script: Path) -> None:
         required = options.get("required")
         assert required is None or not ast.literal_eval(required), name
         assert name.startswith("-") or ast.literal_eval(options.get("nargs", ast.Constant("1"))) in ("?", "*"), name
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda s: s.stem)
+def test_what_a_script_imports_of_the_library_is_there(script: Path) -> None:
+    """Also of a script that only the long tests run."""
+    nodes = [
+        node for node in ast.walk(ast.parse(script.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)
+    ]
+    names = [(node.module, alias.name) for node in nodes for alias in node.names if node.module is not None]
+    assert names
+    for module, name in names:
+        if module.split(".")[0] == "forcetorque":
+            getattr(importlib.import_module(module), name)
 
 
 def _is_slow(page: Path) -> bool:

@@ -55,7 +55,10 @@ def test_what_is_not_there_is_named(tmp_path: Path) -> None:
     """A missing file, an empty folder, a file of another kind."""
     with pytest.raises(MissingFileError, match="none.txt: expected a matrix file, a calibration or a folder"):
         read_population([tmp_path / "none.txt"])
-    with pytest.raises(MissingFileError, match="expected matrix files"):
+    with pytest.raises(MissingFileError, match=r"matrix_SN026.txt; got an empty folder$"):
+        read_population([tmp_path])
+    (tmp_path / "matrix_SIM1.txt").touch()
+    with pytest.raises(MissingFileError, match=r"SN and a number in their names.* got matrix_SIM1.txt$"):
         read_population([tmp_path])
     (tmp_path / "other.json").write_text("{}", encoding="utf-8")
     with pytest.raises(FormatError, match=r"other.json: expected the schema"):

@@ -15,10 +15,11 @@ from forcetorque.evaluation.commands import evaluate
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix
-from forcetorque.formats.prior.firmware_updater import FirmwareFile, write_firmware_file
-from forcetorque.formats.prior.matrix_files import PolynomialModel, write_polynomial_model
+from forcetorque.formats.prior.firmware_updater import FirmwareFile
+from forcetorque.formats.prior.matrix_files import PolynomialModel
 from forcetorque.formats.prior.registry import read_prior_file
 from tests.cases import some_cases
+from tests.formats.prior.written import write_firmware_file, write_polynomial_model
 from tests.scenes.tutorial_log import distortion, motion, robot_text, truth
 
 VOLTS_PER_COUNT = 20.0 / 65536.0

@@ -13,6 +13,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_sensor
+from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Reason
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -21,7 +22,7 @@ from forcetorque.fleet.commands import fleet_report
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.job import CalibrateJob, run_calibrate
-from forcetorque.fleet.report import FleetReport
+from forcetorque.fleet.report import FleetReport, _next
 from forcetorque.fleet.report_page import page
 from forcetorque.fleet.run import run_plan
 from forcetorque.fleet.sensor_evaluation import SensorEvaluation
@@ -203,3 +204,11 @@ def test_logs_of_robots(tmp_path: Path, robots: int) -> None:
         assert np.abs(made.offset - expected.offset).max() <= SAME * np.abs(expected.offset).max()
     report.save(tmp_path / "fleet.html")
     assert (tmp_path / "fleet.html").stat().st_size > 20_000
+
+
+@pytest.mark.parametrize(("remedy", "command"), [("Tare it.", ""), (LOOK_FOR_CAUSE, "inspect day.toml --details")])
+def test_the_next_command_does_what_the_step_says(remedy: str, command: str) -> None:
+    """`inspect` shows causes of an error, and nothing of a tare."""
+    verdict = SimpleNamespace(reasons=(Reason(against="use", text="it errs", remedy=remedy),))
+    row = SimpleNamespace(last_file="day.toml", allowed=None)
+    assert _next(row, verdict, SimpleNamespace()) == (remedy, command)

@@ -75,6 +75,13 @@ def test_the_right_direction_of_gravity_is_proposed(clean: Experiment) -> None:
     np.testing.assert_allclose([float(value) for value in text.split(",")], [0.0, 0.0, -1.0], atol=0.03)
 
 
+def test_gravity_upwards_is_named_once(clean: Experiment) -> None:
+    """It is found as a sense and as a direction, with one line to change."""
+    message = _planted(clean, "gravity upwards").message
+    assert message.count("write gravity_direction") == 1
+    assert "this log does not separate it" not in message
+
+
 @pytest.mark.parametrize("angle_deg", [17.2, -25.0])
 def test_a_turned_mount_is_named_with_angle_and_axis(clean: Experiment, angle_deg: float) -> None:
     """The angle of the sensor, as of `mount`, is within its interval and a degree for errors of the robot."""

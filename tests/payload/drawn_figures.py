@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figure of loads, of random data."""
+"""Figures of loads and of a tare, of random data."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.payload.figure import load_figure
+from forcetorque.payload.figure import load_figure, tare_figure
 from forcetorque.payload.result import LoadRow, RecordingLoadRow
+from forcetorque.payload.tare_offset import TaredSensor, TareErrors
 
 
 def draw_load(rng: np.random.Generator) -> Figure:
@@ -26,6 +27,34 @@ def draw_load(rng: np.random.Generator) -> Figure:
     tool = LoadRow(**_values("tool", 1.5, 0.01, (0.01, 0.0, 0.08), 0.001))
     plate = LoadRow(**_values("plate", 0.4, 0.0, (0.0, 0.0, 0.02), 0.0) | {"estimated": False})
     return load_figure([tool, plate], recordings)
+
+
+def draw_tare(rng: np.random.Generator) -> Figure:
+    """A sensor with an offset before, and one with a long name without."""
+    rows = []
+    for sensor, before in (("arm_ft", rng.normal(size=6)), ("_left $wrist$ " + "x" * 70, None)):
+        offset = rng.normal((5.0, -3.0, 12.0, 0.2, -0.1, 0.0), 0.5)
+        errors = rng.normal(0.0, (0.2, 0.2, 0.2, 0.01, 0.01, 0.01), (400, 6))
+        rows.append(
+            TaredSensor(
+                sensor=sensor,
+                serial="FT1",
+                wrench_source="the logged wrench",
+                interval="at $rest$",
+                samples=400,
+                offset=offset,
+                half_width_95=np.repeat([0.4, 0.02], 3),
+                offset_before=before,
+                load=np.array([0.0, 0.0, -14.7, 0.0, 0.1, 0.0]),
+                load_moves_N=0.01,
+                errors=TareErrors(
+                    time_s=0.05 * np.arange(400),
+                    before=errors - offset + (0.0 if before is None else before),
+                    after=errors,
+                ),
+            )
+        )
+    return tare_figure(rows)
 
 
 def _values(name: str, mass: float, half_kg: float, centre: tuple[float | None, ...], half_m: float) -> dict[str, Any]:

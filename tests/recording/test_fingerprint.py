@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -45,13 +47,39 @@ def test_other_samples_of_the_same_motion_are_others() -> None:
     assert sum(_found(values, values + 0.05 * rng.normal(size=values.shape)) for _ in range(100)) == 0
 
 
-@pytest.mark.parametrize("channels", [1, 2, 3, 6])
-def test_a_resting_sensor_of_few_counts_is_no_other(channels: int) -> None:
-    """Counts of some channels that go up and down by one come again by chance; of six of them, not a window."""
+def test_a_resting_sensor_of_few_counts_is_no_other() -> None:
+    """Counts that go up and down by one come again by chance, windows of them do not."""
     rng = np.random.default_rng(3)
-    resting = [1000.0 + rng.integers(0, 2, size=(4000, 6)) * (np.arange(6) < channels) for _ in range(20)]
+    resting = [np.array(1000.0 + rng.integers(0, 2, size=(4000, 6))) for _ in range(20)]
     assert all(_found(resting[0], other) == 0 for other in resting[1:])
-    assert (_found(resting[0], resting[0][500:]) > 0) == (channels == 6)
+    assert _found(resting[0], resting[0][500:]) > 0
+
+
+@pytest.mark.parametrize("channels", [1, 2, 3, 6])
+def test_a_still_sensor_is_no_copy_of_its_other_logs(channels: int) -> None:
+    """Of a still sensor few channels change, by one count, so that windows come again by chance: none is kept then."""
+    rng = np.random.default_rng(4)
+    logs = [np.tile([12345.0, -23456.0, 3456.0, -30123.0, 1234.0, 8765.0], (20000, 1)) for _ in range(3)]
+    for log in logs:
+        log[:, :channels] = 1000.0 + rng.integers(0, 2, size=(len(log), channels))
+    assert all(_found(one, other) == 0 for one, other in pairwise(logs))
+    windows = [
+        {part.tobytes() for part in np.lib.stride_tricks.sliding_window_view(log[:, :channels], WINDOW, axis=0)}
+        for log in logs[:2]
+    ]
+    assert bool(windows[0] & windows[1]) == (channels == 1), "control: such windows do come again"
+    if channels == 6:
+        assert _found(logs[0], logs[0][500:]) > 0, "control: a copy is found where the sensor says enough"
+
+
+@pytest.mark.parametrize("noise", [0.3, 1.0, 3.0])
+def test_a_still_sensor_with_noise_is_known_again(noise: float) -> None:
+    """Six channels of counts: a copy that is cut at the front is found, another log of the same sensor is not."""
+    rng = np.random.default_rng(5)
+    mean = np.array([-2345.0, 456.0, 3456.0, -123.0, 1234.0, 8765.0])
+    first, second = (np.round(mean + noise * rng.normal(size=(20000, 6))) for _ in range(2))
+    assert _found(first, first[5000:]) > 0
+    assert _found(first, second) == 0
 
 
 @pytest.mark.parametrize("values", [np.ones((100, 6)), _reading(1, WINDOW - 1), np.full((100, 6), np.nan)])

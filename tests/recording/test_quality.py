@@ -113,6 +113,28 @@ def test_a_resting_joint_is_not_stuck() -> None:
     assert stream_findings(stream) == ()
 
 
+def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
+    """A wrong row and a turn that is lost later are two findings; a fast joint, noise and a pause are none."""
+    angle = 2.0 * np.sin(np.arange(COUNT) * 0.03) + 1e-3 * np.random.default_rng(6).normal(size=COUNT)
+    stamps = np.arange(COUNT) * PERIOD_NS
+    stamps[700:] += 500_000_000
+
+    def found(values: np.ndarray) -> tuple[Finding, ...]:
+        joints = Signal(quantity="position", values=values[:, None], columns=("knee",), units=("rad",))
+        stream = Stream(name="leg", clock="c", stamp_ns=stamps, signals={"position": joints})
+        return tuple(finding for finding in stream_findings(stream) if finding.kind != "gap")
+
+    assert np.abs(np.diff(angle)).max() > 0.05  # rad; 5 rad/s
+    angle[700:] += 1.0
+    assert found(angle) == ()
+    angle[300] += 0.8
+    angle[500:] += 2.0 * np.pi
+    first, second = found(angle)
+    assert (first.kind, first.channel, first.unit, first.count) == ("joint_jump", "knee", "rad/s", 3)
+    assert (first.start_ns, first.end_ns) == (299 * PERIOD_NS, 301 * PERIOD_NS)
+    assert second.size == pytest.approx(200.0 * np.pi, rel=0.02)
+
+
 def test_missing_values_are_found_by_stretch() -> None:
     """Two stretches of NaN are two findings with their numbers of samples."""
     values = np.random.default_rng(4).normal(size=(COUNT, 6))

@@ -49,6 +49,16 @@ def test_a_notebook_breaks_no_quantity() -> None:
     assert f"0.124{NO_BREAK}N{NO_BREAK}m" in page
 
 
+def test_a_page_without_style_shows_rules() -> None:
+    """Every cell has its rule and its side, in the colour of the letters, which is seen on light and dark pages."""
+    page = html_table(Table(caption="errors", headings=("sensor", "N"), rows=(("arm", "1.2"), ("leg", "3.4"))))
+    cells = re.findall(r'<t[hd] style="([^"]*)"', page)
+    assert len(cells) == 6
+    assert all("border-bottom:thin solid;" in f"{cell};" for cell in cells)
+    assert [cell.partition(";")[0] for cell in cells] == ["text-align:left", "text-align:right"] * 3
+    assert not re.search(r"#[0-9a-f]{3}|rgb|color", page)
+
+
 @given(st.text())
 def test_only_spaces_change(text: str) -> None:
     """Whatever is written."""

@@ -180,6 +180,10 @@ REFUSED = {
         ("<gazebo><sensor name='ft' type='force_torque'/></gazebo>",),
         "<gazebo> with a force-torque sensor: expected the attribute reference, got none",
     ),
+    "a pose where an origin belongs": (
+        ("<sensor name='ft' type='force_torque'><parent joint='mount'/><pose>0 0 0 0 0 1.57</pose></sensor>",),
+        "<sensor name='ft'>: expected its pose as <origin xyz=... rpy=...>, got <pose>0 0 0 0 0 1.57</pose>",
+    ),
     "a short pose": (
         (_gazebo("mount", "ft", inside="<pose>0 0 1</pose>"),),
         "<pose>: expected six finite numbers, x y z roll pitch yaw, got '0 0 1'",

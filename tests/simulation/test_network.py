@@ -24,7 +24,6 @@ from forcetorque.simulation.network import (
     jitter_stamps,
     lose_messages,
     offset_clocks,
-    repeat_stamps,
     step_back,
 )
 from forcetorque.simulation.sensor import calibrated_by_board
@@ -54,7 +53,7 @@ Fault = Callable[[Recording, int], Recording]
 FAULTS: dict[str, Fault] = {
     "jitter": lambda r, seed: jitter_stamps(r, largest_s=0.002, rng=np.random.default_rng(seed)),
     "loss": lambda r, seed: lose_messages(r, bursts=7, length=2, rng=np.random.default_rng(seed)),
-    "repeated": lambda r, seed: repeat_stamps(r, count=5, rng=np.random.default_rng(seed)),
+    "repeated": lambda r, seed: step_back(r, count=5, seconds=0.0, rng=np.random.default_rng(seed)),
     "backward": lambda r, seed: step_back(r, count=5, seconds=0.002, rng=np.random.default_rng(seed)),
     "failed": lambda r, seed: fail_groups(r, quantity="position", bursts=4, length=3, rng=np.random.default_rng(seed)),
 }
@@ -100,7 +99,7 @@ def test_a_stream_without_sequence_numbers_gets_them() -> None:
 
 def test_repeated_and_backward_stamps_are_counted() -> None:
     """As many as were asked for, of the size that was asked for, and nothing else."""
-    repeated = _found(repeat_stamps(_clean(), count=9, rng=np.random.default_rng(5)).stream("ft"))
+    repeated = _found(step_back(_clean(), count=9, seconds=0.0, rng=np.random.default_rng(5)).stream("ft"))
     assert {kind: [f.count for f in found] for kind, found in repeated.items()} == {"repeated_stamp": [9]}
     backward = _found(step_back(_clean(), count=9, seconds=0.004, rng=np.random.default_rng(5)).stream("ft"))
     assert {kind: [f.count for f in found] for kind, found in backward.items()} == {"backward_stamp": [9]}
@@ -164,7 +163,7 @@ def test_what_does_not_fit_is_refused() -> None:
     with refused(RecordingError, "expected 0 or more faults of 1 or more messages, got 1 of 0"):
         lose_messages(_clean(), bursts=1, length=0, rng=rng)
     with refused(RecordingError, "no stream 'fd'; known: ft, leg"):
-        repeat_stamps(_clean(), count=1, rng=rng, streams=["fd"])
+        step_back(_clean(), count=1, seconds=0.0, rng=rng, streams=["fd"])
     with refused(RecordingError, "expected a stream with temperature to fail"):
         fail_groups(_clean(), quantity="temperature", bursts=1, rng=rng)
     with refused(RecordingError, "no stream 'arm'"):
@@ -175,7 +174,7 @@ def test_the_faults_of_a_network_arrive_through_its_logs(tmp_path: Path) -> None
     """Written as a folder and read, every fault is found as often as it was injected, on both ports."""
     rng = np.random.default_rng(10)
     faulty = lose_messages(_clean(), bursts=8, length=3, rng=rng)
-    faulty = repeat_stamps(faulty, count=6, rng=rng, streams=["ft"])
+    faulty = step_back(faulty, count=6, seconds=0.0, rng=rng, streams=["ft"])
     faulty = fail_groups(faulty, quantity="position", bursts=5, length=2, rng=rng)
     faulty = offset_clocks(faulty, {"leg": -0.125})
     ports = [

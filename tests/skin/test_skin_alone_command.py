@@ -70,6 +70,16 @@ def test_a_report_of_contacts_alone(run: Run, tmp_path: Path) -> None:
     assert "2 patches in 1 recording" in page
 
 
+def test_a_patch_without_a_table_is_refused(run: Run, tmp_path: Path) -> None:
+    """Where nothing else is there to show, in place of a page of nothing, with the command that makes a table."""
+    write_touched(tmp_path, along=3)
+    file, page = tmp_path / "touched.toml", tmp_path / "page.html"
+    error = run("view", str(file), "-o", str(page)).error()
+    assert "nothing to show: patch 'shank' is not shown: [[patch]] states no table" in error
+    assert "`forcetorque skin calibrate`" in error
+    assert not page.exists()
+
+
 @pytest.mark.long
 def test_a_patch_alone_is_shown_and_reported(run: Run, tmp_path: Path) -> None:
     """With a table and neither robot nor sensor."""
@@ -80,6 +90,7 @@ def test_a_patch_alone_is_shown_and_reported(run: Run, tmp_path: Path) -> None:
     file.write_text(text.replace("[[interval]]", 'table = "shank.json"\n\n[[interval]]'), encoding="utf-8")
     shown = run("view", str(file), "-o", str(tmp_path / "page.html"), "--format", "json").result()
     assert (shown["sensors"], shown["skin"]) == ([], ["shank"])
+    assert scene_of(file, load_experiment(file, Purpose.DISPLAY), {}).scene.robot.shapes == ()
     result, page = _report(run, file)
     assert len(result["experiments"][0]["skin"][0]["contacts"]) > 20
     assert "shank: contacts, force ± standard deviation" in page

@@ -18,7 +18,6 @@ import pytest
 
 from forcetorque import load_experiment
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.report.sections import viewer_section
 from forcetorque.viewer.packing import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
@@ -197,19 +196,45 @@ def test_too_many_samples_are_refused_before_they_are_computed(
     monkeypatch.setattr("forcetorque.viewer.scene_builder.differentiated", computed)
     assert "computed" in run("view", PARQUET, "-o", "view.html").error()
     monkeypatch.setattr("forcetorque.viewer.page.MOST_SAMPLES", 10)
-    assert "expected at most 10 samples for one file" in run("view", PARQUET, "-o", "view.html").error()
+    assert "expected at most 10 samples in one page" in run("view", PARQUET, "-o", "view.html").error()
     experiment = load_experiment(arm / PARQUET)
-    with pytest.raises(ForceTorqueError, match="expected at most 10 samples for one file"):
+    with pytest.raises(ForceTorqueError, match="expected at most 10 samples in one page"):
         experiment.view(arm / "view.html")
-    monkeypatch.setattr("forcetorque.report.sections.MOST_SAMPLES", 10)
-    with pytest.raises(ForceTorqueError, match="--viewer: expected at most 10 samples inside a document"):
-        viewer_section(arm / PARQUET, experiment, {})
     assert reached == ["computed"]
     assert not (arm / "view.html").exists()
     assert "GB of memory" not in run("view", PARQUET, "--no-browser").err
     monkeypatch.setattr("forcetorque.viewer.command._LARGE_BYTES", 1)
     assert re.search(
         r"\d+ samples are shown at once, in about \d\.\d GB of memory, of one", run("view", PARQUET, "--no-browser").err
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "option", "computes"),
+    [
+        (("report", "-o", "report.html"), ("--viewer",), "report.report.report"),
+        (("evaluate", "-c", "fitted.json"), ("--view", "view.html"), "evaluation.evaluation.validation_errors"),
+        (("estimate", "-o", "s.parquet"), ("--view", "view.html"), "estimation.estimate.estimate_experiment"),
+    ],
+)
+def test_too_many_samples_beside_a_result_are_refused_before_it_is_computed(
+    run: Run,
+    arm: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    words: tuple[str, ...],
+    option: tuple[str, ...],
+    computes: str,
+) -> None:
+    """Without the option it is computed."""
+
+    def computed(*_: object, **__: object) -> None:
+        raise ForceTorqueError("computed")
+
+    monkeypatch.setattr(f"forcetorque.{computes}", computed)
+    monkeypatch.setattr("forcetorque.viewer.page.MOST_SAMPLES", 10)
+    assert "computed" in run(words[0], PARQUET, *words[1:]).error()
+    assert re.search(
+        r"view.*: expected at most 10 samples in one page", run(words[0], PARQUET, *words[1:], *option).error()
     )
 
 

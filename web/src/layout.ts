@@ -2,7 +2,7 @@
 // Where everything is on the page.
 
 import { button, choice, el } from "./dom";
-import { COMPONENTS } from "./columns";
+import { COMPONENTS, expectedOf } from "./columns";
 import { goToEvent, goToWorst, keysOf } from "./keyboard";
 import type { Shown } from "./plots";
 import type { Quantity, SceneData } from "./scene_data";
@@ -77,6 +77,7 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
 }
 
 function header(data: SceneData, store: Store): HTMLElement {
+  if (data.scene.sensors.length === 0) return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), keysList(data));
   const sensors = data.scene.sensors.map((s, k) => [String(k), s.serial ? `${s.name} (${s.serial})` : s.name] as const);
   const sensor = choice("Sensor", sensors, "0", (value) => store.set({ sensor: Number(value) }));
   store.on(["sensor"], () => {
@@ -94,26 +95,31 @@ function header(data: SceneData, store: Store): HTMLElement {
     });
     quantity.append(el("label", {}, radio, el("span", {}, text)));
   }
-  const keys = el(
+  return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), sensor, quantity, keysList(data));
+}
+
+function keysList(data: SceneData): HTMLElement {
+  return el(
     "details",
     { class: "keys" },
     el("summary", {}, "Keys"),
     el("dl", {}, ...keysOf(data).flatMap(([key, does]) => [el("dt", {}, key), el("dd", {}, does)])),
   );
-  return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), sensor, quantity, keys);
 }
 
-/** Errors on the left, wrenches on the right: a row for each component, those of moments shown when enlarged too. Of a
- *  stream, where no wrench is expected, forces on the left and moments on the right. */
+/** Errors on the left, wrenches on the right: a row for each component, those of moments shown when enlarged too. Where
+ *  no wrench is expected, as of a stream, forces on the left and moments on the right; without sensors the time alone. */
 function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<Panels, "strips" | "plots"> {
   // both show the same: one is enough for who listens
-  const strips = KINDS.map((kind) => el("div", { class: "strip", "aria-hidden": kind === "error" ? null : "true" }));
+  const { live, sensors } = data.scene;
+  const kinds = sensors.length > 0 ? KINDS : KINDS.slice(0, 1);
+  const strips = kinds.map((kind) => el("div", { class: "strip", "aria-hidden": kind === "error" ? null : "true" }));
   const plots: Plot[] = [];
-  const { live } = data.scene;
   const quantities = ["force", "moment"] as const;
   const groups = quantities.map((quantity) => ({ name: `rows ${quantity}`, columns: KINDS.map((kind) => ({ kind, quantity })) }));
   const streamed = { name: "rows", columns: quantities.map((quantity) => ({ kind: "measured", quantity }) as const) };
-  const rows = (live ? [streamed] : data.scene.sensors.length === 0 ? [] : groups).map(({ name, columns }) => {
+  const bare = live || !sensors.some(expectedOf);
+  const rows = (sensors.length === 0 && !live ? [] : bare ? [streamed] : groups).map(({ name, columns }) => {
     const panels = COMPONENTS.flatMap((component) =>
       columns.map((column) => {
         const last = component === 3;
@@ -129,15 +135,15 @@ function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<
     const { sample, hover } = store.state;
     when.textContent = `at ${(data.time[hover ?? sample] ?? 0).toFixed(3)} s`;
   });
+  const headings = rows.length === 0 ? ["Time"] : bare ? ["Force", "Torque"] : ["Error: measured − expected", "Measured and expected"];
   const head = el(
     "div",
     { class: "heading columns" },
-    el("h2", {}, live ? "Force " : "Error: measured − expected ", when),
-    el("h2", {}, live ? "Torque" : "Measured and expected"),
+    ...headings.map((text, k) => el("h2", {}, text, ...(k === 0 ? [" ", when] : []))),
     timeTools(data, store),
   );
   const above = live ? [head] : [head, el("div", { class: "strips" }, ...strips)];
-  const root = el("section", { class: live ? "times live" : "times", "aria-label": "Time plots" }, ...above, ...rows);
+  const root = el("section", { class: live ? "times live" : bare ? "times bare" : "times", "aria-label": "Time plots" }, ...above, ...rows);
   store.on(["quantity"], () => {
     root.dataset["quantity"] = store.state.quantity;
   });
@@ -152,10 +158,9 @@ function timeTools(data: SceneData, store: Store): HTMLElement {
   });
   const tools = el("div", { class: "tools" }, unzoom);
   if (data.scene.sensors.length > 0 && !data.scene.live) {
-    tools.append(
-      button("Worst sample", () => goToWorst(data, store), { title: "Largest error of the validation data in view (w)" }),
-      button("Next event", () => goToEvent(data, store, 1), { title: "Next interval, finding or saved sample (n)" }),
-    );
+    if (data.scene.sensors.some(expectedOf))
+      tools.append(button("Worst sample", () => goToWorst(data, store), { title: "Largest error of the validation data in view (w)" }));
+    tools.append(button("Next event", () => goToEvent(data, store, 1), { title: "Next interval, finding or saved sample (n)" }));
   }
   if (data.scene.sensors.length > 0) tools.append(largerButton(store, "time plots", "times"));
   return tools;

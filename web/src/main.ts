@@ -6,6 +6,7 @@ import "./visual_roles.css";
 import "./style.css";
 
 import { CloudMaker } from "./clouds";
+import { expectedOf } from "./columns";
 import { button, el } from "./dom";
 import { findingsPanel, intervalsPanel, notes } from "./findings_panel";
 import { Frames } from "./frames";
@@ -23,6 +24,7 @@ import { worstSample } from "./points_of_interest";
 import { RobotView } from "./robot_view";
 import { SceneData, UNIT } from "./scene_data";
 import { seriesPanel, switchPanel } from "./series_panel";
+import { largestContact } from "./skin_frames";
 import { skinPanel } from "./skin_panel";
 import { SpaceView } from "./space_view";
 import { StatisticsPanel } from "./statistics_panel";
@@ -66,7 +68,7 @@ function build(data: SceneData): void {
   const first = { sensor: 0, quantity: "force", hidden: new Set<string>(), window: data.span } as const;
   const store = new Store({
     ...first,
-    sample: worstSample(data, first) ?? 0,
+    sample: worstSample(data, first) ?? largestContact(data) ?? 0,
     forceArrows: true,
     momentArrows: true,
     allSensors: true,
@@ -189,8 +191,8 @@ function fillSide(
   );
   panels.side.append(
     ...notes(data),
-    section("Series", seriesPanel(data, store), values.root),
-    section("Error in view", statistics.root),
+    ...(data.scene.sensors.length > 0 ? [section("Series", seriesPanel(data, store), values.root)] : []),
+    ...(data.scene.sensors.some(expectedOf) ? [section("Error in view", statistics.root)] : []),
     section("Shown", switchPanel(data, store)),
     ...skinPanel(data, store, frames, stage.robot.skin.metresPer),
     section("Saved samples", marksPanel(data, store, say), panels.status),

@@ -3,6 +3,7 @@
 
 import { Box3, DirectionalLight, GridHelper, Group, HemisphereLight, Vector3 } from "three";
 
+import { toMatrix } from "./arrows";
 import { EARTH, FAINT, PALE, SKY } from "./colours";
 import { empty } from "./dispose";
 import { ErrorOnRobot } from "./error_on_robot";
@@ -52,7 +53,8 @@ export class RobotView extends View3D {
     const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
-    this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
+    const away = this.data.scene.sensors.length === 0 ? 1.25 * size : size; // skin alone fills its room, a robot does not
+    this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(away)), middle);
     return size;
   }
 
@@ -95,6 +97,12 @@ export class RobotView extends View3D {
     }
     this.model.place(poses);
     this.model.updateMatrixWorld(true);
+    for (const { link, vertices } of this.data.scene.skin) {
+      const pose = poses.get(link);
+      if (!pose) continue;
+      const box = new Box3().setFromArray(this.data.floats(vertices));
+      room.union(box.applyMatrix4(toMatrix(pose)));
+    }
     return room.union(new Box3().setFromObject(this.model));
   }
 

@@ -2,6 +2,7 @@
 // Which series and parts are shown; the colours are the legend of every view.
 
 import { seriesColour } from "./colours";
+import { expectedOf } from "./columns";
 import { checkBox, el } from "./dom";
 import type { SceneData } from "./scene_data";
 import type { State, Store } from "./store";
@@ -66,6 +67,8 @@ export function switchPanel(data: SceneData, store: Store): HTMLElement {
 
 /** Whether a scene has nothing that a switch would show. */
 function absent({ scene }: SceneData, key: Switch): boolean {
+  if (scene.sensors.length === 0 && !scene.live && !key.startsWith("skin")) return true;
+  if (!scene.sensors.some(expectedOf) && ["errorOnRobot", "scaleByCalibrations"].includes(key)) return true;
   if (scene.live && ["errorOnRobot", "scaleByCalibrations", "wireframes", "hideIgnored"].includes(key)) return true;
   const parts = { contacts: scene.contacts, skin: scene.skin, skinEvents: scene.skin_events };
   return key in parts && parts[key as keyof typeof parts].length === 0;

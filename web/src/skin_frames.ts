@@ -60,11 +60,28 @@ export function deviation({ force, spread }: SkinContact): number {
 
 /** Largest force of contacts; 0 without any. */
 export function largestForce(data: SceneData, frames: SkinContactFrames): number {
+  return largest(data, frames)[1];
+}
+
+/** First sample of the frame with the largest contact, of patches before what a skinManager saw; null if none. */
+export function largestContact(data: SceneData): number | null {
+  for (const all of [data.scene.skin, data.scene.skin_events]) {
+    const found = all.map(({ contacts }) => ({ contacts, most: largest(data, contacts) }));
+    const { contacts, most } = found.sort((one, other) => other.most[1] - one.most[1])[0] ?? {};
+    if (!contacts || !most || most[1] === 0) continue;
+    const frame = data.integers(contacts.first).findIndex((first) => first > most[0]) - 1;
+    return Math.min(data.firstAt(data.doubles(contacts.time_s)[frame] ?? 0), data.samples - 1);
+  }
+  return null;
+}
+
+/** Number of the contact with the largest force, and that force; N. */
+function largest(data: SceneData, frames: SkinContactFrames): readonly [number, number] {
   const forces = data.floats(frames.force);
-  let largest = 0;
+  let most: readonly [number, number] = [0, 0];
   for (let k = 0; k + 2 < forces.length; k += 3) {
     const norm = Math.hypot(forces[k] ?? 0, forces[k + 1] ?? 0, forces[k + 2] ?? 0);
-    if (norm > largest) largest = norm;
+    if (norm > most[1]) most = [k / 3, norm];
   }
-  return largest;
+  return most;
 }

@@ -125,15 +125,22 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
             return command(**given)
         from forcetorque.base.output_file import existing_files_replaced_last
         from forcetorque.experiment.kept_experiments import kept_experiments
+        from forcetorque.viewer.posture import sample_count
+        from forcetorque.viewer.view_file import require_room
 
         files = _declared(view, given)
 
         def write(path: Path, experiment: Experiment | None, result: Result) -> None:
             _write(name, path, files[path], given, result, experiment)
 
+        def accept(path: Path, experiment: Experiment) -> None:
+            if path in files:
+                require_room(files[path], sample_count(experiment, given.get("sensor")))
+
         # estimates of many recordings let one go after the other
         one_by_one = name == "estimate" and len(files) > 1
-        with existing_files_replaced_last(), kept_experiments(f"--view {view}", write if one_by_one else None) as known:
+        finished = write if one_by_one else None
+        with existing_files_replaced_last(), kept_experiments(f"--view {view}", accept, finished) as known:
             result = command(**given)
         if result is not None and not one_by_one:
             for path in files:
@@ -170,7 +177,7 @@ def _write(
     from forcetorque.viewer.view_file import view_files, write_view
 
     log = start_logging()
-    built = _scene(path, file, known, given, log.info)
+    built = _scene(path, known, given, log.info)
     for note in built.scene.notes:
         log.info("%s", note)
     verdicts = [
@@ -181,20 +188,16 @@ def _write(
     log.info("written: %s, %.1f MB", ", ".join(map(str, view_files(file))), 1e-6 * write_view(file, built))
 
 
-def _scene(
-    path: Path, file: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress
-) -> BuiltScene:
-    """What the viewer shows of an experiment in a file, by the options of the command."""
+def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress) -> BuiltScene:
+    """What the viewer shows of an experiment, by the options of the command."""
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.payload.load_of_log import is_experiment_file
     from forcetorque.results.terminal.input import read_calibrations
     from forcetorque.viewer.contacts import ContactOptions
     from forcetorque.viewer.scene_builder import build_scene, scene_of
-    from forcetorque.viewer.view_file import require_room
 
-    accept = partial(require_room, file)
     if known is not None and not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
-        return build_scene(known, {}, progress=progress, accept=accept)
+        return build_scene(known, {}, progress=progress)
     experiment = load_experiment(path, Purpose.DISPLAY) if known is None else known
     sensors: Sequence[str] | None = given.get("sensor")
     return scene_of(
@@ -203,7 +206,6 @@ def _scene(
         read_calibrations(given.get("calibration"), sensors),
         sensors=sensors,
         progress=progress,
-        accept=accept,
         contact_options=ContactOptions(
             contacts=given.get("contacts"), length_scale=given.get("length_scale"), offset=given.get("offset")
         ),

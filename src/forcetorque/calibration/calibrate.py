@@ -19,7 +19,6 @@ from forcetorque.calibration.interval_and_mount_doubts import (
     doubts_of_samples,
     with_estimated_mount,
 )
-from forcetorque.calibration.joint.artefact import joint_posterior
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
@@ -294,11 +293,8 @@ class SensorCalibrations(DrawnResult):
             file = Path(entry.file)
             file.parent.mkdir(parents=True, exist_ok=True)
             entry.calibration.save(file, force=force)
-        if self.joint is not None and self.joint.file is not None:
-            sensors = [entry.calibration.sensor for entry in self.calibrations]
-            joint_posterior(self.joint.fit, {one.name: one.serial for one in sensors}).save(
-                self.joint.file, force=force
-            )
+        if self.joint is not None and self.joint.file is not None and self.joint.posterior is not None:
+            self.joint.posterior.save(self.joint.file, force=force)
         return self.model_copy(update={"saved": True})
 
     def figure(self) -> Figure:

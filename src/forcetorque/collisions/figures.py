@@ -11,6 +11,7 @@ from forcetorque.results.figures import (
     LIMIT_LINE,
     PAPER,
     ROW_INCHES,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -76,6 +77,9 @@ def collisions_figure(result: Collisions) -> Figure:
         )
     panels[-1].set_xlabel("time, s")
     legend_below(figure, [("force beyond the model", _FORCE), ("noticed from", LIMIT_LINE), ("contact", _CONTACT)])
+    strongest = max(result.collisions, key=lambda row: row.force_N, default=None)
+    size = "" if strongest is None else f", up to {strongest.force_N:.3g} N on {shown_name(strongest.link)}"
+    headline(figure, f"{shown_name(result.experiment)}: {_contacts(len(result.collisions))}{size}")
     return figure
 
 
@@ -105,7 +109,7 @@ def joint_collisions_figure(result: JointCollisions) -> Figure:
         panel.axvspan(row.start_s, row.end_s, color=_CONTACT["color"], alpha=0.25, linewidth=0.0)
     panel.set_xlabel("time, s")
     panel.set_ylabel("external torque over threshold")
-    panel.set_title(f"{shown_name(result.experiment)}: {_contacts(len(result.contacts))}")
+    headline(figure, f"{shown_name(result.experiment)}: {_contacts(len(result.contacts))}")
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return figure
 

@@ -64,9 +64,7 @@ def equation_at(run: SensorRun, interval: Interval, at_ns: IntArray) -> tuple[Bo
     Raises:
         ExperimentError: If the interval has no support, or no link lies beyond the sensor.
     """
-    support = interval.support
-    if support is None:
-        raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+    support = interval.required_support(ExperimentError)
     experiment = run.experiment
     tree = build_tree(experiment.model_on(support), support.frame)
     part = next((part for part in sub_models(tree, [run.sensor.name]) if part.sensor == run.sensor.name), None)

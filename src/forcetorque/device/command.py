@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from forcetorque.device.device_file import DeviceFile
 
 
-@command()
+@command("the requirements against their limits")
 def design_device(
     file: Annotated[
         "DeviceFile | Path | str | None",

@@ -19,7 +19,7 @@ from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.spanned_directions import DeviceSpan, device_span
 from forcetorque.results.answer import Answer, Concern, typed
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.motion import JointMotion
 
@@ -132,9 +132,10 @@ class DevicePicture:
     """Wrenches of the innermost sensor by the names of the motions; shapes (n, 6); N, N m."""
 
 
-class DeviceDesign(Result):
+class DeviceDesign(DrawnResult):
     """A calibration device, checked by computation."""
 
+    drawn_by: ClassVar[str] = "forcetorque.device.figures:requirement_figure"
     answered_by: ClassVar[str | None] = "forcetorque.device.design:device_answer"
 
     schema_name: Literal["forcetorque/device/2"] = Field(default="forcetorque/device/2", alias="schema")
@@ -258,7 +259,7 @@ def device_answer(design: DeviceDesign) -> Answer:
         if calibrated
         else "write URDF and logs by the same command with --output FOLDER",
         command=typed("inspect", calibrated[0]) if calibrated else "",
-        written=(design.folder, *design.figures),
+        written=(design.folder, *design.figures, design.figure_file),
         concern=Concern.BAD if failed else Concern.NONE,
     )
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a calibration device: motion, motors, space, errors, and options for its excitation."""
+"""Figures of a calibration device: requirements, motion, motors, space, errors, and options for its excitation."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,12 +14,14 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.output_file import new_folder
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import space_figure
-from forcetorque.device.demand_result import GradeRow
+from forcetorque.device.demand_result import GradeRow, RequirementRow, Verdict
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
 from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
 from forcetorque.device.spanned_directions import DirectionRow
 from forcetorque.results.figures import (
+    LIMIT_LINE,
+    MUTED,
     REFERENCE_COLOUR,
     ROW_INCHES,
     draw_over_time,
@@ -30,15 +32,79 @@ from forcetorque.results.figures import (
     legend_below,
     look,
     new_figure,
+    number_log_axis,
     png_bytes,
     shown_name,
     thinned_line,
 )
+from forcetorque.results.number_text import amount
+from forcetorque.results.visual_roles import TONES
 from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+_REQUIREMENT_INCHES, _AROUND_INCHES = 0.24, 0.7
+"""Height of a requirement, and of axes and title; inch."""
+_VERDICTS: dict[Verdict, dict[str, Any]] = {
+    Verdict.MET: {"color": TONES["good"].colour, "marker": "o", "linewidth": 2.0},
+    Verdict.NOT_MET: {"color": TONES["bad"].colour, "marker": "X", "linewidth": 2.0},
+}
+
+
+@in_figure_style
+def requirement_figure(design: DeviceDesign) -> Figure:
+    """Draw the value of every requirement as a share of its limit.
+
+    Args:
+        design: The device.
+
+    Returns:
+        The figure, a line per requirement with value, limit and verdict; temperatures have no share.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    rows = design.demands.requirements
+    figure = new_figure(_AROUND_INCHES + _REQUIREMENT_INCHES * len(rows))
+    panel = figure.subplots()
+    panel.axvline(1.0, **LIMIT_LINE)
+    panel.set_xscale("log")
+    for place, row in enumerate(rows):
+        style = _VERDICTS.get(row.verdict)
+        if style is not None and row.value and row.limit and row.unit != "degC":
+            panel.plot([1.0, row.value / row.limit], [place, place], markevery=[1], **style)
+        panel.text(
+            1.01,
+            place,
+            _compared_words(row),
+            transform=panel.get_yaxis_transform(),
+            va="center",
+            color=MUTED if style is None else style["color"],
+        )
+    panel.set_yticks(range(len(rows)), [f"{row.number}. {row.requirement}" for row in rows])
+    panel.set_ylim(len(rows) - 0.5, -0.5)
+    panel.margins(x=0.1)
+    number_log_axis(panel.xaxis)
+    panel.set_xlabel("value over its limit")
+    counts = {verdict: sum(row.verdict is verdict for row in rows) for verdict in Verdict}
+    headline(
+        figure,
+        f"{shown_name(design.device)} with {len(design.sensors)} sensor{'s' * (len(design.sensors) > 1)} meets "
+        f"{counts[Verdict.MET]} of {counts[Verdict.MET] + counts[Verdict.NOT_MET]} requirements; "
+        f"{counts[Verdict.NOT_COMPUTED]} more are not computed",
+    )
+    keys = [(str(verdict), style) for verdict, style in _VERDICTS.items()]
+    legend_below(figure, [*keys, ("limit", LIMIT_LINE)])
+    return figure
+
+
+def _compared_words(row: RequirementRow) -> str:
+    if row.value is None or row.limit is None:
+        return f"{row.verdict}"
+    return f"{amount(row.value, '')} of {row.limit:g} {row.unit}".rstrip() + f": {row.verdict}"
 
 
 @in_figure_style
@@ -106,6 +172,10 @@ def envelope_figure(rows: Sequence[EnvelopeRow]) -> Figure:
             ("convex hull of the swept space", {"color": look(0).colour, "linestyle": "-"}),
             ("rectangle around it", {"color": REFERENCE_COLOUR, "linestyle": "--"}),
         ],
+    )
+    largest = max(rows, key=lambda row: row.rectangle_m2)
+    headline(
+        figure, f"The rectangle around the swept space has up to {largest.rectangle_m2:.2f} m2, from {largest.view}"
     )
     return figure
 
@@ -178,16 +248,12 @@ def _requirement_6(rows: Sequence[GradeRow]) -> str:
 
 
 def _draw_errors(panel: Axes, errors: FloatArray, limit: float, label: str) -> None:
-    from matplotlib.ticker import LogLocator, NullLocator
-
     for k in range(errors.shape[1]):
         places = np.arange(len(errors)) + 0.12 * (k - 1.5)
         panel.plot(places, errors[:, k], linestyle="none", marker=look(k).marker, color=look(k).colour, markersize=6.0)
     panel.axhline(limit, color=REFERENCE_COLOUR, linestyle="--", linewidth=1.0)
     panel.set_yscale("log")
-    panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    panel.yaxis.set_major_formatter("{x:g}")
-    panel.yaxis.set_minor_locator(NullLocator())
+    number_log_axis(panel.yaxis)
     panel.set_ylabel(label)
 
 

@@ -24,10 +24,11 @@ from forcetorque.estimation.skin_contacts import (
 from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
+from forcetorque.experiment.offsets import intervals_in_use
 from forcetorque.experiment.seen_and_outside_samples import AppliedReadings, applied_readings
 from forcetorque.experiment.sensor_reading import Correction, Readings, readings_at, wrench_at
 from forcetorque.recording.alignment import interpolate, require_overlap
-from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
+from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
@@ -379,9 +380,7 @@ def estimate_experiment(
     Raises:
         ExperimentError: If no interval has a support.
     """
-    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
-    if not intervals:
-        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
+    intervals = intervals_in_use(experiment)
     named = experiment.contacts if contacts is None else tuple(contacts)
     scale = experiment.section(LENGTH_SCALE) if length_scale is None else length_scale
     source = clock_stream(experiment)

@@ -23,6 +23,8 @@ from forcetorque.recording.recording import Interval
 Population = Mapping[str, FloatArray]
 """Matrices of other sensors by serial number; shape (6, c) each; N/count, N m/count."""
 
+_NAMED = 4
+"""Files of a folder that a message names."""
 _DAY_NS = 86_400_000_000_000
 """Stamps below count from the start of a recording: nobody records on the first of January 1970 (heuristic)."""
 
@@ -292,7 +294,11 @@ def _files(path: Path) -> list[Path]:
         file for file in path.iterdir() if file.suffix == ".json" or serial_number_in_name(file.name) is not None
     )
     if not files:
-        raise MissingFileError(f"{path}: expected matrix files such as matrix_SN026.txt or calibrations, there is none")
+        others = ", ".join(sorted(file.name for file in path.iterdir())[:_NAMED]) or "an empty folder"
+        raise MissingFileError(
+            f"{path}: expected calibrations, or matrix files with SN and a number in their names, such as "
+            f"matrix_SN026.txt; got {others}"
+        )
     return files
 
 

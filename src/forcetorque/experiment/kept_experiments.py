@@ -13,19 +13,24 @@ if TYPE_CHECKING:
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.results.result import Result
 
+    Accept = Callable[[Path, Experiment], None]
     Finished = Callable[[Path, Experiment, Result], None]
 
 _KEPT: ContextVar[dict[Path, Experiment] | None] = ContextVar("forcetorque_kept_experiments", default=None)
+_ACCEPT: ContextVar[Accept | None] = ContextVar("forcetorque_accept", default=None)
 _FINISHED: ContextVar[Finished | None] = ContextVar("forcetorque_finished", default=None)
 _ASKED_BY: ContextVar[str] = ContextVar("forcetorque_experiments_asked_by", default="")
 
 
 @contextmanager
-def kept_experiments(asked_by: str, finished: Finished | None = None) -> Iterator[Mapping[Path, Experiment]]:
+def kept_experiments(
+    asked_by: str, accept: Accept | None = None, finished: Finished | None = None
+) -> Iterator[Mapping[Path, Experiment]]:
     """Keep every experiment that is read in the body, so that its log need not be read again.
 
     Args:
         asked_by: Option that needs them, with its value, for messages.
+        accept: Called with file and experiment when it was read; raises where it cannot be used.
         finished: Called with file, experiment and result of each experiment by a command that reads more recordings
             than memory holds; then none is kept.
 
@@ -34,12 +39,13 @@ def kept_experiments(asked_by: str, finished: Finished | None = None) -> Iterato
     """
     experiments: dict[Path, Experiment] = {}
     token, option = _KEPT.set(experiments if finished is None else None), _ASKED_BY.set(asked_by)
-    done = _FINISHED.set(finished)
+    accepted, done = _ACCEPT.set(accept), _FINISHED.set(finished)
     try:
         yield experiments
     finally:
         _KEPT.reset(token)
         _ASKED_BY.reset(option)
+        _ACCEPT.reset(accepted)
         _FINISHED.reset(done)
 
 
@@ -49,7 +55,7 @@ def experiments_asked_by() -> str:
 
 
 def keep_experiment(path: Path, experiment: Experiment) -> Experiment:
-    """Keep an experiment if someone asked for it.
+    """Keep an experiment if someone asked for it, and see first that it can be used.
 
     Args:
         path: Its file, or the log that it was made of.
@@ -58,7 +64,9 @@ def keep_experiment(path: Path, experiment: Experiment) -> Experiment:
     Returns:
         The same.
     """
-    kept = _KEPT.get()
+    accept, kept = _ACCEPT.get(), _KEPT.get()
+    if accept is not None:
+        accept(path, experiment)
     if kept is not None:
         kept[path] = experiment
     return experiment

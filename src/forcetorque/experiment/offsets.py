@@ -132,6 +132,10 @@ class SensorOffset:
     """How far the force that it demands is from its mean at most."""
     weight_N: float
     """Mean norm of that force."""
+    time_s: FloatArray
+    """Instants of its samples after the start of the recording; shape (n,); s."""
+    lacking: FloatArray
+    """Expected wrench less the one that is measured without an offset; shape (n, 6); N, N m."""
     not_logged: tuple[str, ...] = ()
     """Joints that no stream holds and that the demanded moments depend on: they are taken to be at rest anywhere, so
     that forces are known and moments are not."""
@@ -219,6 +223,21 @@ def with_policy(
     by_label = {offset.interval.label: offset.wrench for offset in offsets}
     bare = correction.with_offset(np.zeros(6), f"{policy} of every interval", intervals=by_label)
     return bare, offsets
+
+
+def intervals_in_use(experiment: Experiment) -> list[Interval]:
+    """Give the intervals that are not to be ignored.
+
+    Returns:
+        At least one, in the order of the file.
+
+    Raises:
+        ExperimentError: If there is none.
+    """
+    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not intervals:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
+    return intervals
 
 
 def labelled(experiment: Experiment, label: str | None) -> Interval:
@@ -371,6 +390,8 @@ def _offset(
         load=expected.mean(axis=0),
         load_moves_N=float(np.linalg.norm(force - force.mean(axis=0), axis=1).max()),
         weight_N=float(np.linalg.norm(force, axis=1).mean()),
+        time_s=time_s,
+        lacking=lacking,
         not_logged=not_logged,
     )
 

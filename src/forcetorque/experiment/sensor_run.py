@@ -253,9 +253,7 @@ class SensorRun:
         Raises:
             ExperimentError: If the interval has no support.
         """
-        support = interval.support
-        if support is None:
-            raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+        support = interval.required_support(ExperimentError)
         motions = self._motions.setdefault(_key(interval), [])
         for motion in motions:
             if set(joints) <= set(motion[0].names):

@@ -32,7 +32,7 @@ def logged_content(experiment: Experiment, sensor: ExperimentSensor, interval: I
         interval: An interval of its recording.
 
     Returns:
-        Hashes of windows of samples; None where these are too few, or hardly change.
+        Hashes of windows of samples; None where these are too few, or too few differ.
     """
     windows = fingerprint(_logged(experiment, sensor, interval))
     return Content(quantity=sensor.quantity, windows=windows) if windows else None

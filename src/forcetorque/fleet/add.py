@@ -62,7 +62,7 @@ class Added(Result):
             subject=f"{self.dataset}: {counted(recordings, 'recording')} of {counted(sensors, 'sensor')}",
             verdict=f"{added} ADDED, {present} ALREADY THERE" if present else f"{added} ADDED",
             why=("nothing was changed; the same inputs, options and version were added before",) if not added else (),
-            step="Show the sensors, the worst first:",
+            step="show the sensors, the worst first",
             command=typed("fleet", "table", self.dataset),
         )
 

@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains
-from forcetorque.evaluation.answers import CONCERN
+from forcetorque.evaluation.answers import CONCERN, is_for_inspect
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -331,14 +331,14 @@ def _next(row: RankedSensor, verdict: LoadCaseVerdict, calibration: Calibration)
     # commands take experiment files, not a log that one was applied to
     is_experiment = row.last_file.endswith(".toml")
     inspect = typed("inspect", row.last_file, "--details") if is_experiment else ""
-    if reason is not None and reason.against == "use":
-        return reason.remedy or _sentence(reason.text), inspect
+    if reason is not None and reason.against == "use":  # of another remedy `inspect` shows nothing
+        return reason.remedy or _sentence(reason.text), inspect if is_for_inspect(verdict) else ""
     if row.allowed is not None and row.error > row.allowed:
         return LOOK_FOR_CAUSE, inspect
     if reason is None:
         return "", ""
     if verdict.within is None or verdict.within >= CONFIDENCE:
-        return reason.remedy or _sentence(reason.text), inspect
+        return reason.remedy or _sentence(reason.text), inspect if is_for_inspect(verdict) else ""
     little = _little_known(calibration)
     loads = "" if little is None else f", above all loads along {little}"
     plan = typed("plan", row.last_file, "-c", row.calibration, "--clearance-deg", "10") if is_experiment else ""

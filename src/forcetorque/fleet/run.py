@@ -84,7 +84,7 @@ class FleetRun(Result):
             subject=f"{self.plan}: {self.recordings} recordings",
             verdict=", ".join(text for text in counts if not text.startswith("0 ")) or "NOTHING TO DO",
             why=tuple(why),
-            step="Correct what failed, and try it again:" if self.failures else "Show the sensors, the worst first:",
+            step="correct what failed, and try it again" if self.failures else "show the sensors, the worst first",
             command=(
                 typed("fleet", "run", self.plan, "--retry-failed")
                 if self.failures

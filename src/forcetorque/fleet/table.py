@@ -93,7 +93,7 @@ class FleetTable(Result):
                     f"{self.dataset} has {counted(len(self.sensors), 'sensor')} in "
                     f"{counted(self.recordings, 'recording')}",
                 ),
-                step="Calibrate it from the dataset:",
+                step="calibrate it from the dataset",
                 command=typed("calibrate", self.dataset, "--sensor", row.serial, "-o", f"{row.serial}.json"),
                 concern=Concern.UNCERTAIN if far else Concern.NONE,
             )

@@ -222,9 +222,7 @@ class _Limb:
 
     @classmethod
     def of(cls, run: SensorRun, interval: Interval, rows: IntArray, at_ns: IntArray) -> _Limb:
-        support = interval.support
-        if support is None:
-            raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+        support = interval.required_support(ExperimentError)
         tree = build_tree(run.experiment.model_on(support), support.frame)
         question = Question(tree=tree, expected=(run.sensor.name,), equations=())
         joints, root = _motion(run, interval, required_joints_of(question), at_ns)
@@ -319,12 +317,10 @@ def _motion(
     run: SensorRun, interval: Interval, joints: Collection[str], at_ns: IntArray
 ) -> tuple[JointMotion, RootMotion]:
     experiment = run.experiment
-    if interval.support is None:
-        raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
     return robot_motion_at(
         experiment.recording,
         experiment.model,
-        interval.support,
+        interval.required_support(ExperimentError),
         tuple(joints),
         run.stream,
         at_ns,

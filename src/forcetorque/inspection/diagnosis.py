@@ -190,7 +190,11 @@ def fault_finding(comparison: Comparison, diagnosis: Diagnosis) -> Finding:
     Raises:
         ValueError: If there is no fault that the measurements show.
     """
-    best, others = diagnosis.faults[0], diagnosis.faults[1:]
+    # gravity upwards is found as a sense and as a direction: the likelier of the two is named
+    distinct: dict[tuple[str, str], Explanation] = {}
+    for one in diagnosis.faults:
+        distinct.setdefault((one.kind, one.about), one)
+    best, *others = distinct.values()
     stability = stability_of(comparison.run.sensor)
     shown = _shown(diagnosis.evidence, diagnosis.nothing, best, stability)
     if shown is None:

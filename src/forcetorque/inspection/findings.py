@@ -34,7 +34,7 @@ from forcetorque.skin.taxels.recording import patch_recordings
 
 _Found = TypeVar("_Found")
 
-_UNRELIABLE = UNEXPLAINED | {"drift", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
+_UNRELIABLE = UNEXPLAINED | {"drift", "saturation", "frozen", "stuck", "gap", "backward_stamp", "joint_jump"}
 """Kinds of findings that make the samples of their interval unreliable."""
 
 

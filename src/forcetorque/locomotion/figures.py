@@ -252,6 +252,12 @@ def motion_figure(motion: Motion) -> Figure:
         keys.append(("step", {"color": REFERENCE_COLOUR, "linestyle": ":"}))
         keys.append(("settled", {"color": REFERENCE_COLOUR, "linestyle": "-"}))
     legend_below(figure, keys)
+    swings = [row for row in motion.oscillations if row.oscillates]
+    columns = dict.fromkeys((row.interval, row.column) for row in motion.oscillations)
+    moving = dict.fromkeys((row.interval, row.column) for row in swings)
+    fastest = max((row.frequency_hz or 0.0 for row in swings), default=0.0)
+    count = f"Columns that oscillate: {len(moving)} of {len(columns)}"
+    headline(figure, count + (f", at up to {fastest:.3g} Hz" if swings else ""))
     return figure
 
 

@@ -228,5 +228,6 @@ def tare_answers(tare: Tare) -> Iterator[Answer]:
                 f"{weighs}moves by {amount(row.load_moves_N, 'N')} in {row.samples} samples of {row.interval!r}",
             ),
             step="add an [[interval]] in which nothing moves, and name it by --interval" if moves else "",
+            written=(tare.figure_file,) if row is tare.sensors[-1] else (),
             concern=Concern.UNCERTAIN if moves else Concern.NONE,
         )

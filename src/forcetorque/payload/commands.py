@@ -306,6 +306,9 @@ def tare(
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
     override: OverrideOption = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG, SVG or PDF of offset and error, before and after.")
+    ] = None,
     force: ForceOption = False,
     details: DetailsOption = False,
     output_format: FormatOption = Format.TABLE,
@@ -324,6 +327,7 @@ def tare(
 
     log = start_logging()
     refuse_load_file(output, to, output_format, override, force=force)
+    refuse_figure(figure, force=force)
     calibrations = read_calibrations(calibration, sensor)
     content = read_experiment(experiment, log)
     chosen = sensors_named(content, sensor)
@@ -342,6 +346,8 @@ def tare(
         doubt = next(iter(result.warnings), None)
         load = robot_load(runs[0], result.sensors[0].bias, doubt=doubt, override=override)
         write_load(load, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
+    if figure is not None:
+        result = drawn_to(result, figure)
     if output == STANDARD_OUTPUT:
         show_warnings(result)
     else:

@@ -1,14 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of loads: mass and centre of mass with their intervals, of all recordings and of each by itself."""
+"""Figures of loads: mass and centre of mass with their intervals; offset and error of a tare, before and after."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
+from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, load_words
-from forcetorque.results.figures import headline, in_figure_style, legend_below, look, new_figure, shown_name
+from forcetorque.payload.tare_offset import TaredSensor
+from forcetorque.results.figures import (
+    THIN_REFERENCE_LINE,
+    headline,
+    in_figure_style,
+    legend_below,
+    look,
+    new_figure,
+    rms_sizes,
+    shown_name,
+    thinned_line,
+    two_digits,
+)
 from forcetorque.results.visual_roles import PRIOR
 
 if TYPE_CHECKING:
@@ -79,3 +95,73 @@ def _draw(panel: Axes, place: int, row: LoadRow, value: float | None, half_width
     if half_width is not None and row.estimated:
         panel.plot([value - half_width, value + half_width], [place, place], color=style.colour, linewidth=1.8)
     panel.plot(value, place, markersize=7.0, **mark)
+
+
+_SENSOR_INCHES = 2.8
+"""Height of the panels of a tared sensor; inch."""
+
+
+@in_figure_style
+def tare_figure(sensors: Sequence[TaredSensor]) -> Figure:
+    """Draw offsets with their 95 % intervals, and how far the force is off at rest, before and after.
+
+    Args:
+        sensors: Tared sensors, a row each.
+
+    Returns:
+        The figure: offset of forces, offset of moments, and the norm of the error of the force over the interval.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there is no sensor.
+    """
+    if not sensors:
+        raise ShapeError("sensors: expected at least one to draw, got none")
+    figure = new_figure(_SENSOR_INCHES * len(sensors))
+    grid = figure.subplots(len(sensors), 3, squeeze=False, width_ratios=(1.0, 1.0, 2.0))
+    for row, (*offsets, errors) in zip(sensors, grid, strict=True):
+        for panel, part, title in zip(offsets, FORCE_AND_MOMENT, ("force, N", "moment, N m"), strict=True):
+            _draw_offset(panel, row, part)
+            panel.set_title(f"offset of the {title}", loc="left")
+        for key, values in ((_STATED | {"linestyle": "--"}, row.errors.before), (_ALL.key, row.errors.after)):
+            norm = np.linalg.norm(values[:, FORCE_AND_MOMENT[0]], axis=1)[:, None]
+            time, drawn = thinned_line(row.errors.time_s, norm)
+            errors.plot(time, drawn[:, 0], color=key["color"], linestyle=key["linestyle"], linewidth=1.2)
+        errors.set_ylim(bottom=0.0)
+        errors.set_title(shown_name(row.sensor), loc="left")
+        errors.set_ylabel("error of the force, N")
+        errors.set_xlabel(f"time in {shown_name(row.interval)}, s")
+    headline(figure, "; ".join(_tared(row) for row in sensors))
+    keys = [("offset and error after the tare; line: 95 % interval", _ALL.key | {"linestyle": "-"})]
+    before = "before" if any(row.offset_before is not None for row in sensors) else "error before"
+    legend_below(figure, [*keys, (before, _STATED | {"linestyle": "--"})])
+    return figure
+
+
+def _draw_offset(panel: Axes, row: TaredSensor, part: slice) -> None:
+    at = np.arange(3)
+    panel.axhline(0.0, **THIN_REFERENCE_LINE | {"linewidth": 0.8})
+    if row.offset_before is not None:
+        panel.plot(at, row.offset_before[part], markersize=7.0, **_STATED)
+    panel.errorbar(
+        at,
+        row.offset[part],
+        yerr=row.half_width_95[part],
+        color=_ALL.colour,
+        marker=_ALL.marker,
+        linestyle="none",
+        elinewidth=1.8,
+    )
+    panel.set_xticks(at, WRENCH_COMPONENTS[part])
+    panel.margins(x=0.25, y=0.15)
+
+
+def _tared(row: TaredSensor) -> str:
+    """RMS of the norm of the error of the force, before and after."""
+    before, after = (_rms_force(values) for values in (row.errors.before, row.errors.after))
+    return f"{shown_name(row.sensor)}: error of the force at rest from {before} to {after} N RMS"
+
+
+def _rms_force(wrenches: FloatArray) -> str:
+    sizes = rms_sizes(wrenches)
+    return "unknown" if sizes is None else two_digits(sizes[0])

@@ -140,7 +140,10 @@ def _doubled(run: SensorRun, loads: LinkLoads) -> Iterator[str]:
     stated = [number for number, load in enumerate(loads.loads) if load.is_known and load.mass]
     if not stated:
         return
-    problem = loads.problem(run.experiment)
+    try:
+        problem = loads.problem(run.experiment)
+    except ExperimentError:
+        return  # raw counts without a prior weigh no load; what else is missing the fit names
     rows, sign = problem.rows, reading_sign(problem.direction, child_is_outboard=True)
     if rows.columns is None or rows.known is None:
         return

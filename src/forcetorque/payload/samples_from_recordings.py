@@ -350,7 +350,8 @@ def link_load_problem(
     if not sum(len(block.time_s) for block in blocks):
         raise ExperimentError(
             f"sensor {sensor.name!r}: expected samples with a reading and the position of all joints that it needs, "
-            "got none in the calibration intervals; the streams have gaps or missing values all over them"
+            "got none in the calibration intervals; the streams have gaps or missing values all over them, or all "
+            "samples are frozen, saturated or repeated: see `forcetorque inspect`"
         )
     names = tuple(dict.fromkeys(sessions))
     lengths = [len(block.time_s) for block in blocks]
@@ -390,7 +391,7 @@ def _link_means(experiment: Experiment, sensor: ExperimentSensor, loaded: Loaded
     at_ns, reading = weighing_readings(experiment, sensor, loaded.interval)
     columns, known = _expected(experiment, sensor, loaded, at_ns)
     variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
-    values = np.hstack([reading, columns.reshape(len(at_ns), -1), known, *variables])
+    values = np.hstack([reading, columns.reshape(len(at_ns), 6 * INERTIAL), known, *variables])
     complete = np.isfinite(values).all(axis=1)
     time = seconds_since(at_ns[complete], recording.start_ns)
     middle, means, counts = weighing_means(time, values[complete])
@@ -402,9 +403,7 @@ def _expected(
     experiment: Experiment, sensor: ExperimentSensor, loaded: LoadedInterval, at_ns: IntArray
 ) -> tuple[FloatArray, FloatArray]:
     """Derivative of the load's wrench by each parameter, (n, 6, 10), and the expected wrench by the URDF, (n, 6)."""
-    support = loaded.interval.support
-    if support is None:
-        raise ExperimentError(f"interval {loaded.interval.label!r}: expected a support frame, got none")
+    support = loaded.interval.required_support(ExperimentError)
     bare = experiment.mounted(experiment.model)
     tree, name, link = build_tree(bare, support.frame), bare.sensor(sensor.name).name, loaded.link
     question = Question(tree=tree, expected=(name,), equations=())

@@ -12,17 +12,28 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.offsets import sensor_offset
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues
 
 STILL = 0.05
 """Share of its weight by which a load at rest may move: 3 degrees."""
+
+
+class TareErrors(Row):
+    """Errors over the interval, for the figure."""
+
+    time_s: Annotated[FloatArray, ArrayField((None,))]
+    """Instants after the start of the recording; shape (n,); s."""
+    before: Annotated[FloatArray, ArrayField((None, 6))]
+    """Measured less expected wrench, with the offset before; shape (n, 6); N, N m."""
+    after: Annotated[FloatArray, ArrayField((None, 6))]
+    """The same with the offset of the tare."""
 
 
 class TaredSensor(Row):
@@ -48,6 +59,8 @@ class TaredSensor(Row):
     """What the model says that it reads there; N, N m."""
     load_moves_N: Annotated[float, Shown("load moves", "N", digits=2)]
     """How far that force is from its mean at most."""
+    errors: TareErrors = Field(exclude=True, repr=False)
+    """Errors before and after."""
 
     @property
     def bias(self) -> FloatArray:
@@ -55,9 +68,11 @@ class TaredSensor(Row):
         return -self.offset
 
 
-class Tare(Result):
+class Tare(DrawnResult):
     """Offsets with which sensors read what their loads weigh."""
 
+    drawn_by: ClassVar[str] = "forcetorque.payload.figure:tare_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:tare_answers"
 
     schema_name: Literal["forcetorque/tare/2"] = Field(default="forcetorque/tare/2", alias="schema")
@@ -120,6 +135,11 @@ def tare(run: SensorRun, interval: str, calibration: OneCalibration | None = Non
         offset_before=known if calibration is not None else None,
         load=tared.load,
         load_moves_N=tared.load_moves_N,
+        errors=TareErrors(
+            time_s=tared.time_s,
+            before=(0.0 if calibration is None else known) - tared.lacking,
+            after=tared.estimate.value - tared.lacking,
+        ),
     )
     return Tare(experiment=run.experiment.name, sensors=(row,), warnings=tuple(_doubts(row, tared.weight_N)))
 

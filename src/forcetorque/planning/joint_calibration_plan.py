@@ -188,7 +188,7 @@ def _outcome(
     )
     if not forecasts:
         raise FitError(f"{recordings[-1]}: no sensor with a use is beside an untouched part whose joints were logged")
-    return _Outcome(added=recordings[-1], forecasts=forecasts, joint=JointOutcome.of(result, calibrations, file=None))
+    return _Outcome(added=recordings[-1], forecasts=forecasts, joint=JointOutcome.of(result, calibrations))
 
 
 def _forecast(step: int, sensor: str, calibration: Calibration, case: LoadCase) -> SensorForecast:

@@ -18,7 +18,7 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, plus_minus
-from forcetorque.results.result import DrawnResult, Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
 FAR_GAIN = 0.1
@@ -236,8 +236,10 @@ class PlateRow(Row):
         return None if self.x_mm is None or self.y_mm is None else (self.x_mm, self.y_mm)
 
 
-class PlateWeight(Result):
+class PlateWeight(DrawnResult):
     """Mass of who or what stands on plates."""
+
+    drawn_by: ClassVar[str] = "forcetorque.plates.figure:standing_figure"
 
     schema_name: Literal["forcetorque/plate/1"] = Field(default="forcetorque/plate/1", alias="schema")
     """Form of the result."""
@@ -279,6 +281,7 @@ class PlateWeight(Result):
             verdict=plus_minus(self.mass_kg, self.half_width_95_kg, "kg"),
             why=(*self.contradictions[:2], where, *((sign,) if sign else ())),
             step="tare the plates, or calibrate them by `bench fit-plate`" if self.contradictions else "",
+            written=(self.figure_file,),
             concern=Concern.BAD if self.contradictions else Concern.NONE,
         )
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from forcetorque.plates.calibration_result import PlateCalibration, PlateWeight
 
 
-@command()
+@command("the force on every plate and where it acts")
 def plate(
     file: Annotated["Path", Option("C3D file with force plates of types 1 to 4.")],
     *,

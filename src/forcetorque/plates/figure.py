@@ -1,31 +1,107 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of the errors of the centre of pressure over a plate, before and after."""
+"""Figures of force plates: forces and centres of pressure at rest, and errors of the centre before and after a fit."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.results.figures import (
     COLOURS,
     REFERENCE_COLOUR,
+    REFERENCE_LINE,
     headline,
     in_figure_style,
     legend_below,
+    look,
     new_figure,
     shown_name,
     two_digits,
 )
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from forcetorque.plates.calibration_result import PlatePicture
+    from forcetorque.plates.calibration_result import PlatePicture, PlateRow, PlateWeight
 
 _LONGEST = 0.24
 """Length of the longest line, as a share of the longer half-edge."""
 _LOAD = {"color": REFERENCE_COLOUR, "linestyle": "none", "marker": "o", "markersize": 3.0}
+
+_EDGES: dict[str, Any] = {"color": REFERENCE_COLOUR, "linewidth": 0.8}
+_COLUMNS, _HEIGHT_INCHES = 4, 3.4
+"""Panels in a row, and its height; inch."""
+_AROUND_MM = 100.0
+"""What is shown at least on each side of the centre of a plate; mm."""
+
+
+@in_figure_style
+def standing_figure(weight: PlateWeight) -> Figure:
+    """Draw the force on every plate beside the weight, and where it acts.
+
+    Args:
+        weight: Who or what stands on the plates.
+
+    Returns:
+        The figure: a panel of forces, and one per loaded plate with its edges, its centre of pressure and the sway.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    loaded = [row for row in weight.plates if row.centre_mm is not None]
+    rows = math.ceil((1 + len(loaded)) / _COLUMNS)
+    figure = new_figure(_HEIGHT_INCHES * rows)
+    grid = figure.subplots(rows, min(1 + len(loaded), _COLUMNS), squeeze=False).ravel()
+    forces, *panels = grid
+    style = look(0)
+    forces.bar([str(row.plate) for row in weight.plates], [row.force_N for row in weight.plates], color=style.colour)
+    forces.axhline(weight.mass_kg * weight.gravity, **REFERENCE_LINE)
+    forces.margins(y=0.1)
+    forces.set_title("force across the surface, N", loc="left")
+    forces.set_xlabel("plate")
+    for panel, row in zip(panels, loaded, strict=False):
+        _draw_standing(panel, row)
+    for panel in panels[len(loaded) :]:
+        panel.set_visible(False)
+    doubts = len(weight.contradictions)
+    shares = ", ".join(f"plate {row.plate} {row.force_N:.0f} N" for row in loaded[:_COLUMNS])
+    headline(
+        figure,
+        f"{weight.mass_kg:.2f} ±{two_digits(weight.half_width_95_kg)} kg (95 %): {shares}; "
+        + (f"{doubts} contradiction{'s' * (doubts > 1)}" if doubts else "no contradiction"),
+    )
+    keys = [
+        ("weight", REFERENCE_LINE),
+        ("centre of pressure", {"color": style.colour, "marker": style.marker, "linestyle": "none"}),
+        ("its sway, root mean square", {"color": style.colour, "linewidth": 1.2}),
+        ("edges of the plate; +: its centre", _EDGES),
+    ]
+    legend_below(figure, keys)
+    return figure
+
+
+def _draw_standing(panel: Axes, row: PlateRow) -> None:
+    style, centre, turn = look(0), np.array(row.centre_mm), np.linspace(0.0, 2.0 * np.pi, 60)
+    panel.plot(*centre, color=style.colour, marker=style.marker, linestyle="none", markersize=3.0)
+    panel.plot(0.0, 0.0, color=REFERENCE_COLOUR, marker="+", linestyle="none")
+    panel.update_datalim([(-_AROUND_MM, -_AROUND_MM), (_AROUND_MM, _AROUND_MM)])
+    sway = centre + (row.sway_mm or 0.0) * np.column_stack([np.cos(turn), np.sin(turn)])
+    panel.plot(*sway.T, color=style.colour, linewidth=1.2)
+    if row.half_edges_mm is not None:
+        _draw_edges(panel, row.half_edges_mm)
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.set_title(f"plate {row.plate}: ({centre[0]:.0f}, {centre[1]:.0f}) mm, sway {row.sway_mm or 0.0:.1f} mm")
+    panel.set_xlabel("x of the plate, mm")
+    panel.set_ylabel("y of the plate, mm")
+
+
+def _draw_edges(panel: Axes, half_edges_mm: FloatArray) -> None:
+    x, y = half_edges_mm
+    panel.plot([-x, x, x, -x, -x], [-y, -y, y, y, -y], **_EDGES)
 
 
 @in_figure_style
@@ -50,8 +126,7 @@ def centre_error_figure(picture: PlatePicture) -> Figure:
         for axes in zip(picture.place_mm, ends, strict=True):
             panel.plot(*np.array(axes).T, **style)
         panel.plot(*picture.place_mm.T, **_LOAD)
-        x, y = extent
-        panel.plot([-x, x, x, -x, -x], [-y, -y, y, y, -y], color=REFERENCE_COLOUR, linewidth=0.8)
+        _draw_edges(panel, extent)
         panel.set_aspect("equal", adjustable="datalim")
         panel.set_title(f"{name}: up to {two_digits(largest)} mm, drawn {two_digits(scale)} times as long")
         panel.set_xlabel("x of the plate, mm")

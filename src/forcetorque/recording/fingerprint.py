@@ -18,14 +18,15 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.rows_on_disk import BLOCK_ROWS, forget_pages
 
 WINDOW = 16
-"""Samples of a window: one sample, and the next few, may come again by chance."""
+"""Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""
 KEPT = 64
 """Hashes that are kept."""
 
 _DIGITS = 4
 """Decimal digits that count."""
 _LEAST_DISTINCT = 12
-"""Different samples of a window: one of a resting sensor, whose few values go back and forth, comes again by chance."""
+"""Different samples that a window must have: of a sensor that is stuck, or of which one channel goes up and down by one
+count, the same windows come again by chance."""
 
 Hashes = NDArray[np.uint64]
 """Hashes of windows."""
@@ -40,9 +41,8 @@ def window_hashes(values: FloatArray) -> Hashes:
     Returns:
         Hashes, each once, the smallest first; none of windows with a missing value, or with few different samples.
     """
-    starts = range(0, max(len(values) - WINDOW + 1, 0), BLOCK_ROWS)
     hashes = [np.empty(0, dtype=np.uint64)]
-    for start in starts:
+    for start in range(0, max(len(values) - WINDOW + 1, 0), BLOCK_ROWS):
         hashes.append(_hashes(values[start : start + BLOCK_ROWS + WINDOW - 1]))
         forget_pages([values])
     return np.unique(np.concatenate(hashes))
@@ -58,18 +58,19 @@ def _hashes(values: FloatArray) -> Hashes:
         total = np.zeros(windows, dtype=np.uint64)
         for place in range(WINDOW):
             total = _mixed(total ^ row[place : place + windows])
-    whole = _summed(np.asarray(np.isfinite(values).all(axis=1))) == WINDOW
-    return np.unique(total[whole & (_distinct(row) >= _LEAST_DISTINCT)])
+    whole = np.isfinite(values).all(axis=1)
+    missing = np.concatenate([[0], np.cumsum(~whole)])
+    unbroken = missing[WINDOW:] == missing[:-WINDOW]
+    return np.unique(total[unbroken & (_different(row) >= _LEAST_DISTINCT)])
 
 
-def _distinct(row: Hashes) -> NDArray[np.uint8]:
-    """How many samples of every window differ from all others before them in it."""
-    back = np.full(len(row), WINDOW, dtype=np.uint8)  # samples since the last like it
-    for lag in range(WINDOW - 1, 0, -1):
-        back[lag:][row[lag:] == row[:-lag]] = lag
+def _different(row: Hashes) -> NDArray[np.uint8]:
+    """How many different samples every window has, by the hashes of samples."""
+    since = np.full(len(row), WINDOW, dtype=np.uint8)  # samples since the last that was equal, at most a window
+    for back in range(WINDOW - 1, 0, -1):
+        since[back:][row[back:] == row[:-back]] = back
     windows = len(row) - WINDOW + 1
-    first = (back[place : place + windows] > place for place in range(WINDOW))
-    return np.add.reduce([*first], dtype=np.uint8)
+    return np.sum([since[place : place + windows] > place for place in range(WINDOW)], axis=0, dtype=np.uint8)
 
 
 def fingerprint(values: FloatArray) -> str:
@@ -80,7 +81,7 @@ def fingerprint(values: FloatArray) -> str:
 
     Returns:
         At most `KEPT` hashes, hexadecimal numbers of 16 letters one behind the other; empty of samples that are too
-        few, or of few different values.
+        few, or of which too few differ.
     """
     return _text(window_hashes(values))
 
@@ -137,9 +138,3 @@ def _mixed(value: Hashes) -> Hashes:
     mixed = (mixed ^ (mixed >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     mixed = (mixed ^ (mixed >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return mixed ^ (mixed >> np.uint64(31))
-
-
-def _summed(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """How many of every window's samples are so."""
-    total = np.concatenate([[0], np.cumsum(flags)])
-    return total[WINDOW:] - total[:-WINDOW]

@@ -22,7 +22,7 @@ from forcetorque.base.arrays import (
     names,
     read_only,
 )
-from forcetorque.base.errors import RecordingError, known_names, require_known
+from forcetorque.base.errors import ForceTorqueError, RecordingError, known_names, require_known
 from forcetorque.base.rows_on_disk import forget_pages
 from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.stream import Signal, Stream
@@ -132,6 +132,22 @@ class Interval:
             Whether each does; shape (n,).
         """
         return (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
+
+    def required_support(self, error: type[ForceTorqueError]) -> Support | MovingSupport:
+        """Give the support frame.
+
+        Args:
+            error: Class of the error without one.
+
+        Returns:
+            The support.
+
+        Raises:
+            ForceTorqueError: Of that class, if the interval has none.
+        """
+        if self.support is None:
+            raise error(f"interval {self.label!r}: expected a support frame, got none")
+        return self.support
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ from forcetorque.recording.frozen_and_saturated_samples import (
     noisy_runs,
 )
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import Signal, Stream
+from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 
 STUCK_SECONDS = 1.0
 """A noisy channel that repeats one value for longer than this is stuck."""
@@ -26,6 +26,9 @@ STUCK_NOISY_SECONDS = 0.2
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
+_JUMP, _JUMP_SPEED, _JUMP_STEPS, _AROUND = 0.1, 15.0, 10.0, 5
+"""Joints jump from one sample to the next by over 0.1 rad (0.1 m), faster than 15 rad/s (15 m/s), and by ten times the
+median of the five steps on either side."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -36,7 +39,8 @@ def stream_findings(stream: Stream) -> tuple[Finding, ...]:
     """Look for what is wrong with a stream, without a model of what it measures.
 
     Returns:
-        Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels and reported saturation.
+        Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels, joints that jump and
+        reported saturation.
     """
     if not len(stream):
         return (Finding(stream=stream.name, kind="empty", message="the stream holds no sample", count=0),)
@@ -46,6 +50,8 @@ def stream_findings(stream: Stream) -> tuple[Finding, ...]:
             findings += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
             findings += _stuck_channels(stream, signal)
+        if signal.quantity == "position" and stream.clock != ROW_CLOCK:
+            findings += _joint_jumps(stream, signal)
     return tuple(findings)
 
 
@@ -139,6 +145,40 @@ def _finding(
         size=size,
         unit=unit,
     )
+
+
+def _joint_jumps(stream: Stream, signal: Signal) -> list[Finding]:
+    """Joints that move faster from one sample to the next than any robot does; not across gaps."""
+    rows = usable_samples(stream.stamp_ns)
+    if len(rows) <= 2 * _AROUND:
+        return []
+    periods = np.diff(stream.stamp_ns[rows])
+    steps = np.abs(np.diff(signal.values[rows], axis=0))
+    seconds = np.maximum(periods, np.median(periods)) * 1e-9
+    fast = (steps > np.maximum(_JUMP, _JUMP_SPEED * seconds[:, None])) & (
+        periods <= gap_limit_ns(stream.stamp_ns[rows])
+    )[:, None]
+    findings = []
+    for column, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
+        jumps = [
+            row
+            for row in np.flatnonzero(fast[:, column]).tolist()
+            if steps[row, column] > _JUMP_STEPS * np.nanmedian(steps[max(row - _AROUND, 0) : row + _AROUND + 1, column])
+        ]
+        for own in np.split(np.array(jumps, dtype=int), np.flatnonzero(np.diff(jumps) > _AROUND) + 1):
+            if not len(own):
+                continue
+            size, speed = float(steps[own, column].max()), float((steps[own, column] / seconds[own]).max())
+            text = (
+                f"joint {name!r} jumps by {size:.2g} {unit} from one sample to the next ({speed:.3g} {unit}/s): "
+                "velocities and accelerations there are not those of the robot; put an [[interval]] with "
+                'use = "ignore" about it'
+            )
+            first, last = int(rows[own[0]]), int(rows[own[-1] + 1])
+            findings.append(
+                _finding(stream, "joint_jump", text, first, last, channel=name, size=speed, unit=f"{unit}/s")
+            )
+    return findings
 
 
 def _gaps(stream: Stream) -> list[Finding]:

@@ -67,6 +67,8 @@ def report(
     from forcetorque.report.sources import assign_calibrations, sort_sources
     from forcetorque.results.result import created_now
     from forcetorque.results.terminal.input import read_experiment
+    from forcetorque.viewer.page import require_few_samples
+    from forcetorque.viewer.posture import sample_count
 
     log = start_logging()
     require_writable(output)
@@ -75,6 +77,9 @@ def report(
     sources = sort_sources([*results, *(calibration or ())])
     demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
     experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in sources.experiments]
+    if viewer:
+        for file, experiment in experiments:
+            require_few_samples(f"--viewer of {file}", sample_count(experiment))
     groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
     if sensor:
         groups = [

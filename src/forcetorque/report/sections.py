@@ -38,7 +38,7 @@ from forcetorque.sensor.bandwidth.bandwidth import Response
 from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.report_blocks import skin_section
 from forcetorque.viewer.packing import packed
-from forcetorque.viewer.page import MOST_SAMPLES, page_of
+from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene_builder import scene_of
 
 SensorSection = tuple[str, Callable[[Assessment], Iterator[Block]]]
@@ -319,22 +319,11 @@ def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str
 
     Returns:
         The section.
-
-    Raises:
-        ForceTorqueError: If there are too many samples for one file.
     """
-    built = scene_of(path, experiment, calibrations, accept=_require_few)
+    built = scene_of(path, experiment, calibrations)
     page = Page(
         html=page_of(packed(built)),
         title=f"Viewer of {experiment.name}",
         instead=f"The HTML file has a viewer here; `forcetorque view {path}` opens it too.",
     )
     return Section(title=f"Posture and forces: {experiment.name}", blocks=(page,))
-
-
-def _require_few(samples: int) -> None:
-    if samples > MOST_SAMPLES:
-        raise ForceTorqueError(
-            f"--viewer: expected at most {MOST_SAMPLES} samples inside a document, got {samples}; leave it out and "
-            "serve them with `forcetorque view`"
-        )

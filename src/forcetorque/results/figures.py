@@ -22,6 +22,7 @@ from forcetorque.results.visual_roles import CALIBRATIONS, EXPECTED, HIGHLIGHT, 
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.backend_bases import RendererBase
     from matplotlib.figure import Figure
 
@@ -108,7 +109,7 @@ def look(k: int) -> Look:
 
 
 def looks(names: Sequence[str]) -> dict[str, Look]:
-    """Looks of curves by name: grey for the prior and for what was logged, blue and on for calibrations.
+    """Looks of curves by name: black for what is expected, grey for prior and logged, blue and on for others.
 
     Args:
         names: Names of curves.
@@ -116,9 +117,14 @@ def looks(names: Sequence[str]) -> dict[str, Look]:
     Returns:
         The look of each.
     """
-    others = [name for name in names if name not in _BEFORE]
-    before = Look(colour=PRIOR.colour, marker=PRIOR.marker, dashes=(0, PRIOR.dash))
-    return {name: before if name in _BEFORE else look(others.index(name)) for name in names}
+    fixed = dict.fromkeys(_BEFORE, PRIOR) | {EXPECTED.word: EXPECTED}
+    others = [name for name in names if name not in fixed]
+    return {
+        name: Look(colour=role.colour, marker=role.marker, dashes=(0, role.dash) if role.dash else "-")
+        if (role := fixed.get(name)) is not None
+        else look(others.index(name))
+        for name in names
+    }
 
 
 _BEFORE = ("prior", "logged")
@@ -208,6 +214,19 @@ def shown_name(name: str) -> str:
     if len(line) > LONGEST_NAME:
         line = f"{line[: LONGEST_NAME // 2]}…{line[-(LONGEST_NAME // 2 - 1) :]}"
     return (" " if line.startswith("_") else "") + line.replace("$", r"\$")
+
+
+def number_log_axis(axis: Axis) -> None:
+    """Number an axis that is logarithmic at 1, 2 and 5 of every decade, without powers of ten.
+
+    Args:
+        axis: Axis along or up a panel.
+    """
+    from matplotlib.ticker import LogLocator, NullLocator
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_locator(NullLocator())
 
 
 def two_digits(value: float) -> str:

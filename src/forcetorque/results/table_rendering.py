@@ -165,19 +165,29 @@ def html_lines(text: str) -> str:
     return f"<pre>{html.escape(text)}</pre>" if text else ""
 
 
-def html_table(table: Table) -> str:
-    """Write a table for a page."""
+_RULE = "border-bottom:thin solid"
+"""Rule in the colour of the letters, which is readable on light and dark pages."""
+_CELL = f"padding:0.2em 0.7em;vertical-align:top;{_RULE}"
 
-    def line(cells: Sequence[str], tag: str) -> str:
+
+def html_table(table: Table) -> str:
+    """Write a table for a page that has no style of its own: rules and room are stated in it."""
+
+    def line(cells: Sequence[str], tag: str, style: str) -> str:
         aligned = ("right" if numeric else "left" for numeric in table.numeric)
         return "".join(
-            f'<{tag} style="text-align:{side}">{html_text(cell)}</{tag}>'
+            f'<{tag} style="text-align:{side};{style}">{html_text(cell)}</{tag}>'
             for cell, side in zip(cells, aligned, strict=True)
         )
 
-    rows = "".join(f"<tr>{line(row, 'td')}</tr>" for row in table.rows)
-    caption = f"<caption>{html_text(table.caption)}</caption>" if table.caption else ""
-    return f"<table>{caption}<thead><tr>{line(table.headings, 'th')}</tr></thead><tbody>{rows}</tbody></table>"
+    head = line(table.headings, "th", f"{_CELL};border-bottom-width:2px")
+    rows = "".join(f"<tr>{line(row, 'td', _CELL)}</tr>" for row in table.rows)
+    caption = ""
+    if table.caption:
+        style = "caption-side:top;text-align:left;font-weight:bold;padding:0.4em 0.7em"
+        caption = f'<caption style="{style}">{html_text(table.caption)}</caption>'
+    whole = "border-collapse:collapse;margin:0.6em 0;font-variant-numeric:tabular-nums"
+    return f'<table style="{whole}">{caption}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def html_warnings(sentences: Iterable[str]) -> str:

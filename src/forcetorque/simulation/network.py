@@ -85,23 +85,6 @@ def lose_messages(
     )
 
 
-def repeat_stamps(
-    recording: Recording, *, count: int, rng: np.random.Generator, streams: Collection[str] | None = None
-) -> Recording:
-    """Let random messages carry the stamp of the one before, as devices do that are read faster than they sample.
-
-    Args:
-        recording: The recording.
-        count: Number of messages in each stream.
-        rng: Source of the places.
-        streams: Names of streams; all if left out.
-
-    Returns:
-        A recording with other stamps.
-    """
-    return step_back(recording, count=count, seconds=0.0, rng=rng, streams=streams)
-
-
 def step_back(
     recording: Recording,
     *,

@@ -304,19 +304,15 @@ def simulate_recording(
 _XYZ = ("x", "y", "z")
 
 
-def _none() -> FloatArray:
-    return np.zeros(3)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SimulatedImu(ArrayRecord):
     """An IMU that reads along the axes of a link, at its origin."""
 
     link: str
     """The link."""
-    accelerometer_bias: FloatArray = field(default_factory=_none, metadata=array(3))
+    accelerometer_bias: FloatArray = field(default_factory=partial(np.zeros, 3), metadata=array(3))
     """What it reads too much; shape (3,); m/s2."""
-    gyroscope_bias: FloatArray = field(default_factory=_none, metadata=array(3))
+    gyroscope_bias: FloatArray = field(default_factory=partial(np.zeros, 3), metadata=array(3))
     """What it reads too much; shape (3,); rad/s."""
     accelerometer_noise: float = 0.0
     """Standard deviation of white noise; m/s2."""

@@ -11,7 +11,7 @@ from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.command import SENSORS, Option, command
 from forcetorque.results.number_text import amount, counted, plus_minus, within
 from forcetorque.study.candidate_fits import WORKBENCH
-from forcetorque.study.selection import FAR_SD
+from forcetorque.study.selection import FAR_SD, TWO_SIGMA
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from forcetorque.study.study import SensorStudy
 
 
-@command()
+@command("the error of every candidate beside the workbench matrix")
 def study(
     *experiments: Annotated["Path | str", Option("Experiment files (TOML) with the same sensors.")],
     folder: Annotated[
@@ -191,10 +191,6 @@ def _lambdas(given: Sequence[float]) -> tuple[float, ...]:
     return lambdas
 
 
-_TWO_SIGMA = 1.96
-"""Standard errors of a bound that holds with 95 %."""
-
-
 def study_answers(studies: "Studies") -> Iterator[Answer]:
     """Give the answer for every sensor.
 
@@ -215,13 +211,13 @@ def study_answers(studies: "Studies") -> Iterator[Answer]:
                 *((_far(best),) if far else ()),
             ),
             step="evaluate a calibration of the folder at the loads to come" if row.folder is not None else "",
-            written=(row.folder,),
+            written=(row.folder, studies.figure_file if row is studies.sensors[-1] else None),
             concern=Concern.UNCERTAIN if far or best.name == WORKBENCH else Concern.NONE,
         )
 
 
 def _force(chosen: "ChosenCandidate") -> str:
-    return within(chosen.force_mean_N, _TWO_SIGMA * chosen.force_mean_error_N, "N")
+    return within(chosen.force_mean_N, TWO_SIGMA * chosen.force_mean_error_N, "N")
 
 
 def _far(best: "ChosenCandidate") -> str:

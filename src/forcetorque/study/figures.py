@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of thesis 5.3 for one sensor, among them contact force over lambda, and their files; figure of thesis 7.3."""
+"""Figures of thesis 5.3 for one sensor and their files; candidates of several sensors; figure of thesis 7.3."""
 
 from __future__ import annotations
 
@@ -38,18 +38,22 @@ from forcetorque.results.figures import (
     legend_below,
     look,
     new_figure,
+    number_log_axis,
     png_bytes,
     shown_name,
+    two_digits,
 )
+from forcetorque.results.visual_roles import PRIOR
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_fits import WORKBENCH
-from forcetorque.study.selection import Candidate, with_offset
+from forcetorque.study.selection import TWO_SIGMA, Candidate, with_offset
 from forcetorque.study.study import SensorStudy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from forcetorque.study.result import ChosenCandidate, StudiedSensor
     from forcetorque.study.skin.result import SkinStudy
 
 
@@ -175,6 +179,65 @@ def _comparison_figure(sensor: SensorStudy) -> Figure:
     return comparison_figure(liveliest.time_s, liveliest.reference, candidates)
 
 
+_CHOICE_INCHES, _FRAME_INCHES = 0.42, 0.8
+"""Height of a sensor with one offset, and of axes; inch."""
+_BEFORE: dict[str, Any] = {"color": PRIOR.colour, "marker": PRIOR.marker, "linestyle": "none"}
+
+
+@in_figure_style
+def studies_figure(sensors: Sequence[StudiedSensor]) -> Figure:
+    """Draw the mean contact force of every candidate where nothing touches, beside the best and the workbench matrix.
+
+    Args:
+        sensors: Studies, a line each for both offsets.
+
+    Returns:
+        The figure; intervals are 95 %.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there is no sensor.
+    """
+    lines = [(sensor, mode) for sensor in sensors for mode in sensor.modes]
+    if not lines:
+        raise ShapeError("sensors: expected at least one studied sensor to draw, got none")
+    figure = new_figure(_FRAME_INCHES + _CHOICE_INCHES * len(lines))
+    panel = figure.subplots()
+    for place, (sensor, mode) in enumerate(lines):
+        key = f"force_mean_{mode.offset.replace('-', '_')}"
+        forces = [row[key] for row in sensor.candidate_rows if row["data_set"] != WORKBENCH]
+        panel.plot(forces, np.full(len(forces), place), color=MUTED, marker="|", linestyle="none", markersize=9.0)
+        if sensor.workbench is not None and mode.offset is Offset.FIRST_SECOND:
+            _draw_chosen(panel, place, sensor.workbench, _BEFORE)
+        _draw_chosen(panel, place, mode.best, look(0).key | {"linestyle": "none"})
+    panel.set_xscale("log")
+    number_log_axis(panel.xaxis)
+    panel.set_yticks(
+        range(len(lines)), [f"{shown_name(sensor.sensor)}, offset {mode.offset}" for sensor, mode in lines]
+    )
+    panel.set_ylim(len(lines) - 0.5, -0.5)
+    panel.set_xlabel("mean contact force where nothing touches, N")
+    headline(figure, "; ".join(_best_words(sensor) for sensor in sensors))
+    keys = [
+        ("candidate", {"color": MUTED, "marker": "|", "linestyle": "none"}),
+        ("best; line: 95 % interval", look(0).key | {"linestyle": "-"}),
+        (WORKBENCH, _BEFORE),
+    ]
+    legend_below(figure, keys)
+    return figure
+
+
+def _draw_chosen(panel: Axes, place: int, chosen: ChosenCandidate, style: dict[str, Any]) -> None:
+    half_width = min(TWO_SIGMA * chosen.force_mean_error_N, 0.99 * chosen.force_mean_N)
+    panel.errorbar(chosen.force_mean_N, place, xerr=half_width, elinewidth=1.8, zorder=3.0, **style)
+
+
+def _best_words(sensor: StudiedSensor) -> str:
+    best = min((mode.best for mode in sensor.modes), key=lambda chosen: chosen.force_mean_N)
+    words = f"{shown_name(sensor.sensor)}: best {two_digits(best.force_mean_N)} N by {shown_name(best.name)}"
+    return words + ("" if sensor.workbench is None else f", {WORKBENCH} {two_digits(sensor.workbench.force_mean_N)} N")
+
+
 MOST_HUES, MOST_CURVES = 6, 20
 """Data sets, and curves, in one panel; with more, each data set has its own."""
 
@@ -243,9 +306,10 @@ def lambda_force_figure(
     if chosen is not None:
         name, kind = map(shown_name, chosen[:2])
         keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
-    legend_below(figure, keys, title=LAMBDA_MEANING)
-    if chosen is not None:
         headline(figure, f"Mean contact force of the choice: {best:.3g} N ({name}, {kind}, lambda {chosen[2]:g})")
+    elif np.isfinite(forces := _heights(lines, [])).any():
+        headline(figure, f"Least mean contact force: {np.nanmin(forces):.3g} N")
+    legend_below(figure, keys, title=LAMBDA_MEANING)
     return figure
 
 

@@ -12,7 +12,7 @@ from pydantic import Field
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.results.number_text import number, with_error
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
@@ -318,9 +318,11 @@ class StudiedSensor(Row):
             )
 
 
-class Studies(Result):
+class Studies(DrawnResult):
     """Studies of sensors over the same recordings."""
 
+    drawn_by: ClassVar[str] = "forcetorque.study.figures:studies_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
     answered_by: ClassVar[str | None] = "forcetorque.study.command:study_answers"
 
     interval_uses = ()

@@ -34,6 +34,9 @@ SWEEP_LAMBDAS: Final = tuple(TABLE_FACTOR * value for value in TABLE_LAMBDAS)
 CONVENTION: Final = "thesis (5.4): mean squared residual norm + lambda |C - C_prior|^2"
 """How every lambda is counted, unless it is called one of the tables; unit counts2."""
 
+TWO_SIGMA: Final = 1.96
+"""Standard errors of a bound that holds with 95 %."""
+
 
 def relative_lambda(regularisation: float, moments: Moments) -> float:
     """Express a lambda in the scale of the sensor's own readings, so that sensors can be compared.

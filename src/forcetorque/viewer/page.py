@@ -94,11 +94,11 @@ def page_of(
     return "".join(page).encode()
 
 
-def require_few_samples(path: Path, samples: int) -> None:
+def require_few_samples(asked_by: str, samples: int) -> None:
     """Refuse a page of so many samples that no browser opens it.
 
     Args:
-        path: File of the page.
+        asked_by: Option or file that asks for it, for the message.
         samples: Number of samples.
 
     Raises:
@@ -106,8 +106,8 @@ def require_few_samples(path: Path, samples: int) -> None:
     """
     if samples > MOST_SAMPLES:
         raise ForceTorqueError(
-            f"{path}: expected at most {MOST_SAMPLES} samples for one file, got {samples}; leave out "
-            "--output to look at all of them from this machine"
+            f"{asked_by}: expected at most {MOST_SAMPLES} samples in one page, got {samples}; `forcetorque view` "
+            "without --output serves them all"
         )
 
 
@@ -128,7 +128,7 @@ def write_page(
     Raises:
         ForceTorqueError: If there are too many samples for one file.
     """
-    require_few_samples(path, built.scene.samples)
+    require_few_samples(str(path), built.scene.samples)
     page = page_of(packed(built, progress), assets=assets)
     write_bytes_atomically(path, page)
     return len(page)

@@ -74,6 +74,41 @@ def shown_stream(experiment: Experiment, sensors: Sequence[ExperimentSensor]) ->
     return recording.stream(name)
 
 
+def shown_sensors(experiment: Experiment, sensors: Sequence[str] | None = None) -> tuple[ExperimentSensor, ...]:
+    """Find the sensors that are shown.
+
+    Args:
+        experiment: The experiment.
+        sensors: Their names; all if None or empty.
+
+    Returns:
+        Each once, in the order of the names.
+
+    Raises:
+        ExperimentError: If the experiment has no sensor of a name.
+    """
+    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
+    return tuple(experiment.sensor(name) for name in names)
+
+
+def sample_count(experiment: Experiment, sensors: Sequence[str] | None = None) -> int:
+    """Count the samples that are shown, before anything is computed of them.
+
+    Args:
+        experiment: The experiment.
+        sensors: As of `shown_sensors`.
+
+    Returns:
+        Their number.
+
+    Raises:
+        ExperimentError: If the experiment has no sensor of a name, or neither sensor nor skin.
+        RecordingError: If there is no sample to show.
+    """
+    stream = shown_stream(experiment, shown_sensors(experiment, sensors))
+    return len(_instants(experiment.recording, experiment.model, stream, [])[0])
+
+
 def posture_at(recording: Recording, model: RobotModel, stream: Stream) -> Posture:
     """Take the instants of a stream and find the joints at them.
 
@@ -91,16 +126,8 @@ def posture_at(recording: Recording, model: RobotModel, stream: Stream) -> Postu
     Raises:
         RecordingError: If the stream has no sample.
     """
-    stamps = stream.stamp_ns[usable_samples(stream.stamp_ns)]
-    if not len(stamps):
-        raise RecordingError(f"stream {stream.name!r}: expected samples to show, got none")
     notes: list[str] = []
-    holders = _alignable(recording, model, stream, notes)
-    for holder in dict.fromkeys(holders.values()):
-        known = recording.stream(holder).stamp_ns
-        stamps = stamps[(stamps >= known.min()) & (stamps <= known.max())]
-    if not len(stamps):
-        raise RecordingError(f"stream {stream.name!r}: expected samples while all joints were logged, got none")
+    stamps, holders = _instants(recording, model, stream, notes)
     names = tuple(holders)
     position = np.empty((len(stamps), len(names)))
     for holder in dict.fromkeys(holders.values()):
@@ -114,6 +141,22 @@ def posture_at(recording: Recording, model: RobotModel, stream: Stream) -> Postu
             notes.append(f"stream {holder!r}: {gaps} sample(s) in gaps show the last posture before")
     notes += _unlogged(model, names)
     return Posture(stream=stream, stamp_ns=stamps, names=names, position=position, notes=tuple(notes))
+
+
+def _instants(
+    recording: Recording, model: RobotModel, stream: Stream, notes: list[str]
+) -> tuple[IntArray, dict[str, str]]:
+    """Stamps of a stream while all joints were logged that can be aligned, and the streams by joint."""
+    stamps = stream.stamp_ns[usable_samples(stream.stamp_ns)]
+    if not len(stamps):
+        raise RecordingError(f"stream {stream.name!r}: expected samples to show, got none")
+    holders = _alignable(recording, model, stream, notes)
+    for holder in dict.fromkeys(holders.values()):
+        known = recording.stream(holder).stamp_ns
+        stamps = stamps[(stamps >= known.min()) & (stamps <= known.max())]
+    if not len(stamps):
+        raise RecordingError(f"stream {stream.name!r}: expected samples while all joints were logged, got none")
+    return stamps, holders
 
 
 def _alignable(recording: Recording, model: RobotModel, stream: Stream, notes: list[str]) -> dict[str, str]:

@@ -13,7 +13,7 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, Field, ValidationError
 
-from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import first_error
@@ -37,7 +37,7 @@ from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.geometry import robot_geometry
-from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_stream
+from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_sensors, shown_stream
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
 from forcetorque.viewer.skin import scene_skin, scene_skin_events
@@ -93,12 +93,13 @@ def build_scene(
         The scene.
 
     Raises:
-        ExperimentError: If the experiment has no sensor of a name, or a calibration may not be applied.
+        ExperimentError: If the experiment has no sensor of a name, a calibration may not be applied, or there is no
+            robot and no skin of the experiment can be shown.
         RecordingError: If there is no sample to show.
     """
     groups = by_sensor(experiment, calibrations)
-    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
-    shown = [experiment.sensor(name) for name in names]
+    shown = shown_sensors(experiment, sensors)
+    names = [sensor.name for sensor in shown]
     recording, model = experiment.recording, experiment.model
     skin_alone = is_skin_alone(model)
     clock = shown_stream(experiment, shown)
@@ -131,7 +132,12 @@ def build_scene(
     patches = computed.section(PATCHES)
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
+    if skin_alone and not (skin or events):
+        raise ExperimentError(f"experiment {experiment.name!r}: nothing to show: {'; '.join(draft.notes[1:])}")
     robot, missing = drawn_robot(model, posture.names, urdf, draft.block, mesh_folders)
+    if skin_alone:  # a ball that stands for a link would hide the patch on it
+        patched = {patch.link for patch in skin}
+        robot = replace(robot, shapes=tuple(shape for shape in robot.shapes if shape.link not in patched))
     parts = scene_parts(computed, groups, posture, draft)
     time_left.at(_POSTURE + _SENSOR * len(shown) + _CONTACTS)
     scene = Scene(

@@ -93,7 +93,8 @@ def scene_skin(experiment: PatchExperiment, links: Container[str], draft: SceneD
     for patch in experiment.patches:
         if patch.table is None:
             draft.notes.append(
-                f"patch {patch.name!r} is not shown: [[patch]] states no table; skin calibrate makes one"
+                f"patch {patch.name!r} is not shown: [[patch]] states no table; make one by `forcetorque skin "
+                'calibrate` and state it there, as table = "FILE.json"'
             )
             continue
         averaged = _averaged(experiment, patch)

@@ -55,7 +55,7 @@ def require_room(path: Path, samples: int) -> None:
         samples: Number of samples.
     """
     if path.suffix.lower() not in (RRD, MCAP):
-        require_few_samples(path, samples)
+        require_few_samples(str(path), samples)
 
 
 def write_view(path: Path, built: BuiltScene, progress: Progress = lambda _: None) -> int:

@@ -11,11 +11,13 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.figures import (
     REFERENCE_COLOUR,
     ROW_INCHES,
+    headline,
     in_figure_style,
     legend_below,
     look,
     new_figure,
     shown_name,
+    two_digits,
 )
 from forcetorque.workbench.result import BenchPicture
 
@@ -57,6 +59,10 @@ def bench_figure(picture: BenchPicture | None) -> Figure:
     for panel, axis in zip(below, range(3), strict=True):
         _histogram(panel, picture, axis)
     legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(picture.loads)])
+    largest = [np.linalg.norm(errors[:, :3], axis=1).max(initial=0.0) for errors in picture.errors]
+    worst = int(np.argmax(largest))
+    message = f"Largest error of the force at a position: {two_digits(largest[worst])} N"
+    headline(figure, f"{message} ({shown_name(picture.loads[worst])})")
     return figure
 
 

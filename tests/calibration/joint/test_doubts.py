@@ -63,11 +63,14 @@ def test_errors_of_a_sensor_are_those_of_its_covariances() -> None:
         def prior_error_covariance(self, load: np.ndarray) -> np.ndarray:
             return np.diag([4.0, 4.0, 36.0, 9.0, 9.0, 9.0])
 
-        def error_covariance(self, load: np.ndarray, *, session: str | None = None) -> np.ndarray:
+        def error_covariance(
+            self, load: np.ndarray, *, variables: np.ndarray | None = None, session: str | None = None
+        ) -> np.ndarray:
+            assert variables is None or variables.tolist() == [7.0]
             offset = {None: 0.0, "first": 1e3, "last": 5.0}[session]
             return np.diag([1.0, 1.0, 9.0, 1.0, 1.0, 1.0]) + offset * np.eye(6)
 
-    row = SensorErrorRow.of("leg_ft", Known())  # type: ignore[arg-type]
+    row = SensorErrorRow.of("leg_ft", Known(), np.array([7.0]))  # type: ignore[arg-type]
     assert row.load_N == pytest.approx(300.0)
     assert (row.gain_error_before_percent, row.gain_error_after_percent) == pytest.approx((2.0, 1.0))
     assert (row.error_before_N, row.error_after_N) == pytest.approx((np.sqrt(44.0), np.sqrt(11.0)))

@@ -15,10 +15,15 @@ from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit, SensorPrior
+from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.calibration.joint.windows import part_windows
+from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import variable_sizes
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.recording import Use
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, swaying
 from tests.scenes.studies import CALIBRATION, SENSOR, scenario
@@ -75,8 +80,7 @@ def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path, sta
         linear = replace(variable.linear, prior=sheet, prior_deviation=np.full(6, 0.2) * np.abs(sheet).max())
         sensor = replace(sensor, variables=(replace(variable, linear=linear),))
         experiment = replace(experiment, sensors=(sensor,))
-    (entry,) = calibrate_jointly([experiment], "joint", [SENSOR], code_version="1", created="2020").calibrations
-    calibration = entry.calibration
+    calibration = _jointly(experiment)
     (temperature,) = calibration.variables
     error = temperature.coefficients + calibration.matrix @ drift.slope
     assert temperature.standard_error is not None
@@ -101,3 +105,35 @@ def test_a_slope_of_which_nothing_is_known_needs_a_variable_that_moves() -> None
         variable_sizes(voltage, from_load, 0.0)
     stated = LinearVariable(name="supply", unit="V", prior_deviation=np.arange(1.0, 7.0))
     np.testing.assert_allclose(variable_sizes(stated, from_load, 0.0), np.arange(1.0, 7.0) / 100.0)
+
+
+def _jointly(experiment: Experiment) -> Calibration:
+    (entry,) = calibrate_jointly([experiment], "joint", [SENSOR], code_version="1", created="2020").calibrations
+    return entry.calibration
+
+
+def test_a_variable_without_a_value_is_refused(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A calibration that silently knows nothing of the temperature would not ask for it."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    monkeypatch.setattr(ScalarSource, "at", lambda self, recording, at_ns: np.full(len(at_ns), np.nan))
+    with pytest.raises(FitError, match=f"sensor '{SENSOR}': variable 'temperature' has no value"):
+        _jointly(experiment)
+
+
+def test_parts_are_closed_with_what_the_temperature_adds_or_not_at_all(recorded: Path) -> None:
+    """Without it in the file, or in another unit, nothing is said of the part."""
+    experiment = load_experiment(recorded / CALIBRATION[0])
+    calibration, (sensor,) = _jointly(experiment), experiment.sensors
+    (temperature,) = calibration.variables
+
+    def left(of: Calibration) -> float:
+        (part,) = part_residuals(experiment, {SENSOR: of}, Use.CALIBRATION)
+        return float(np.sqrt((part.after[:, :3] ** 2).mean()))
+
+    # negative control: the same with half of what the temperature adds
+    half = temperature.model_copy(update={"coefficients": 0.5 * temperature.coefficients})
+    assert left(calibration) < 0.5 * left(calibration.model_copy(update={"variables": (half,)}))
+    kelvin = replace(sensor.variables[0], linear=replace(sensor.variables[0].linear, unit="K"))
+    for others in ((), (kelvin,)):
+        other = replace(experiment, sensors=(replace(sensor, variables=others),))
+        assert not part_residuals(other, {SENSOR: calibration}, Use.CALIBRATION)

@@ -9,8 +9,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.evaluation.figures.sphere import force_space_figure
-from forcetorque.results.figures import DRAWN_POINTS, look, png_bytes
+from forcetorque.evaluation.figures.sphere import CLOUD_POINTS, force_space_figure
+from forcetorque.results.figures import look, png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import legend_of, panels, words
 
@@ -55,11 +55,11 @@ def test_a_name_looks_alike_in_all_rows(drawn: list[Figure]) -> None:
 
 def test_a_thinned_cloud_keeps_its_extremes_in_the_outline(drawn: list[Figure]) -> None:
     """One sample of thousands that is far away, and not drawn as a point, is a corner."""
-    cloud = _cloud(3 * DRAWN_POINTS)
+    cloud = _cloud(3 * CLOUD_POINTS)
     cloud[4] = [90.0, 80.0, 70.0]
     force_space_figure({"leg": [("model", cloud)]})
     points, hull = panels(drawn[0])[0].lines
-    assert len(points.get_xydata()) == DRAWN_POINTS
+    assert len(points.get_xydata()) == CLOUD_POINTS
     assert points.get_xydata().max() < 10.0
     assert hull.get_xydata().max(axis=0).tolist() == [90.0, 80.0]
     assert to_hex(hull.get_color()) == look(0).colour.lower()

@@ -11,10 +11,11 @@ import pytest
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, UnitError
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.formats.prior.firmware_updater import FirmwareFile, read_firmware_file, write_firmware_file
-from forcetorque.formats.prior.matrix_files import PolynomialModel, read_polynomial_model, write_polynomial_model
+from forcetorque.formats.prior.firmware_updater import FirmwareFile, parsed_firmware
+from forcetorque.formats.prior.matrix_files import PolynomialModel, read_polynomial_model
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import PRIOR_FORMATS, holds_prior, read_prior_file
+from tests.formats.prior.written import write_firmware_file, write_polynomial_model
 
 RNG = np.random.default_rng(5)
 MATRIX = RNG.normal(0.0, 1.0, (6, 6)) * np.repeat([1e-2, 3e-4], 3)[:, None]
@@ -115,7 +116,7 @@ def test_a_board_file_is_written_back_bit_by_bit(tmp_path: Path, version: int) -
     """What is read is written as it was, and its matrix is that of the matrix file with the same codes."""
     path, copy = tmp_path / "a.dat", tmp_path / "b.dat"
     write_firmware_file(path, firmware(version))
-    read = read_firmware_file(path)
+    read = parsed_firmware(path, path.read_text(encoding="ascii"))
     write_firmware_file(copy, read)
     assert copy.read_bytes() == path.read_bytes()
     assert path.read_text(encoding="ascii").startswith(f"File version:\n{version}\n")
@@ -134,7 +135,9 @@ def test_a_sign_extended_code_is_the_same_code(tmp_path: Path) -> None:
     negative = next(k for k in range(start, start + 36) if int(lines[k], 16) >= 0x8000)
     lines[negative] = f"ffff{lines[negative]}"
     path.write_text("\n".join(lines), encoding="ascii")
-    np.testing.assert_array_equal(read_firmware_file(path).matrix.codes, firmware(3).matrix.codes)
+    np.testing.assert_array_equal(
+        parsed_firmware(path, path.read_text(encoding="ascii")).matrix.codes, firmware(3).matrix.codes
+    )
 
 
 def test_a_model_is_read_back_exactly(tmp_path: Path) -> None:

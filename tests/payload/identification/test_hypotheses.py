@@ -145,6 +145,7 @@ CASES: dict[str, tuple[Callable[[], LoadProblem], str, str]] = {
         "nothing hangs on the sensor",
     ),
     "lag": (lambda: _lagging(0.6), "lag", "about 0.6 s behind the motion"),
+    "early": (lambda: _lagging(-0.6), "lag", "about 0.6 s ahead of the motion"),
     "jump": (_jumping, "jump", "the bias jumps in fz before 'row 38'"),
 }
 

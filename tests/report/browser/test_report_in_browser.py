@@ -13,15 +13,18 @@ import pytest
 from PIL import Image
 from pypdf import PdfReader
 
-from tests.browser import Visit
+from forcetorque.results.visual_roles import SURFACES, rgb
+from tests.browser import Visit, needs_axe, violations
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 pytestmark = [pytest.mark.browser, pytest.mark.long]
 
-NARROW = {"width": 420, "height": 800}
+NARROW = {"width": 360, "height": 740}
 """Size of a telephone."""
+FEWEST_RULES = 15
+"""Rules of axe that find something to check on the page."""
 
 
 def _letters(text: str) -> str:
@@ -60,6 +63,43 @@ def test_nothing_sticks_out(visit: Visit, report: Path, size: dict[str, int]) ->
     if size == NARROW:
         tables = page.locator(".scroll").evaluate_all("all => all.some(one => one.scrollWidth > one.clientWidth)")
         assert tables, "control: some table is wider than the screen"
+        cut = """all => all.map(one => one.getBoundingClientRect()).filter(box => box.width && box.right > innerWidth)
+            .length"""
+        assert page.locator("caption, figcaption").evaluate_all(cut) == 0
+        assert min(page.locator("figure img").evaluate_all("all => all.map(one => one.width)")) > size["width"]
+        page.add_style_tag(content="caption { max-width: none; }")
+        assert page.locator("caption").evaluate_all(cut) > 0, "control: some caption is longer than the screen"
+
+
+@needs_axe
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("size", [NARROW, {"width": 1280, "height": 800}], ids=["narrow", "wide"])
+def test_no_violation(visit: Visit, report: Path, size: dict[str, int], dark: bool) -> None:
+    """With everything open; a picture without a description is found."""
+    page = _open(visit, report)
+    page.set_viewport_size(size)  # type: ignore[arg-type]
+    page.emulate_media(color_scheme="dark" if dark else "light")
+    _open_all(page)
+    page.frame_locator("iframe").get_by_label("Sample number").wait_for()
+    assert violations(page, FEWEST_RULES) == []
+    page.locator("img").first.evaluate("one => one.removeAttribute('alt')")
+    assert [rule for rule, _ in violations(page, FEWEST_RULES)] == ["image-alt"]
+
+
+def test_the_ground_is_that_of_the_system(visit: Visit, report: Path) -> None:
+    """Pictures included, whose ground is white in the file; paper is white."""
+    page = _open(visit, report)
+    page.evaluate("scrollTo(0, document.querySelector('img').getBoundingClientRect().top)")
+    shots = {}
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
+        shots[scheme] = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("L"), dtype=int)
+    assert (shots["light"] > 200).mean() > 0.8
+    assert (shots["dark"] < 60).mean() > 0.8
+    ground = "getComputedStyle(document.body).backgroundColor"
+    assert page.evaluate(ground) == "rgb({}, {}, {})".format(*rgb(SURFACES["panel"][1]))
+    page.emulate_media(media="print")
+    assert page.evaluate(ground) == "rgb({}, {}, {})".format(*rgb(SURFACES["panel"][0]))
 
 
 def test_the_screen_shows_something(visit: Visit, report: Path) -> None:

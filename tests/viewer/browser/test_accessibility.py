@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
 from forcetorque.viewer.page import page_of
-from tests.browser import Visit
+from tests.browser import Visit, needs_axe, violations
 from tests.viewer.browser.arm_scene import Arm
 from tests.viewer.browser.press import wait_for_drawing
 
@@ -18,21 +17,14 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.long]
 
-AXE = Path(__file__).resolve().parents[3] / "web/node_modules/axe-core/axe.min.js"
-needs_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: run `npm ci` in web")
-RUN = """() => axe.run({runOnly: {type: "tag", values:
-    ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}})"""
 OPEN = "document.querySelectorAll('details:not(.keys)').forEach(part => { part.open = true; })"
 FEWEST_RULES = 40
 """Rules that find something to check on the page."""
 
 
-def violations(page: Page) -> list[tuple[str, list[str]]]:
-    """Rules that are broken, and by what."""
-    wait_for_drawing(page)  # axe fails where what it looks at is replaced meanwhile
-    result: dict[str, list[dict[str, Any]]] = page.evaluate(RUN)
-    assert len(result["passes"]) + len(result["violations"]) >= FEWEST_RULES
-    return [(rule["id"], [node["html"] for node in rule["nodes"]]) for rule in result["violations"]]
+def _violations(page: Page) -> list[tuple[str, list[str]]]:
+    wait_for_drawing(page)
+    return violations(page, FEWEST_RULES)
 
 
 @needs_axe
@@ -47,13 +39,12 @@ def test_no_violation(visit: Visit, arm: Arm, size: tuple[int, int], dark: bool)
     page.emulate_media(color_scheme="dark" if dark else "light")
     page.goto(file.as_uri())
     page.evaluate("window.ft.ready")
-    page.evaluate(AXE.read_text(encoding="utf-8"))
-    assert violations(page) == []
+    assert _violations(page) == []
     page.evaluate(OPEN)
-    assert violations(page) == []
+    assert _violations(page) == []
     page.get_by_role("button", name="Enlarge time plots").click()
-    assert violations(page) == []
+    assert _violations(page) == []
     page.get_by_text("Keys", exact=True).click()
-    assert violations(page) == []
+    assert _violations(page) == []
     page.evaluate("document.querySelector('header').append(document.createElement('button'))")
-    assert [rule for rule, _ in violations(page)] == ["button-name"]
+    assert [rule for rule, _ in _violations(page)] == ["button-name"]

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from forcetorque.results.visual_roles import SURFACES, rgb
@@ -85,6 +87,19 @@ def test_names_and_letters_do_not_lie_on_each_other(visit: Visit, arm: Arm, size
             for other in rectangles[:k]:
                 assert not _meet(one, other), (sample, one, other)
     assert _meet(rectangles[0], rectangles[0])
+
+
+def test_what_nothing_is_expected_of_has_no_empty_plots(visit: Visit, arm: Arm) -> None:
+    """Forces and moments are beside each other in place of errors; the control has an expected wrench."""
+    sensors = tuple(
+        replace(sensor, wrenches=tuple(series for series in sensor.wrenches if series.role != "expected"))
+        for sensor in arm.built.scene.sensors
+    )
+    bare = replace(arm.built, scene=replace(arm.built.scene, sensors=sensors))
+    for built, kinds in ((bare, {"measured"}), (arm.built, {"error", "measured"})):
+        page = visit.open(built)
+        assert {plot["kind"] for plot in page.evaluate("window.ft.plots()")} == kinds
+        assert page.get_by_role("button", name="Worst sample").count() == len(kinds) - 1
 
 
 def _meet(one: dict[str, float], other: dict[str, float]) -> bool:

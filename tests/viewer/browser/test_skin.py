@@ -166,12 +166,20 @@ def test_pressure_is_seen(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> N
 
 
 def test_skin_alone_has_the_page_to_itself(visit: Visit, tmp_path: Path) -> None:
-    """Without a sensor there is neither force space nor a course of forces; contacts are drawn and numbered."""
+    """Without a sensor there is neither force space nor a course of forces; contacts are drawn and numbered.
+
+    It opens at the largest contact, the control being that its first sample has none.
+    """
     file = write_events(tmp_path)
     page = visit.open(scene_of(file, load_experiment(file, Purpose.DISPLAY), {}))
     assert page.get_by_role("region", name="Robot").is_visible()
-    for empty in ("Force space", "Planes"):
+    for empty in ("Force space", "Planes", "Series", "Error in view"):
         assert not page.get_by_role("region", name=empty).is_visible()
+    assert page.get_by_role("combobox", name="Sensor").count() == 0
+    assert page.get_by_role("heading", name="Time").is_visible()
+    assert sum(map(len, page.evaluate("window.ft.skin()")["contacts"].values())) > 0
+    page.evaluate("window.ft.show(0)")
+    assert sum(map(len, page.evaluate("window.ft.skin()")["contacts"].values())) == 0
     page.evaluate(f"window.ft.show({TOUCHED[3]})")
     assert [len(tips) for tips in page.evaluate("window.ft.skin()")["contacts"].values()] == [1, 0]
     texts = page.get_by_role("region", name="Skin").get_by_role("row").all_text_contents()

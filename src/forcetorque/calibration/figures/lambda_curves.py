@@ -26,6 +26,7 @@ from forcetorque.results.figures import (
     legend_below,
     look,
     new_figure,
+    number_log_axis,
     shown_name,
 )
 from forcetorque.results.visual_roles import HIGHLIGHT
@@ -167,14 +168,10 @@ def set_height_axis(panel: Axes, heights: FloatArray) -> None:
         panel: The panel.
         heights: All that is to be drawn on it; NaN where there is nothing; shape (n,).
     """
-    from matplotlib.ticker import LogLocator, NullLocator
-
     known = heights[np.isfinite(heights)]
     if len(known) and known.min() > 0.0 and known.max() > _LOGARITHMIC_RATIO * known.min():
         panel.set_yscale("log")
-        panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        panel.yaxis.set_minor_locator(NullLocator())
-        panel.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        number_log_axis(panel.yaxis)
 
 
 def draw_curves(panel: Axes, lambdas: FloatArray, curves: Sequence[FloatArray], looks: Sequence[Look]) -> None:

@@ -5,14 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
-from forcetorque.calibration.joint.untouched_interval import JointInterval, expected_slope, required_prior
+from forcetorque.calibration.joint.untouched_interval import JointInterval, required_prior
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.artefact import (
     JOINT,
@@ -39,21 +38,32 @@ from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 
-def joint_posterior(fit: JointFit, serials: dict[str, str]) -> JointPosterior:
+def joint_posterior(
+    fit: JointFit, sensors: Mapping[str, ExperimentSensor], references: Mapping[tuple[str, str], float]
+) -> JointPosterior:
     """Keep what a fit knows.
 
     Args:
         fit: The fit.
-        serials: Serial numbers by the names of the sensors.
+        sensors: The sensors by their names.
+        references: Value at which a variable adds nothing, by sensor and variable.
 
     Returns:
         The same for a file.
     """
     places = fit.places
     return JointPosterior(
-        sensors=tuple(JointSensor(name=name, serial=serials[name]) for name in places.sensors),
+        sensors=tuple(JointSensor(name=name, serial=sensors[name].serial) for name in places.sensors),
         offsets=tuple(JointOffset(sensor=sensor, session=session) for sensor, session in places.offsets),
-        slopes=tuple(JointSlope(sensor=sensor, variable=variable) for sensor, variable in places.slopes),
+        slopes=tuple(
+            JointSlope(
+                sensor=sensor,
+                variable=variable,
+                unit=sensors[sensor].variable(variable).linear.unit,
+                reference_value=references[sensor, variable],
+            )
+            for sensor, variable in places.slopes
+        ),
         terms=tuple(JointTerm(name=term.name, unit=term.unit, prior_deviation=term.deviation) for term in places.terms),
         mean=fit.mean,
         covariance=fit.covariance,
@@ -65,7 +75,7 @@ def sensor_posterior(
     sensor: str,
     sessions: Sequence[str],
     *,
-    slopes: Mapping[str, FloatArray] = MappingProxyType({}),
+    slopes: Sequence[str] = (),
     noise: FloatArray,
     repeatability: float,
     mean_loads: FloatArray,
@@ -76,8 +86,7 @@ def sensor_posterior(
         fit: The fit of all sensors.
         sensor: One of them.
         sessions: Its sessions, the last of them last.
-        slopes: Its variables, with what the file expects to be added to its readings per unit of each; shape (6,) each;
-            N, N m per unit.
+        slopes: Its variables.
         noise: Noise of means over a second; shape (6,); N, N m.
         repeatability: Share of its response by which the sensor differs from one motion to the next.
         mean_loads: Mean load of every session; shape (sessions, 6); N, N m.
@@ -102,14 +111,13 @@ def sensor_posterior(
     before = fit.prior_covariance(sensor) * np.outer(size, size)
     of_terms = fit.covariance[places.errors, places.errors]
     by_model = jacobian @ (units[:, None] * fit.covariance[own, places.errors]) @ np.linalg.pinv(of_terms)
-    expected = np.column_stack([*slopes.values(), np.zeros((LOADS, len(sessions)))])
     model = ModelPart(terms=places.terms, term_covariance=of_terms, response=np.stack([by_model[row] for row in rows]))
     return Posterior(
         space="wrench",
         variables=tuple(slopes),
         sessions=tuple(sessions),
         drift=False,
-        mean=np.c_[factor - np.eye(LOADS), -factor @ added.T - expected],
+        mean=np.c_[factor - np.eye(LOADS), -factor @ added.T],
         covariance=covariance + _repeatability(repeatability, len(slopes), mean_loads),
         mean_covariance=learnt,
         prior_covariance=np.stack([before[np.ix_(row[:LOADS], row[:LOADS])] for row in rows]),
@@ -212,7 +220,7 @@ def sensor_artefact(
         fit,
         sensor,
         names,
-        slopes={name: expected_slope(described, name) for name in references},
+        slopes=tuple(references),
         noise=residual,
         repeatability=campaign.runs[0].experiment.fit_options.repeatability,
         mean_loads=np.stack([moments[name].reference_mean for name in names]),
@@ -279,8 +287,6 @@ def _windows(
     fit = result.fit
     moved = {(sensor, name): interval.variables[sensor, name][used, None] for name in variables}
     wrench = raw.means[used] @ matrix.T + fit.added(sensor, stretch.session, moved)
-    for (_, name), values in moved.items():
-        wrench = wrench + values * (fit.change(sensor) @ expected_slope(campaign.sensor, name))
     experiment = next(run.experiment for run in campaign.runs if campaign.recording(run) == stretch.recording)
     return SensorWindows(
         interval=FittedInterval(
@@ -303,23 +309,14 @@ def _variables(
     sensor: ExperimentSensor, references: Mapping[str, float], fit: JointFit, moved: FloatArray
 ) -> Iterator[CalibratedVariable]:
     """What variables add; `moved` are they less their reference values; shape (w, v)."""
-    changes = fit.places.changes(sensor.name)
     for k, (name, reference) in enumerate(references.items()):
-        linear, own, expected = (
-            sensor.variable(name).linear,
-            fit.places.slope(sensor.name, name),
-            expected_slope(sensor, name),
-        )
-        # of (1 + D) expected + slope
-        jacobian = np.hstack([np.kron(np.eye(LOADS), expected / UNITS), np.eye(LOADS)])
-        places = np.r_[changes, own]
-        covariance = jacobian @ fit.covariance[np.ix_(places, places)] @ jacobian.T
+        linear, own = sensor.variable(name).linear, fit.places.slope(sensor.name, name)
         yield CalibratedVariable(
             name=name,
             unit=linear.unit,
             reference_value=reference,
-            coefficients=fit.change(sensor.name) @ expected + fit.slope(sensor.name, name),
-            standard_error=np.sqrt(np.diag(covariance)) * UNITS,
+            coefficients=fit.slope(sensor.name, name),
+            standard_error=np.sqrt(np.diag(fit.covariance)[own]) * UNITS,
             prior=linear.prior,
             minimum=float(moved[:, k].min() + reference),
             maximum=float(moved[:, k].max() + reference),

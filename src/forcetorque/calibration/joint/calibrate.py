@@ -19,7 +19,7 @@ from forcetorque.calibration.calibrate import (
     data_doubts,
     fit_doubts,
 )
-from forcetorque.calibration.joint.artefact import sensor_artefact
+from forcetorque.calibration.joint.artefact import joint_posterior, sensor_artefact
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.joint.unknowns import JointFit, SensorPrior
@@ -74,6 +74,7 @@ class JointData:
             ExperimentError: If there is no calibration interval, the files are of different sensors, two have the same
                 readings, or in one no untouched part has all joints in the log.
             EstimationError: If every part is touched in every interval.
+            FitError: If a variable of a sensor has no value in them.
         """
         names = tuple(sensor.name for sensor in experiments[0].sensors) if sensors is None else tuple(sensors)
         campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
@@ -88,6 +89,12 @@ class JointData:
                 touched.append((label, outcome))
         if not intervals:
             raise touched[0][1]
+        for sensor, variable in _variables(campaigns.values()):
+            if (sensor, variable) not in references and any(sensor in one.raw for one in intervals):
+                raise FitError(
+                    f"sensor {sensor!r}: variable {variable!r} has no value in the calibration intervals; log it, or "
+                    "leave it out of [[sensor]]"
+                )
         left_out = tuple(f"interval {label!r} is left out: {error}" for label, error in touched)
         return cls(campaigns=campaigns, intervals=tuple(intervals), references=references, left_out=left_out)
 
@@ -170,12 +177,21 @@ def _prior(campaign: Campaign, tolerance: ModelTolerance, intervals: Sequence[Jo
     assumptions = assumptions_of(CampaignRecording.of(campaign.runs[0]))
     extents = []
     for variable in sensor.variables:
-        seen = [one.variables.get((sensor.name, variable.linear.name), np.zeros(0)) for one in intervals]
-        values = np.concatenate(seen)
-        finite = values[np.isfinite(values)]
-        extents.append((variable.linear, float(np.ptp(finite)) if len(finite) else 0.0))
+        pair = sensor.name, variable.linear.name
+        seen = np.concatenate([np.empty(0), *(one.variables[pair] for one in intervals if pair in one.variables)])
+        if np.isfinite(seen).any():  # else the sensor is beside no part that is fitted
+            extents.append((variable.linear, float(np.nanmax(seen) - np.nanmin(seen))))
     assumptions = replace(assumptions, mount=tolerance.mount_of(sensor.name))
-    return SensorPrior.of(required_prior(sensor), assumptions, extents)
+    try:
+        return SensorPrior.of(required_prior(sensor), assumptions, extents)
+    except FitError as error:
+        raise FitError(f"sensor {sensor.name!r}: {error}") from error
+
+
+def _variables(campaigns: Iterable[Campaign]) -> Iterator[tuple[str, str]]:
+    """Sensor and name of every linear variable."""
+    for one in campaigns:
+        yield from ((one.sensor.name, variable.linear.name) for variable in one.sensor.variables)
 
 
 _FEW: Final = 1000
@@ -330,7 +346,9 @@ def calibrate_jointly(
             "other sensors of the part too, or take a motion in which nothing touches it"
         )
     place = Path(folder)
-    joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE))
+    described = {name: campaign.sensor for name, campaign in data.campaigns.items()}
+    posterior = joint_posterior(result.fit, described, data.references)
+    joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE), posterior)
     doubts = [
         *data.left_out,
         *(_without_equation(name) for name in data.campaigns if name not in calibrations),

@@ -133,6 +133,11 @@ class _Unknowns:
         sensor, variable = slope
         return self.priors[self.places.sensors.index(sensor)].slopes[variable]
 
+    def expected(self, slopes: Iterable[tuple[str, str]]) -> FloatArray:
+        """What slopes are expected to be, one after the other; in `UNITS` per unit."""
+        means = (self.priors[self.places.sensors.index(sensor)].expected_slopes.get(name) for sensor, name in slopes)
+        return np.concatenate([np.empty(0), *(np.zeros(LOADS) if mean is None else mean for mean in means)])
+
     def sizes(self, rows: Sequence[IntArray]) -> Sizes:
         """Kinds of the unknowns: of every sensor its own, offsets, slopes, and errors of the model of one kind."""
         scales: list[Scale] = []
@@ -174,11 +179,14 @@ class _Unknowns:
             ]
         )
         basis[first - self._shift :, first:] = np.diag(scales)
+        mean = basis @ best.solution.coefficients
+        for pair in places.slopes:
+            mean[places.slope(*pair)] += self.expected([pair])
         covariance = best.solution.covariance()
         pulled = covariance / best.deviations**2 * np.sqrt(deviations**2 - best.deviations**2)
         return JointFit(
             places=places,
-            mean=basis @ best.solution.coefficients,
+            mean=mean,
             covariance=basis @ (covariance + pulled @ pulled.T) @ basis.T,
             prior_root=basis * deviations,
         )
@@ -187,7 +195,7 @@ class _Unknowns:
 def _rows(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> list[tuple[RowData, IntArray]]:
     """The rows of one part in one interval, with the places of their unknowns."""
     basis, own = unknowns.of_part(windows)
-    products = _products(windows, unknowns.places.terms, about)
+    products = _products(windows, unknowns, about)
     offsets = CHANGES * len(windows.sensors) + np.arange(LOADS * len(windows.sensors))
     return [
         (
@@ -206,13 +214,14 @@ def _rows(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> 
     ]
 
 
-def _products(windows: PartWindows, terms: Sequence[ErrorTerm], about: JointFit | None) -> FloatArray:
+def _products(windows: PartWindows, unknowns: _Unknowns, about: JointFit | None) -> FloatArray:
     """Products of the columns of every row, the right side last, each window counted for its share of one; by block."""
-    deviations = {term.name: term.deviation for term in terms}
+    deviations = {term.name: term.deviation for term in unknowns.places.terms}
+    slopes = unknowns.expected(windows.slopes)
     size = np.array([deviations[name] for name in windows.terms])
     total: FloatArray | float = 0.0
     for block in windows.blocks():
-        expected, right = block.expected_changes, block.right
+        expected, right = block.expected_changes, block.right - block.of_slopes @ slopes
         if about is not None:
             known = np.concatenate([about.mean[about.places.changes(name)] for name in windows.sensors])
             right = right - (block.changes - expected) @ known

@@ -10,11 +10,13 @@ from typing import Annotated, Self
 import numpy as np
 from pydantic import Field
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
 from forcetorque.calibration.joint.unknowns import JointFit
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.joint_posterior import JointPosterior
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.results.number_text import with_error
@@ -66,12 +68,13 @@ class SensorErrorRow(Row):
         return self.error_with_offset_N < max(_OFFSET_SHARE * self.load_N, _OFFSET_N)
 
     @classmethod
-    def of(cls, sensor: str, posterior: Posterior) -> Self:
+    def of(cls, sensor: str, posterior: Posterior, variables: FloatArray) -> Self:
         """Predict the errors of a sensor.
 
         Args:
             sensor: Its name.
             posterior: What is known of it, with a prior.
+            variables: Its variables in the middle of the recordings, less their reference values; shape (v,).
 
         Returns:
             The row.
@@ -82,7 +85,7 @@ class SensorErrorRow(Row):
         prior = posterior.prior_error_covariance(load)
         after = posterior.error_covariance(load)[:3, :3]
         before = after if prior is None else prior[:3, :3]
-        absolute = posterior.error_covariance(load, session=posterior.sessions[-1])[:3, :3]
+        absolute = posterior.error_covariance(load, variables=variables, session=posterior.sessions[-1])[:3, :3]
         gains = [100.0 * float(np.sqrt(along @ one @ along)) / size for one in (before, after)]
         return cls(
             sensor=sensor,
@@ -257,17 +260,26 @@ class JointOutcome(Row):
     """Parts that nothing touches, but whose joints were not logged, in words."""
     fit: JointFit = Field(exclude=True, repr=False)
     """The fit."""
+    posterior: JointPosterior | None = Field(exclude=True, repr=False)
+    """What the file holds."""
     residuals: tuple[PartResidual, ...] = Field(exclude=True, repr=False)
     """What is left of the equations, window by window."""
 
     @classmethod
-    def of(cls, result: JointResult, calibrations: Mapping[str, Calibration], file: str | None) -> Self:
+    def of(
+        cls,
+        result: JointResult,
+        calibrations: Mapping[str, Calibration],
+        file: str | None = None,
+        posterior: JointPosterior | None = None,
+    ) -> Self:
         """Sum up a joint calibration.
 
         Args:
             result: The fit and what was left out.
             calibrations: Calibrations by the names of their sensors.
             file: File for the covariance of all unknowns.
+            posterior: What it is to hold.
 
         Returns:
             The same for people and files.
@@ -275,7 +287,7 @@ class JointOutcome(Row):
         return cls(
             file=file,
             sensors=tuple(
-                SensorErrorRow.of(name, calibration.posterior)
+                SensorErrorRow.of(name, calibration.posterior, _middle(calibration.variables))
                 for name, calibration in calibrations.items()
                 if calibration.posterior is not None
             ),
@@ -284,6 +296,7 @@ class JointOutcome(Row):
             contacts=tuple(map(ContactSpanRow.of, result.touches)),
             left_out=result.left_out,
             fit=result.fit,
+            posterior=posterior,
             residuals=result.residuals,
         )
 
@@ -312,6 +325,10 @@ class JointOutcome(Row):
         yield from _wide_errors(self.model_errors, [row.root_link for row in self.sub_models])
         for interval, rows in groupby(self.sub_models, key=lambda row: row.interval):
             yield from _disagreeing(interval, [row for row in rows if row.mass_kg > _LIGHT_KG])
+
+
+def _middle(variables: Sequence[CalibratedVariable]) -> FloatArray:
+    return np.array([0.5 * (one.minimum + one.maximum) - one.reference_value for one in variables])
 
 
 def _open_loads(sensors: Sequence[SensorErrorRow]) -> Iterator[str]:

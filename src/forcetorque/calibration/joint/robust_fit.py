@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -242,7 +242,7 @@ class JointResult:
     touches: tuple[Touch, ...]
     """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
-    """Parts that nothing touches, but whose joints were not logged, in words."""
+    """Parts that nothing touches, but whose joints, or readings and joints at a time, were not logged, in words."""
 
 
 def fit_stretches(
@@ -271,10 +271,14 @@ def fit_stretches(
     duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
     every = max(round(duration / LINEAR_S), 1)
     windows = _windows(stretches, terms, None, every)
+    if every > 1 and not all(map(len, windows)):  # a part may have readings in the other pieces alone
+        windows = _windows(stretches, terms, None, every := 1)
+    empty = [_without_windows(one) for one in windows if not len(one) and one.rows.all()]
+    windows = _filled(windows)
     fit = _fit(windows, _agreeing(windows, None), terms, priors, None, widened=False)
     for number in range(2, ROUNDS + 1):
         progress(f"the same about the fit, round {number} of {ROUNDS}")
-        windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
+        windows = _filled(_windows(stretches, terms, fit, every if number < ROUNDS else 1))
         fit = _fit(windows, _agreeing(windows, fit), terms, priors, fit, widened=number == ROUNDS)
     kept = _agreeing(windows, fit)
     return JointResult(
@@ -283,8 +287,20 @@ def fit_stretches(
             PartResidual.of(one, residuals(one, fit), marks) for one, marks in zip(windows, kept, strict=True)
         ),
         touches=all_touches(windows, kept),
-        left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
+        left_out=tuple(dict.fromkeys([*(words for one in stretches for words in one.left_out), *empty])),
     )
+
+
+def _without_windows(windows: PartWindows) -> str:
+    names = ", ".join((*windows.sensors, *dict.fromkeys(name for _, name in windows.slopes)))
+    return (
+        f"part {windows.part!r} is left out of {windows.stretch.label!r}: in no window of {WINDOW_S:g} s all that it "
+        f"needs was logged; look for gaps in {names}, joints and IMU"
+    )
+
+
+def _filled(windows: Iterable[PartWindows]) -> tuple[PartWindows, ...]:
+    return tuple(one for one in windows if len(one))
 
 
 def _windows(

@@ -195,8 +195,10 @@ class JointFit:
             variables: As of `added`.
 
         Returns:
-            Wrenches; shape (n, 6); N, N m.
+            Wrenches; shape (n, 6); N, N m; NaN where the fit has no offset of the sensor in the session.
         """
+        if (sensor, session) not in self.places.offsets:
+            return np.full_like(readings, np.nan)
         return readings @ self.change(sensor).T + self.added(sensor, session, variables)
 
     def reading(
@@ -211,8 +213,10 @@ class JointFit:
             variables: As of `added`.
 
         Returns:
-            Readings without offset; shape (n, 6); N, N m.
+            Readings without offset; shape (n, 6); N, N m; NaN as of `wrench`.
         """
+        if (sensor, session) not in self.places.offsets:
+            return np.full_like(wrenches, np.nan)
         readings = np.linalg.solve(self.change(sensor), (wrenches - self.added(sensor, session, variables)).T).T
         return np.asarray(readings, dtype=np.float64)
 
@@ -273,7 +277,9 @@ class SensorPrior:
     kinds: tuple[int, ...]
     """Number of the kind of every unknown; q of them."""
     slopes: Mapping[str, FloatArray] = field(default_factory=dict)
-    """Standard deviation of what a unit of every variable may add; shape (6,) each; in `UNITS` per unit."""
+    """Standard deviation of what a unit of every variable adds; shape (6,) each; in `UNITS` per unit."""
+    expected_slopes: Mapping[str, FloatArray] = field(default_factory=dict)
+    """What it is expected to add, of variables of which that is stated; shape (6,) each; in `UNITS` per unit."""
 
     @classmethod
     def of(
@@ -313,6 +319,9 @@ class SensorPrior:
             slopes={
                 variable.name: size * variable_sizes(variable, np.diag(1.0 / size), extent) / UNITS
                 for variable, extent in extents
+            },
+            expected_slopes={
+                variable.name: variable.prior / UNITS for variable, _ in extents if variable.prior is not None
             },
         )
 

@@ -102,17 +102,18 @@ class RawWindows:
     maximum: FloatArray
     """Largest reading per channel; shape (c,); counts."""
     samples: int
-    """Samples with a reading."""
+    """Samples with a reading, and with the variables of the sensor."""
     missing: int
     """Samples without."""
     unusable: UnusableCounts
     """Samples of the sensor that say nothing of its load, among those of the interval."""
 
     @classmethod
-    def of(cls, stretch: Stretch, raw: FloatArray, unusable: UnusableCounts) -> Self:
+    def of(cls, sensor: str, stretch: Stretch, raw: FloatArray, unusable: UnusableCounts) -> Self:
         """Average raw readings.
 
         Args:
+            sensor: Name of the sensor.
             stretch: The stretch that they are of.
             raw: Readings at its instants; shape (n, c); counts; NaN in gaps.
             unusable: Samples of the sensor that say nothing of its load, among those of the interval.
@@ -121,8 +122,9 @@ class RawWindows:
             The same over its windows.
         """
         samples, minimum, maximum = 0, np.full(raw.shape[1], np.nan), np.full(raw.shape[1], np.nan)
-        for (block,) in row_blocks(raw):
-            whole = block[np.isfinite(block).all(axis=1)]
+        variables = [values for (owner, _), values in stretch.variables.items() if owner == sensor]
+        for block, *beside in row_blocks(raw, *variables):
+            whole = block[np.isfinite(np.hstack([block, *beside])).all(axis=1)]
             if len(whole):
                 samples += len(whole)
                 minimum, maximum = np.fmin(minimum, whole.min(axis=0)), np.fmax(maximum, whole.max(axis=0))
@@ -208,7 +210,8 @@ def joint_interval(
         interval=interval,
         untouched=replace(untouched, stretch=stretch),
         raw={
-            name: RawWindows.of(stretch, values, UnusableCounts.total(unusable[name])) for name, values in raw.items()
+            name: RawWindows.of(name, stretch, values, UnusableCounts.total(unusable[name]))
+            for name, values in raw.items()
         },
         variables={pair: window_means(stretch, values)[1][:, 0] for pair, values in stretch.variables.items()},
     )
@@ -320,8 +323,6 @@ def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Seque
             if pair in references:
                 values = variable.source.at(experiment.recording, samples.stamp_ns)
                 variables[pair] = values[:, None] - references[pair]
-                if variable.linear.prior is not None:
-                    readings[sensor.name] = readings[sensor.name] + variables[pair] * variable.linear.prior
     stretch = Stretch(
         label=interval.label,
         recording=experiment.name,
@@ -361,16 +362,6 @@ def required_prior(sensor: ExperimentSensor) -> FloatArray:
     return sensor.prior
 
 
-def expected_slope(sensor: ExperimentSensor, variable: str) -> FloatArray:
-    """Give what the experiment file expects to be added to the readings of a sensor per unit of a variable.
-
-    Returns:
-        Slope; shape (6,); N, N m per unit.
-    """
-    prior = sensor.variable(variable).linear.prior
-    return np.zeros(6) if prior is None else prior
-
-
 def part_residuals(experiment: Experiment, calibrations: Mapping[str, Calibration], use: Use) -> list[PartResidual]:
     """Add up what the sensors of every part read, and take off what moves its bodies.
 
@@ -380,20 +371,27 @@ def part_residuals(experiment: Experiment, calibrations: Mapping[str, Calibratio
         use: Use of the intervals that are asked.
 
     Returns:
-        What is left by the prior matrices and by the calibrations, of every part all of whose sensors have one and
-        whose joints were logged. Both with the offsets that suit the interval best, unless the calibrations know its
-        session; then they keep theirs.
+        What is left by the prior matrices and by the calibrations, of every part all of whose sensors have one, and the
+        variables for it, and whose joints were logged. Both with the offsets that suit the interval best, unless
+        the calibrations know its session; then they keep theirs.
     """
     used = {
         sensor.name: calibrations[sensor.name]
         for sensor in experiment.sensors
-        if sensor.name in calibrations and sensor.prior is not None
+        if sensor.name in calibrations
+        and sensor.prior is not None
+        and _has_variables(sensor, calibrations[sensor.name])
     }
     if not used:
         return []
     intervals = [interval for interval in experiment.recording.intervals if interval.use is use]
     segments = segment_experiments(experiment)
     return [residual for interval in intervals for residual in _residuals(experiment, interval, used, segments)]
+
+
+def _has_variables(sensor: ExperimentSensor, calibration: Calibration) -> bool:
+    units = {variable.linear.name: variable.linear.unit for variable in sensor.variables}
+    return all(units.get(variable.name) == variable.unit for variable in calibration.variables)
 
 
 def _residuals(
@@ -427,10 +425,6 @@ def _residuals(
             name: calibration.matrix @ np.linalg.pinv(required_prior(experiment.sensor(name)))
             for name, calibration in own.items()
         }
-        # the readings hold what the file expects of the variables already
-        slopes = {
-            pair: variables[pair].coefficients - factors[pair[0]] @ expected_slope(experiment.sensor(pair[0]), pair[1])
-            for pair in windows.slopes
-        }
+        slopes = {pair: variables[pair].coefficients for pair in windows.slopes}
         left = residuals_by(windows, factors, offsets if len(offsets) == len(own) else None, slopes)
         yield PartResidual.of(windows, left, np.ones(len(windows), dtype=bool))

@@ -15,6 +15,7 @@ from forcetorque.results.figures import (
     GRID,
     LIMIT_LINE,
     PAPER,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -82,7 +83,17 @@ def use_figure(verdicts: Sequence[LoadCaseVerdict], names: Mapping[str, str]) ->
         title="mark: half of such sensors err less; line: 95 % of them; “at most”: its upper end",
         points=_POINTS,
     )
+    headline(figure, _within_what_is_allowed(verdicts))
     return figure
+
+
+def _within_what_is_allowed(verdicts: Sequence[LoadCaseVerdict]) -> str:
+    limited = [verdict for verdict in verdicts if any(row.allowed is not None for row in verdict.errors)]
+    if limited:
+        kept = sum(all(_style(row) is _AFTER for row in verdict.errors) for verdict in limited)
+        return f"{kept} of {len(limited)} predictions stay within what is allowed, with 95 %"
+    largest = max((verdict.errors[0] for verdict in verdicts), key=lambda row: row.after_at_most)
+    return f"Largest predicted {largest.quantity} error: at most {two_digits(largest.after_at_most)} {largest.unit}"
 
 
 def _keys(rows: Sequence[LoadCaseError]) -> list[tuple[str, Mapping[str, Any]]]:

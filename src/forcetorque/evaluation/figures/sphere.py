@@ -25,6 +25,7 @@ from forcetorque.results.figures import (
     ROW_INCHES,
     Look,
     drawable,
+    headline,
     in_figure_style,
     legend_below,
     look,
@@ -32,6 +33,7 @@ from forcetorque.results.figures import (
     new_figure,
     shown_name,
     thinned_cloud,
+    two_digits,
 )
 from forcetorque.results.table import short_names
 from forcetorque.results.visual_roles import SHADE
@@ -45,6 +47,8 @@ _OUTLINE_POINTS = 181
 _MAPPED, _FREE = look(1), look(2)
 _FEW = 300
 """Points that can be told apart one by one."""
+CLOUD_POINTS = 1000
+"""Points of a cloud of which some stand for all; more hide each other and the outlines."""
 _FAR = 2.5
 """An outline that is so many times larger than the cloud would hide it and is not drawn."""
 
@@ -86,7 +90,23 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
             loc="left",
         )
     legend_below(figure, _keys(spheres))
+    headline(figure, _axes_differ(spheres, [names[sphere.calibration] for sphere in spheres]))
     return figure
+
+
+def _axes_differ(spheres: Sequence[SensorSphere], names: Sequence[str]) -> str:
+    """Least and largest index, and how many there are not."""
+    indices = {}
+    for sphere, name in zip(spheres, names, strict=True):
+        fit = next((fit for fit in _fits(sphere) if fit.identifiable), None)
+        if fit is not None:
+            indices[f"{sphere.sensor}, {name}"] = fit.index / sphere.analysis.gravity
+    open_ones = f"{len(spheres) - len(indices)} of {len(spheres)} not identifiable"
+    if not indices:
+        return f"Axes of the ellipsoids: {open_ones}"
+    ends = dict.fromkeys([min(indices, key=indices.__getitem__), max(indices, key=indices.__getitem__)])
+    words = " to ".join(f"{two_digits(indices[name])} kg ({shown_name(name)})" for name in ends)
+    return f"Axes of the ellipsoids differ by {words}" + (f"; {open_ones}" if len(indices) < len(spheres) else "")
 
 
 def _keys(spheres: Sequence[SensorSphere]) -> list[tuple[str, dict[str, Any]]]:
@@ -121,7 +141,7 @@ def _centre(sphere: SensorSphere) -> FloatArray:
 
 
 def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tuple[int, int]) -> None:
-    force = thinned_cloud(sphere.force - centre)[:, plane]
+    force = thinned_cloud(sphere.force - centre, CLOUD_POINTS)[:, plane]
     cloud = look(0)
     size_points = 5.0 if len(force) < _FEW else 1.8
     panel.plot(*force.T, cloud.marker, color=cloud.colour, markersize=size_points, markeredgewidth=0.0, alpha=0.5)
@@ -212,6 +232,14 @@ def force_space_figure(
             panel.set_ylabel(labels[plane[1]])
         panels[0].set_title(shown_name(title), loc="left")
     legend_below(figure, [(shown_name(name), style.key) for name, style in styles.items()])
+    largest = {
+        (name, title): float(np.linalg.norm(points, axis=1).max(initial=0.0))
+        for title, named in rows.items()
+        for name, points in named
+    }
+    name, title = max(largest, key=largest.__getitem__)
+    unit = labels[0].partition(", ")[2]
+    headline(figure, f"Largest {quantity}: {largest[name, title]:.3g} {unit} ({shown_name(name)}, {shown_name(title)})")
     return figure
 
 
@@ -233,7 +261,12 @@ def _checked(clouds: Mapping[str, Sequence[tuple[str, Any]]]) -> dict[str, list[
 def _draw_force_plane(panel: Axes, clouds: list[tuple[Look, FloatArray]]) -> None:
     for style, points in clouds:
         panel.plot(
-            *thinned_cloud(points).T, style.marker, color=style.colour, markersize=2.4, markeredgewidth=0.0, alpha=0.5
+            *thinned_cloud(points, CLOUD_POINTS).T,
+            style.marker,
+            color=style.colour,
+            markersize=2.4,
+            markeredgewidth=0.0,
+            alpha=0.5,
         )
     for style, points in clouds:
         panel.plot(*outline(points).T, color=style.colour, linestyle=style.dashes, linewidth=1.2, zorder=3.0)
@@ -306,7 +339,16 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     panels[0].set_ylim(inches, 0.0)
     panels[0].set_yticks(0.5 * (tops[:-1] + tops[1:]), _names(ordered))
     legend_below(figure, _index_keys(groups))
+    headline(figure, _least_index(ordered))
     return figure
+
+
+def _least_index(ordered: Sequence[TrialGroup]) -> str:
+    """The first of the groups in order, by the fit that it has its place from."""
+    for words, index in zip(("with the model", "without the model"), _place(ordered[0]), strict=True):
+        if np.isfinite(index):
+            return f"Least index {words}: {two_digits(index)} kg ({_names(ordered)[0]})"
+    return "No index is identifiable"
 
 
 def _place(group: TrialGroup) -> tuple[float, float]:

@@ -42,9 +42,6 @@ from forcetorque.evaluation.sphere.fit_results import (
 )
 from forcetorque.evaluation.sphere.geometric_fit import refine_ellipsoid, refine_sphere
 
-Ends = tuple[FloatArray, FloatArray]
-"""Lower and upper ends of intervals."""
-
 _FLAT = 1e-5
 """Extent across a plane, relative to that along it, below which moments of the fourth degree see none."""
 

@@ -419,9 +419,8 @@ def _no_reference(run: SensorRun, intervals: Sequence[Interval]) -> str | None:
 
 
 def _question(run: SensorRun, interval: Interval) -> Question:
-    if interval.support is None:
-        raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
-    tree = build_tree(run.experiment.model_on(interval.support), interval.support.frame)
+    support = interval.required_support(ExperimentError)
+    tree = build_tree(run.experiment.model_on(support), support.frame)
     return Question(tree=tree, expected=(run.sensor.name,), equations=())
 
 

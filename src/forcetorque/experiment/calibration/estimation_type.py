@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import partial
 
 import numpy as np
 
@@ -77,10 +78,6 @@ def estimation_type(name: str) -> EstimationType:
     return ESTIMATION_TYPES[name]
 
 
-def _no_values() -> FloatArray:
-    return np.zeros(0)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Estimation:
     """Settings of a fit, the same for every lambda and every part of the data."""
@@ -91,7 +88,7 @@ class Estimation:
     """Matrix to stay close to; shape (6, c); N/count, N m/count; None only for lambda = 0."""
     variables: tuple[LinearVariable, ...] = ()
     """Variables of the data, in the order of their columns; types without variables leave them out."""
-    reference_values: FloatArray = field(default_factory=_no_values)
+    reference_values: FloatArray = field(default_factory=partial(np.zeros, 0))
     """Values at which the variables contribute nothing; shape (v,)."""
     raw_offset: FloatArray | None = None
     """Raw reading without load, for the sphere types; shape (c,); counts."""

@@ -19,7 +19,10 @@ LENGTH_M: Final = 0.1
 
 
 class JointSensor(StoredTable):
-    """A sensor of a joint fit: 36 unknowns D row by row, with `wrench = (1 + D) prior raw + offset`, and slopes."""
+    """A sensor of a joint fit: 36 unknowns D row by row.
+
+    `wrench = (1 + D) prior raw + offset + slopes (variables - reference values)`
+    """
 
     name: str
     """Name in the robot model."""
@@ -37,12 +40,16 @@ class JointOffset(StoredTable):
 
 
 class JointSlope(StoredTable):
-    """What a unit of a variable adds in a joint fit: six unknowns, beside what is expected of it in the file."""
+    """What a unit of a variable adds in a joint fit: six unknowns."""
 
     sensor: str
     """Name of the sensor."""
     variable: str
     """Name of the variable."""
+    unit: str
+    """Its unit."""
+    reference_value: float
+    """Value at which it adds nothing."""
 
 
 class JointTerm(StoredTable):

@@ -123,14 +123,14 @@ def readings_twice(intervals: Iterable[tuple[str, float, Content | None]]) -> di
     for name, samples, content in intervals:
         own = recordings.setdefault(name, {})
         own[content] = own.get(content, 0.0) + samples  # blocks of an interval have one content
-    owners: dict[tuple[str, int], set[tuple[str, Content]]] = {}
+    owners: dict[tuple[str, int], list[tuple[str, Content]]] = {}
     shared: dict[str, SharedReadings] = {}
     for name, own in sorted(recordings.items(), key=lambda item: -sum(item[1].values())):
         hashes = {one: kept_hashes(one.windows) for one in own if one is not None}
         common: dict[str, float] = {}
         for one, values in hashes.items():
             keys = [(one.quantity, value) for value in values.tolist()]
-            for other, content in {owner for key in keys for owner in owners.get(key, ())}:
+            for other, content in dict.fromkeys(owner for key in keys for owner in owners.get(key, ())):
                 seen = own[one] * share_in(values, kept_hashes(content.windows))
                 common[other] = common.get(other, 0.0) + seen
         samples = sum(own.values())
@@ -141,7 +141,7 @@ def readings_twice(intervals: Iterable[tuple[str, float, Content | None]]) -> di
             continue
         for one, values in hashes.items():
             for value in values.tolist():
-                owners.setdefault((one.quantity, value), set()).add((name, one))
+                owners.setdefault((one.quantity, value), []).append((name, one))
     return shared
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -55,14 +56,6 @@ class LinearVariable:
             raise FitError(f"variable {self.name!r}: expected a finite reference value, got {self.reference_value}")
 
 
-def _no_coefficients() -> FloatArray:
-    return np.zeros((6, 0))
-
-
-def _no_values() -> FloatArray:
-    return np.zeros(0)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class WrenchModel(ArrayRecord):
     """What turns raw readings, and linear variables such as temperature, into a wrench (thesis 5.1, 5.9)."""
@@ -71,9 +64,9 @@ class WrenchModel(ArrayRecord):
     """Calibration matrix; shape (6, c); N/count, N m/count."""
     offset: FloatArray = field(metadata=array(6))
     """Offset in wrench space, where every variable has its reference value; shape (6,); N, N m."""
-    coefficients: FloatArray = field(default_factory=_no_coefficients, metadata=array(6, "v"))
+    coefficients: FloatArray = field(default_factory=partial(np.zeros, (6, 0)), metadata=array(6, "v"))
     """Wrench per unit of every variable; shape (6, v); N, N m per unit."""
-    reference_values: FloatArray = field(default_factory=_no_values, metadata=array("v"))
+    reference_values: FloatArray = field(default_factory=partial(np.zeros, 0), metadata=array("v"))
     """Values at which the variables contribute nothing; shape (v,)."""
     quadratic: QuadraticCorrection | None = None
     """What is taken off the wrench that these give; None for a linear sensor."""

@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import IntArray
-from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, quoted
-from forcetorque.base.output_file import write_bytes_atomically
+from forcetorque.base.errors import FormatError, ShapeError, quoted
 from forcetorque.formats.icub_matrix import MatrixFile
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 
@@ -67,7 +66,7 @@ class FirmwareUpdaterData:
 
     def read(self, path: Path, text: str) -> PriorFile:
         """Read it."""
-        file = _parsed(path, text)
+        file = parsed_firmware(path, text)
         board = "strain" if file.registers is None else "strain2"
         tare = () if not any(file.tare) else (f"the board adds a tare of {', '.join(map(str, file.tare))}",)
         return PriorFile(
@@ -78,50 +77,6 @@ class FirmwareUpdaterData:
             serial=file.serial,
             notes=tare,
         )
-
-
-def read_firmware_file(path: Path | str) -> FirmwareFile:
-    """Read a file of FirmwareUpdater.
-
-    Args:
-        path: File such as `calibrationDataSN0000.dat`.
-
-    Returns:
-        Its content.
-
-    Raises:
-        MissingFileError: If there is no such file.
-        FormatError: If it does not have the form, with the line.
-    """
-    file = Path(path)
-    if not file.is_file():
-        raise MissingFileError(f"{file}: expected a file of FirmwareUpdater, there is none")
-    try:
-        text = file.read_text(encoding="ascii")
-    except UnicodeDecodeError as error:
-        raise FormatError(f"{file}: expected ASCII text, got {error.reason}") from error
-    return _parsed(file, text)
-
-
-def write_firmware_file(path: Path | str, file: FirmwareFile) -> None:
-    """Write a file that FirmwareUpdater loads; on any error the file keeps what it held before.
-
-    Args:
-        path: File to write or to replace, in an existing folder.
-        file: Its content.
-    """
-    lines = [_VERSION, "2" if file.registers is None else "3"]
-    if file.registers is not None:
-        lines += [_BOARD, "strain2"]
-    lines += [_SERIAL, file.serial]
-    if file.registers is not None:
-        lines += [_REGISTERS, *file.registers]
-    if file.offsets is not None:
-        lines += [_OFFSETS, *map(str, file.offsets)]
-    lines += [_MATRIX, *(f"{code & 0xFFFF:x}" for code in file.matrix.codes.ravel().tolist())]
-    lines += [_GAIN, str(file.matrix.gain), _TARE, *map(str, file.tare)]
-    lines += [_FULL_SCALE, *map(str, file.matrix.full_scale)]
-    write_bytes_atomically(Path(path), "".join(f"{line}\n" for line in lines).encode("ascii"))
 
 
 class _Lines:
@@ -148,7 +103,19 @@ class _Lines:
         return tuple(int(self.take(_WHOLE, what)) for _ in range(6))
 
 
-def _parsed(path: Path, text: str) -> FirmwareFile:
+def parsed_firmware(path: Path, text: str) -> FirmwareFile:
+    """Read the text of a file of FirmwareUpdater.
+
+    Args:
+        path: File such as `calibrationDataSN0000.dat`, for messages.
+        text: What it holds.
+
+    Returns:
+        Its content.
+
+    Raises:
+        FormatError: If it does not have the form, with the line.
+    """
     lines = _Lines(path, text)
     lines.label(_VERSION)
     version = lines.take(re.compile("[23]"), "version 2 or 3")

@@ -12,14 +12,13 @@ import io
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FormatError, MissingFileError, UnitError
 from forcetorque.base.input_file import read_xml
-from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.units import parsed_number, parsed_numbers, si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
@@ -207,23 +206,6 @@ def read_polynomial_model(path: Path | str) -> PolynomialModel:
     except FormatError as error:
         message = str(error)
         raise FormatError(message if message.startswith(str(file)) else f"{file}: {message}") from error
-
-
-def write_polynomial_model(path: Path | str, model: PolynomialModel) -> None:
-    """Write a model file; on any error the file keeps what it held before.
-
-    Args:
-        path: File to write or to replace, in an existing folder.
-        model: The model; every number reads back exactly.
-    """
-    group = Element("group", {"name": _GROUP})
-    counts = {"np": 1, "ny": 6, "nu": model.matrix.shape[1], "na": 0, "nb": 0}
-    for name, value in (*counts.items(), ("string", model.name)):
-        SubElement(group, "param", {"name": name}).text = str(value)
-    for k, row in enumerate([*model.matrix.T.tolist(), model.offset.tolist()], start=1):
-        SubElement(group, "param", {"name": f"row{k}"}).text = f"({' '.join(map(repr, row))})"
-    indent(group)
-    write_bytes_atomically(Path(path), b'<?xml version="1.0" encoding="utf-8"?>\n' + tostring(group) + b"\n")
 
 
 def _read(root: Element | None) -> PolynomialModel:

@@ -22,6 +22,7 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.file import parse_experiment
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
+from forcetorque.experiment.offsets import intervals_in_use
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.streams import read_streams
 from forcetorque.locomotion.section import SOLES, ExperimentSole, read_soles, refuse_without_soles
@@ -157,10 +158,7 @@ def balance_of_sensors(
         ExperimentError: If the file has no sole, or every interval is to be ignored.
     """
     refuse_without_soles(experiment)
-    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
-    if not intervals:
-        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
-    for interval in intervals:
+    for interval in intervals_in_use(experiment):
         with stated_in(f"interval {interval.label!r}"):
             yield _over(BalanceScene.of(experiment, interval), corrections, options)
 

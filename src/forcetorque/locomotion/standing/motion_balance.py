@@ -14,6 +14,7 @@ from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.offsets import intervals_in_use
 from forcetorque.locomotion.section import SOLES, ExperimentSole, refuse_without_soles
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
     Sole,
@@ -25,7 +26,7 @@ from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
 from forcetorque.locomotion.standing.interval_balance import BalanceOptions, FootPressure, IntervalBalance, RobotBalance
 from forcetorque.locomotion.standing.support_phases import SupportPhases, phases_of_contacts, support_phases
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since, usable_samples
-from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
+from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
@@ -68,10 +69,7 @@ def balance_by_motion(experiment: Experiment, options: BalanceOptions) -> Iterat
     refuse_without_soles(experiment)
     _refuse_unused(experiment, options)
     on_sole = _soles_by_link(experiment)
-    intervals = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
-    if not intervals:
-        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
-    for interval in intervals:
+    for interval in intervals_in_use(experiment):
         with stated_in(f"interval {interval.label!r}"):
             yield _over(experiment, interval, options, on_sole)
 

@@ -171,7 +171,7 @@ def _confirmed(
     if cause.name == "gain of an axis":
         words = _gain_words(problem, cause, drift=drift)
     elif cause.name == "turned mount":
-        words = _mount_words(problem, cause, squares, drift=drift)
+        words = _mount_words(cause, squares, drift=drift)
     else:
         words = cause.words
     if words is not None:
@@ -191,9 +191,7 @@ def _gain_words(problem: LoadProblem, cause: _Cause, *, drift: bool) -> str | No
     return f"{words}: calibrate the sensor, or look for a channel or unit of that axis"
 
 
-def _mount_words(
-    problem: LoadProblem, cause: _Cause, squares: tuple[FloatArray, FloatArray], *, drift: bool
-) -> str | None:
+def _mount_words(cause: _Cause, squares: tuple[FloatArray, FloatArray], *, drift: bool) -> str | None:
     refit = fit(cause.problem, drift=drift)
     own = places(refit.guess.parameters, Kind.MOUNT)
     half, vector = refit.half_width[own], rotation_vector(refit.guess.rotation)

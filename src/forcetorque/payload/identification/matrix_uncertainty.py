@@ -138,7 +138,8 @@ def settled(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
         if learnt.max() > _FARTHEST:
             raise FitError(
                 f"loads: no matrix near its prior explains the readings, it would have to be {learnt.max():.0%} off; "
-                "check gravity_direction and measure_direction, the units of joints and wrench, and the prior"
+                "check gravity_direction and measure_direction, the units of joints and wrench, the prior, and whether "
+                "the sensor is turned against the URDF (`forcetorque inspect`)"
             )
         change = np.abs(learnt / sizes - 1.0).max()
         sizes = learnt

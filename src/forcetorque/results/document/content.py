@@ -247,7 +247,10 @@ def html_bytes(document: Document) -> bytes:
     environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces, "joined": with_joined_units}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
     rules = (folder / "document.css").read_text(encoding="utf-8")
-    style = f":root {{\n{css_variables(dark=False)}\n}}\n{rules}"
+    style = (
+        f":root {{\n  color-scheme: light dark;\n{css_variables(dark=False)}\n}}\n"
+        f"@media screen and (prefers-color-scheme: dark) {{ :root {{\n{css_variables(dark=True)}\n}} }}\n{rules}"
+    )
     return template.render(document=without_undrawn(document), style=style, no_rows=NO_ROWS).encode(
         errors="backslashreplace"
     )

@@ -270,14 +270,13 @@ def sensor_samples(
         RecordingError: If the interval has no support or lies outside the log, a needed joint is in no
             stream, streams do not overlap, or no sample is left.
     """
-    if interval.support is None:
-        raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
+    support = interval.required_support(RecordingError)
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
     columns = {}
     if applied is None:
-        robot = (recording, model, sensor, source, interval.support, at_ns)
+        robot = (recording, model, sensor, source, support, at_ns)
         columns["reference"] = _known(at_ns, known)
         new = np.isnan(columns["reference"]).any(axis=1)
         joints: tuple[str, ...] = ()
@@ -354,9 +353,8 @@ def expected_wrench(
     source = recording.stream(stream)
     if applied is not None:
         return _applied(recording, source, applied, at_ns)
-    if interval.support is None:
-        raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
-    return _expected(recording, model, sensor, source, interval.support, at_ns, processing, None)[0]
+    support = interval.required_support(RecordingError)
+    return _expected(recording, model, sensor, source, support, at_ns, processing, None)[0]
 
 
 def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarSource], at_ns: IntArray) -> FloatArray:

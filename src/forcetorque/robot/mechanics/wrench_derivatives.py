@@ -33,9 +33,6 @@ from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import Body, BodyTree, Connection, SubModel, path_to_root
 
-CENTRES = 3
-"""Columns of a body by its centre, after that by its mass."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PartDerivatives:

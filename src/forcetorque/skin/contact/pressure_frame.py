@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Final, Self
 
 import numpy as np
@@ -23,10 +24,6 @@ from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import TaxelDrift
 
 
-def _nothing() -> FloatArray:
-    return np.zeros(0)
-
-
 def _none() -> BoolArray:
     return np.zeros(0, dtype=np.bool_)
 
@@ -43,11 +40,11 @@ class PressureFrame:
     """Taxels that can be trusted; all by default; shape (n,)."""
     beyond_range: BoolArray = field(default_factory=_none)
     """Taxels that read more than they were calibrated for; none by default; shape (n,)."""
-    sd_Pa: FloatArray = field(default_factory=_nothing)
+    sd_Pa: FloatArray = field(default_factory=partial(np.zeros, 0))
     """Standard deviation of each pressure, from noise and calibration; 0 by default; shape (n,)."""
-    hysteresis_Pa: FloatArray = field(default_factory=_nothing)
+    hysteresis_Pa: FloatArray = field(default_factory=partial(np.zeros, 0))
     """How much more each reads while pressure is taken off than while it is put on; 0 by default; shape (n,)."""
-    drift_Pa: FloatArray = field(default_factory=_nothing)
+    drift_Pa: FloatArray = field(default_factory=partial(np.zeros, 0))
     """How much heat through a contact may add to each; NaN, not known, by default; shape (n,)."""
 
     def __post_init__(self) -> None:
