@@ -118,7 +118,7 @@ def coherence_answers(coherence: Coherence) -> Iterator[Answer]:
                 "phases that gave offset or matrix are not counted; forces of one foot against the other cancel",
             ),
             written=(coherence.figure_file,),
-            concern=Concern.BAD if row.is_worse else Concern.NONE if row.phases else Concern.UNCERTAIN,
+            concern=Concern.BAD if row.worse_than_prior else Concern.NONE if row.phases else Concern.UNCERTAIN,
         )
 
 
@@ -137,16 +137,15 @@ def _predicted(row: CoherenceSummary) -> Iterator[str]:
     predicted = (
         f"predicted of the {'prior ' * (row.common_phases is None)}matrices: {amount(row.force_predicted_N, 'N')}"
     )
-    yield predicted + (
-        "; fit these contacts too, or state how good the prior is (prior_uncertainty_percent)" if row.is_worse else ""
-    )
+    remedy = "; fit these contacts too, or state how good the prior is (prior_uncertainty_percent)"
+    yield predicted + remedy * bool(row.worse_than_prior)
 
 
 def _net_error(row: CoherenceSummary) -> str:
     if row.force_error_mean_N is None or row.force_error_largest_N is None:
         return "NO EVIDENCE"
     error = f"net force error {amount(row.force_error_mean_N, 'N')} (largest {amount(row.force_error_largest_N, 'N')})"
-    return f"WORSE THAN PRIOR: {error}" if row.is_worse else error
+    return f"WORSE THAN PRIOR: {error}" if row.worse_than_prior else error
 
 
 def motion_answers(motion: Motion) -> Iterator[Answer]:

@@ -146,5 +146,5 @@ def test_a_sensor_without_readings_on_one_day_is_left_out_of_it() -> None:
     assert (dead, "day") in offsets
     assert (dead, "later") not in offsets
     assert (SENSORS[1], "later") in offsets
-    assert result.left_out
-    assert all("is left out of 'later'" in words and dead in words for words in result.left_out)
+    assert result.without_windows
+    assert all("is left out of 'later'" in words and dead in words for words in result.without_windows)

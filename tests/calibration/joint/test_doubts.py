@@ -49,7 +49,9 @@ def _error(value: float, deviation: float) -> ModelErrorRow:
 def _doubts(
     sensors: Sequence[SensorErrorRow] = (), parts: Sequence[SubModelRow] = (), errors: Sequence[ModelErrorRow] = ()
 ) -> list[str]:
-    outcome = JointOutcome.model_construct(sensors=tuple(sensors), sub_models=tuple(parts), model_errors=tuple(errors))
+    outcome = JointOutcome.model_construct(
+        sensors=tuple(sensors), sub_models=tuple(parts), model_errors=tuple(errors), without_windows=()
+    )
     return list(outcome.doubts())
 
 

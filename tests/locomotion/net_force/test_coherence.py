@@ -22,8 +22,8 @@ from forcetorque.experiment.offsets import corrections_of, still_seconds
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.locomotion.commands import coherence
 from forcetorque.locomotion.net_force.net_contact import readers_of
-from forcetorque.locomotion.net_force.net_force import force_error
-from forcetorque.locomotion.net_force.result import Coherence
+from forcetorque.locomotion.net_force.net_force import force_error, summaries_of
+from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import SimulatedRecording, build_scenario, simulate
@@ -223,6 +223,19 @@ def test_predicted_errors_are_those_of_loads_that_moved(switched: Switched) -> N
     both = replace(one, posteriors=dict.fromkeys(gains, known))
     assert both.predicted_force(dict.fromkeys(gains, np.eye(3, 6)), means) == pytest.approx(2**0.5 * 4.011234, rel=1e-6)
     assert reader.predicted_force(gains, means) is None  # no calibration tells how far the priors may be off
+
+
+@pytest.mark.parametrize(("error_N", "worse"), [(1.04, False), (1.06, True)])
+def test_a_calibration_is_worse_than_the_prior_by_a_margin(error_N: float, worse: bool) -> None:
+    """More than 5 % over the same phases; the prior itself is neither."""
+    common = {"offset": Offset.FITTED, "offset_interval": None, "phase": "double", "evidence": True}
+    rows = [
+        PhaseForce.model_construct(**common, calibration=name, force_error_N=np.array([0.0, 0.0, error]))
+        for name, error in (("prior", 1.0), ("new", error_N))
+    ]
+    prior, new = summaries_of(rows)
+    assert prior.worse_than_prior is None
+    assert new.worse_than_prior is worse
 
 
 @pytest.mark.long

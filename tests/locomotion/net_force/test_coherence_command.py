@@ -76,6 +76,7 @@ def test_a_folder_of_calibrations_stands_beside_the_prior(inside: Path, run: Run
     means = {row["calibration"]: row["force_error_mean_N"] for row in result["summary"]}
     assert list(means) == ["prior", "feet"]
     assert means["feet"] < 0.3 * means["prior"]
+    assert [row["worse_than_prior"] for row in result["summary"]] == [None, False]
     assert [row["phase"] for row in result["rows"] if not row["evidence"]] == ["hanging", "hanging"]
 
 

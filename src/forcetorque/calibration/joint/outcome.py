@@ -258,6 +258,8 @@ class JointOutcome(Row):
     """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
     """Parts that nothing touches, but whose joints were not logged, in words."""
+    without_windows: tuple[str, ...]
+    """Parts and intervals that never have all that they need at a time, in words."""
     fit: JointFit = Field(exclude=True, repr=False)
     """The fit."""
     posterior: JointPosterior | None = Field(exclude=True, repr=False)
@@ -295,6 +297,7 @@ class JointOutcome(Row):
             model_errors=tuple(ModelErrorRow.of(*error) for error in result.fit.model_errors()),
             contacts=tuple(map(ContactSpanRow.of, result.touches)),
             left_out=result.left_out,
+            without_windows=result.without_windows,
             fit=result.fit,
             posterior=posterior,
             residuals=result.residuals,
@@ -320,6 +323,7 @@ class JointOutcome(Row):
         Yields:
             Sentences.
         """
+        yield from self.without_windows
         yield from _open_loads(self.sensors)
         yield from _far_errors(self.model_errors)
         yield from _wide_errors(self.model_errors, [row.root_link for row in self.sub_models])

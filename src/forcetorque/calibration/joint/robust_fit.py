@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Final
 
 import numpy as np
@@ -242,7 +243,9 @@ class JointResult:
     touches: tuple[Touch, ...]
     """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
-    """Parts that nothing touches, but whose joints, or readings and joints at a time, were not logged, in words."""
+    """Parts that nothing touches, but whose joints were not logged, in words."""
+    without_windows: tuple[str, ...]
+    """Parts and intervals that never have all that they need at a time, in words."""
 
 
 def fit_stretches(
@@ -271,9 +274,11 @@ def fit_stretches(
     duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
     every = max(round(duration / LINEAR_S), 1)
     windows = _windows(stretches, terms, None, every)
-    if every > 1 and not all(map(len, windows)):  # a part may have readings in the other pieces alone
+    if every > 1 and not all(
+        len(one) for one in windows if one.rows.all()
+    ):  # a part may have readings in the other pieces alone
         windows = _windows(stretches, terms, None, every := 1)
-    empty = [_without_windows(one) for one in windows if not len(one) and one.rows.all()]
+    empty = [one for one in windows if not len(one) and one.rows.all()]
     windows = _filled(windows)
     fit = _fit(windows, _agreeing(windows, None), terms, priors, None, widened=False)
     for number in range(2, ROUNDS + 1):
@@ -287,16 +292,20 @@ def fit_stretches(
             PartResidual.of(one, residuals(one, fit), marks) for one, marks in zip(windows, kept, strict=True)
         ),
         touches=all_touches(windows, kept),
-        left_out=tuple(dict.fromkeys([*(words for one in stretches for words in one.left_out), *empty])),
+        left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
+        without_windows=tuple(_without_windows(empty)),
     )
 
 
-def _without_windows(windows: PartWindows) -> str:
-    names = ", ".join((*windows.sensors, *dict.fromkeys(name for _, name in windows.slopes)))
-    return (
-        f"part {windows.part!r} is left out of {windows.stretch.label!r}: in no window of {WINDOW_S:g} s all that it "
-        f"needs was logged; look for gaps in {names}, joints and IMU"
-    )
+def _without_windows(windows: Iterable[PartWindows]) -> Iterator[str]:
+    for part, own in groupby(sorted(windows, key=lambda one: one.part), key=lambda one: one.part):
+        first, *others = own
+        names = ", ".join((*first.sensors, *dict.fromkeys(name for _, name in first.slopes)))
+        more = f" and {len(others)} more intervals" if others else ""
+        yield (
+            f"part {part!r} is left out of {first.stretch.label!r}{more}: in no window of {WINDOW_S:g} s all that it "
+            f"needs was logged, so {names} may know nothing of that session; look for gaps in these, joints and IMU"
+        )
 
 
 def _filled(windows: Iterable[PartWindows]) -> tuple[PartWindows, ...]:

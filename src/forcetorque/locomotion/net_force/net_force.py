@@ -69,7 +69,7 @@ def net_force_errors(
     warnings = contact_warnings(
         phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight
     )
-    summary = tuple(_summary(rows))
+    summary = tuple(summaries_of(rows))
     return Coherence(
         experiment=experiment.name,
         mass_kg=_mass(experiment),
@@ -213,7 +213,15 @@ def _offset_rows(reader: Reader) -> Iterator[OffsetOfSensor]:
         )
 
 
-def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
+def summaries_of(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
+    """Sum up the phases of every offset and calibration.
+
+    Args:
+        rows: The phases.
+
+    Yields:
+        One each; errors of phases that are evidence.
+    """
     groups: dict[tuple[str, Offset, str | None], dict[str, float]] = {}
     predicted: dict[tuple[str, Offset, str | None], list[float | None]] = {}
     for row in rows:
@@ -225,18 +233,28 @@ def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
     for (candidate, offset, interval), norms in groups.items():
         by_prior = {} if candidate == PRIOR else groups.get((PRIOR, offset, interval), {})
         common = [phase for phase in norms if phase in by_prior]
+        before, after = (_mean([errors[phase] for phase in common]) for errors in (by_prior, norms))
         yield CoherenceSummary(
             calibration=candidate,
             offset=offset,
             offset_interval=interval,
             phases=len(norms),
-            force_error_mean_N=float(np.mean([*norms.values()])) if norms else None,
+            force_error_mean_N=_mean([*norms.values()]),
             force_error_largest_N=max(norms.values(), default=None),
             force_predicted_N=_root_mean_square(predicted.get((candidate, offset, interval), [])),
-            prior_force_error_mean_N=float(np.mean([by_prior[phase] for phase in common])) if common else None,
+            prior_force_error_mean_N=before,
             common_phases=None if candidate == PRIOR else len(common),
-            common_force_error_mean_N=float(np.mean([norms[phase] for phase in common])) if common else None,
+            common_force_error_mean_N=after,
+            worse_than_prior=None if before is None or after is None else after > _WORSE * before,
         )
+
+
+_WORSE = 1.05
+"""Error of a calibration over that of the prior from which it is worse."""
+
+
+def _mean(values: Sequence[float]) -> float | None:
+    return float(np.mean(values)) if values else None
 
 
 def _root_mean_square(values: Sequence[float | None]) -> float | None:

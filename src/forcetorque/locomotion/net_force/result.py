@@ -115,11 +115,9 @@ class CoherenceSummary(Row):
     common_force_error_mean_N: float | None = None
     """Mean over them of what reads the sensors here; null for the prior."""
 
-    @property
-    def is_worse(self) -> bool:
-        """Whether a calibration errs more than the prior does over the same phases."""
-        prior, own = self.prior_force_error_mean_N, self.common_force_error_mean_N
-        return prior is not None and own is not None and own > prior
+    worse_than_prior: bool | None = None
+    """Whether a calibration errs by 5 % more than the prior over the same phases; null for the prior, and without such
+    a phase. Both are read from the same samples, whose noise they share."""
 
 
 class Coherence(DrawnResult):

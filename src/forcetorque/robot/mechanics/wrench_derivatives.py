@@ -94,7 +94,7 @@ def demand_derivatives(tree: BodyTree, part: SubModel, joints: JointMotion, root
 
     Args:
         tree: The robot.
-        part: Any part of it that has a body with inertia.
+        part: Any part of it.
         joints: Motion of at least the joints that it needs (`joints_of_part`); n samples.
         root: Motion of the root link's frame; one sample or n.
 
@@ -102,11 +102,13 @@ def demand_derivatives(tree: BodyTree, part: SubModel, joints: JointMotion, root
         The derivatives by its bodies, along axes of these, by all joints that it needs, and by the acceleration, along
         the axes of the root link and about its origin.
     """
-    heavy = heavy_bodies(tree, part)
+    heavy, turned = heavy_bodies(tree, part), joints_of_part(tree, part)
+    if not heavy:
+        nothing = np.zeros((6, len(joints)))
+        return PartDerivatives(bodies={}, joints=dict.fromkeys(turned, nothing), acceleration=np.stack([nothing] * 3))
     motions = _motions(tree, _paths(tree, heavy), joints, stacked_root(root, len(joints)).transpose(0, 2, 1))
-    return _derivatives(
-        tree, part, motions, tree, dict.fromkeys(heavy, np.eye(3)), joints_of_part(tree, part), carried=frozenset()
-    )
+    axes = dict.fromkeys(heavy, np.eye(3))
+    return _derivatives(tree, part, motions, tree, axes, turned, carried=frozenset())
 
 
 def _paths(tree: BodyTree, bodies: Iterable[int]) -> list[int]:
