@@ -33,6 +33,12 @@ def test_quick_loops_are_silent_and_long_ones_do_not_flood() -> None:
     assert len(_lines(0.01, 10_000)) == 33
 
 
+def test_the_first_steps_predict_no_time() -> None:
+    """Below a hundredth of the steps only the share is reported."""
+    said = _lines(3.0, 400)
+    assert said[:4] == ["reading: 0 %", "reading: 0 %", "reading: 1 %", "reading: 1 %, 20 min left"]
+
+
 @pytest.mark.parametrize(
     ("seconds", "text"), [(0.2, "1 s"), (89.0, "89 s"), (91.0, "2 min"), (5300.0, "89 min"), (7500.0, "2 h 5 min")]
 )

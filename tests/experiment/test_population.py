@@ -21,13 +21,15 @@ swapped."""
 
 
 def test_folders_and_files_give_matrices_by_serial_number(tmp_path: Path) -> None:
-    """Matrix files by their names, calibrations by what is in them; other text files of a folder are left alone."""
-    write_matrix_file(tmp_path / "matrix_SN002.txt", encode_matrix(FACTORY))
+    """Matrix files by their names, calibrations by what is in them; other files of a folder are left alone."""
+    for name in ("matrix_SN002.txt", "matrix_SIM003.txt"):
+        write_matrix_file(tmp_path / name, encode_matrix(FACTORY))
     write_calibration(tmp_path / "any.json", make_calibration(serial="SN001"))
+    (tmp_path / "truth.json").write_text('{"schema": "forcetorque/truth/1"}', encoding="utf-8")
     (tmp_path / "notes.txt").write_text("not a matrix", encoding="utf-8")
     (tmp_path / "matrix_identity.txt").write_text("not of a sensor", encoding="utf-8")
     found = read_population([tmp_path])
-    assert sorted(found) == ["SN001", "SN002"]
+    assert sorted(found) == ["SIM003", "SN001", "SN002"]
     np.testing.assert_array_equal(found["SN001"], MOUNTED)
     np.testing.assert_array_equal(found["SN002"], read_matrix_file(tmp_path / "matrix_SN002.txt").matrix)
     named = tmp_path / "matrix_left 3.txt"
@@ -57,8 +59,8 @@ def test_what_is_not_there_is_named(tmp_path: Path) -> None:
         read_population([tmp_path / "none.txt"])
     with pytest.raises(MissingFileError, match=r"matrix_SN026.txt; got an empty folder$"):
         read_population([tmp_path])
-    (tmp_path / "matrix_SIM1.txt").touch()
-    with pytest.raises(MissingFileError, match=r"SN and a number in their names.* got matrix_SIM1.txt$"):
+    (tmp_path / "matrix_identity.txt").touch()
+    with pytest.raises(MissingFileError, match=r"SN or SIM and a number in their names.* got matrix_identity.txt$"):
         read_population([tmp_path])
     (tmp_path / "other.json").write_text("{}", encoding="utf-8")
     with pytest.raises(FormatError, match=r"other.json: expected the schema"):

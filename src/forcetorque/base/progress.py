@@ -10,6 +10,9 @@ from collections.abc import Callable
 Progress = Callable[[str], None]
 """Called with a line for people as work goes on, such as `print`."""
 
+_LEAST_SHARE = 0.01
+"""Share of the steps below which no time left is predicted (heuristic)."""
+
 
 class TimeLeft:
     """Report how far a loop is: at most one line in a stated time, none of a loop that ends before the first."""
@@ -48,8 +51,10 @@ class TimeLeft:
         if now - self._last < self._every_s or not 0 < done < self._total:
             return
         self._last = now
-        left_s = (now - self._begun) * (self._total - done) / done
-        self._progress(f"{self._text}: {100.0 * done / self._total:.0f} %, {duration_text(left_s)} left")
+        share = done / self._total
+        # the first steps of a loop may be slower than all others
+        left = f", {duration_text((now - self._begun) * (1.0 - share) / share)} left" if share >= _LEAST_SHARE else ""
+        self._progress(f"{self._text}: {100.0 * share:.0f} %{left}")
 
 
 def duration_text(seconds: float) -> str:

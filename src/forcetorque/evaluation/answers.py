@@ -119,9 +119,11 @@ def next_lines(use: LoadCaseVerdict) -> tuple[str, ...]:
         use: The verdict.
 
     Returns:
-        A load case that the sensor can read, where the default one is beyond its range.
+        A load case that the sensor can read, where the default one is beyond its range; that with a tared offset, where
+        data show a constant error.
     """
-    return tuple((use.readable_load_case or "").splitlines()) if _states_loads(use) else ()
+    stated = use.readable_load_case if _states_loads(use) else use.tared_load_case
+    return tuple((stated or "").splitlines())
 
 
 def _measured(row: CalibrationErrors, compared: Sequence[PriorComparison]) -> Iterator[str]:
@@ -162,6 +164,8 @@ def next_step(use: LoadCaseVerdict) -> tuple[str, str]:
         return _RECORD_MORE, to_plan(use.calibration)
     if is_for_inspect(use):
         return remedy, typed("inspect", FIRST_EXPERIMENT)
+    if use.tared_load_case is not None:
+        return remedy, to_evaluate(use.calibration)[1]
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
     return remedy, to_plan(use.calibration) if records else ""
 
@@ -309,7 +313,8 @@ def _compared(criterion: Criterion) -> str:
 def _step_to_decide(use: LoadCaseVerdict) -> tuple[str, str]:
     """What gives an undecided sensor a verdict: where it is a change of a file, `accept` again."""
     step, command = next_step(use)
-    return step, command if command and not _states_loads(use) else AGAIN
+    states = _states_loads(use) or use.tared_load_case is not None
+    return step, command if command and not states else AGAIN
 
 
 def _after_acceptance(criterion: Criterion) -> tuple[str, str]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -10,19 +11,21 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.artefact import Calibration, is_other_result, read_calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_samples import LoggedReadings
-from forcetorque.formats.icub_matrix import read_matrix_file, serial_number_in_name
+from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.recording.recording import Interval
 
 Population = Mapping[str, FloatArray]
 """Matrices of other sensors by serial number; shape (6, c) each; N/count, N m/count."""
 
+_SENSOR_FILE = re.compile(r"matrix_(SN|SIM)[0-9]+\.txt")
+"""Text files of a folder that are matrices of sensors, real or simulated."""
 _NAMED = 4
 """Files of a folder that a message names."""
 _DAY_NS = 86_400_000_000_000
@@ -263,7 +266,8 @@ def read_population(paths: Iterable[Path]) -> Population:
 
     Args:
         paths: Calibration files (.json), matrix files named after the serial number, such as `matrix_SN026.txt`, and
-            folders, in which every .json is a calibration and every text file of such a name, SN and digits, a matrix.
+            folders, in which every .json is a calibration or another result of the library, which is passed over, and
+            every text file of such a name, SN or SIM and digits, a matrix.
 
     Returns:
         Matrices by serial number.
@@ -291,13 +295,15 @@ def _files(path: Path) -> list[Path]:
             raise MissingFileError(f"{path}: expected a matrix file, a calibration or a folder of them, there is none")
         return [path]
     files = sorted(
-        file for file in path.iterdir() if file.suffix == ".json" or serial_number_in_name(file.name) is not None
+        file
+        for file in path.iterdir()
+        if (file.suffix == ".json" and not is_other_result(file)) or _SENSOR_FILE.fullmatch(file.name)
     )
     if not files:
         others = ", ".join(sorted(file.name for file in path.iterdir())[:_NAMED]) or "an empty folder"
         raise MissingFileError(
-            f"{path}: expected calibrations, or matrix files with SN and a number in their names, such as "
-            f"matrix_SN026.txt; got {others}"
+            f"{path}: expected calibrations, or matrix files with SN or SIM and a number in their names, such "
+            f"as matrix_SN026.txt; got {others}"
         )
     return files
 

@@ -106,6 +106,9 @@ def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
     assert (tared.decision, kept.decision) == ("use", "do not use")
     assert re.search(r"6(\.\d)? N of its force error are constant, 0.2 N allowed", kept.message)
     assert 'state offset = "tared"' in kept.message
+    # the lines are the load case with that offset
+    assert kept.tared_load_case == PUSH.replace('"push"', '"kept"').strip()
+    assert tared.tared_load_case is None
     # negative control: as it was fitted
     assert "do not use" not in [one.decision for one in use_verdicts(run, {"new": calibration})]
 
@@ -267,6 +270,25 @@ def test_loads_that_the_sensor_can_read_are_offered_and_lead_on(arm: Path) -> No
     assert offered.readable == ""
     # negative control: the default load case is beyond the full scale
     assert np.abs(case.wrench).max(axis=0)[3:].max() > 7.5
+
+
+def test_every_load_case_is_written_with_a_tared_offset(arm: Path) -> None:
+    """The lines, read again, are the same loads, limits and changes; so are those of the default load case."""
+    cases = (
+        'name = "tool"\nmass_kg = 1.0\ncentre_of_mass_m = [0.0, 0.0, 0.1]\nforce_error_N = 2.0\n',
+        'name = "hand \u00fc"\nforce_N = 5.0\nframe = "hand"\ndirection = [1, 0, 0]\nchanges = { "a b" = 2.0 }\n',
+        None,
+    )
+    without = (arm / PARQUET).read_text()
+    for text in cases:
+        (case,) = operating_load_cases([_run(arm, "" if text is None else f"\n[[load_case]]\n{text}")])
+        (arm / PARQUET).write_text(without)
+        (again,) = operating_load_cases([_run(arm, f"\n{case.tared}\n")])
+        assert (case.offset.value, again.offset.value) == ("fitted", "tared")
+        # the weight of the default pushes is written with three digits
+        np.testing.assert_allclose(again.wrench, case.wrench, rtol=0.0 if text else 5e-3, atol=1e-12)
+        assert (again.name, again.changes, again.allowed_force_N) == (case.name, case.changes, case.allowed_force_N)
+        (arm / PARQUET).write_text(without)
 
 
 def test_two_load_cases_of_one_name_are_refused(arm: Path) -> None:

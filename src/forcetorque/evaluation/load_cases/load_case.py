@@ -51,6 +51,8 @@ class LoadCase(ArrayRecord):
     """Whether a file specifies it; else it is the default."""
     readable: str = ""
     """A [[load_case]] of the kind of the default one that the sensor can read; empty where it can read this one."""
+    tared: str = ""
+    """The [[load_case]] with the offset that is taken anew before use; empty where no table states such loads."""
 
     def __post_init__(self) -> None:
         check_arrays(self)
@@ -320,6 +322,7 @@ class _SensorLocation:
             changes=table.changes,
             allowed_force_N=table.force_error_N,
             allowed_moment_Nm=table.moment_error_Nm,
+            tared=_tared_text(table),
         )
 
     def default(self, weight: float, matrix: FloatArray | None) -> LoadCase | None:
@@ -327,6 +330,7 @@ class _SensorLocation:
         sole = self._sole()
         if sole is not None:
             wrench, words = self._stood_upon(sole, SOLE_RADIUS_M)
+            stated = LoadCaseTable(name="standing", weight_on=sole, radius_m=SOLE_RADIUS_M)
             case = LoadCase(name="weight of the robot", words=words, wrench=wrench, is_stated=False)
             smaller = [LoadCaseTable(name="standing", weight_on=sole, radius_m=radius) for radius in _SMALLER_RADII_M]
         elif weight <= 0.0:
@@ -334,10 +338,11 @@ class _SensorLocation:
         else:
             words = f"pushes of {weight:.3g} N, the weight of the distal links, anywhere within {DEFAULT_RADIUS_M:g} m"
             wrench = pushes_around_sensor(weight, DEFAULT_RADIUS_M)
+            stated = LoadCaseTable(name="push", force_N=float(f"{weight:.3g}"), radius_m=DEFAULT_RADIUS_M)
             case = LoadCase(name="push", words=words, wrench=wrench, is_stated=False)
             smaller = [self._pushed_less(wrench, weight, matrix)]
         if self._reads(case.wrench, matrix):
-            return case
+            return replace(case, tared=_tared_text(stated))
         fitting = (_table_text(table) for table in smaller if self._reads(self._loads(table)[0], matrix))
         return replace(case, readable=next(fitting, ""))
 
@@ -419,8 +424,19 @@ class _SensorLocation:
 
 def _table_text(table: LoadCaseTable) -> str:
     """Write a load case as an experiment file has it."""
-    values = {key: getattr(table, key) for key in ("name", "weight_on", "force_N", "radius_m")}
-    return "\n".join(["[[load_case]]", *(f"{key} = {json.dumps(value)}" for key, value in values.items() if value)])
+    values = table.model_dump(mode="json", exclude_unset=True)
+    return "\n".join(["[[load_case]]", *(f"{key} = {_toml(value)}" for key, value in values.items())])
+
+
+def _toml(value: Any) -> str:
+    """Write a text, a number, a list, or a mapping of numbers."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{_toml(key)} = {_toml(entry)}' for key, entry in value.items())} }}"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _tared_text(table: LoadCaseTable) -> str:
+    return _table_text(table.model_copy(update={"offset": LoadCaseOffset.TARED}))
 
 
 def _range(model: RobotModel, tree: BodyTree, joint: str) -> tuple[float, float]:

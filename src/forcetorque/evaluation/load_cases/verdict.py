@@ -152,6 +152,8 @@ class LoadCaseVerdict(Row):
     """Why the default load case is not that of the verdict: the sensor cannot read it; None where it can."""
     readable_load_case: str | None = None
     """A [[load_case]] of its kind that the sensor can read; None where it can read the default one."""
+    tared_load_case: str | None = None
+    """The [[load_case]] with `offset = "tared"`, where data show a constant error and taring is next; else None."""
 
     @property
     def tone(self) -> Tone:
@@ -612,6 +614,7 @@ def load_case_verdict(
     case = usual if beyond is None else _recorded(measured) or usual
     assessment = LoadCaseAssessment(case, fitted, measured, worse=[*worse(_COMPARED[case.offset])])
     decision, reasons = assessment.verdict()
+    tare = next((reason.remedy for reason in reasons if reason.remedy is not None), None) == TARE
     verdict = LoadCaseVerdict(
         sensor=sensor.name,
         serial=sensor.serial,
@@ -627,5 +630,6 @@ def load_case_verdict(
         limited_by=assessment.limited_by if decision == "not enough data" else None,
         larger_than_prior=tuple(row.quantity for row in assessment.worse),
         errors=tuple(assessment.errors()),
+        tared_load_case=(case.tared or None) if tare else None,
     )
     return verdict if beyond is None else _without(verdict, usual, beyond)

@@ -35,6 +35,7 @@ _LOG = logging.getLogger(__name__)
 
 SCHEMA: Final = "forcetorque/calibration/4"
 """Name and version of the file's form."""
+_FORM: Final = SCHEMA.rpartition("/")[0]
 
 GENERATIVE: Final = "generative"
 """Name of the default estimator among the estimation types."""
@@ -375,12 +376,28 @@ def calibrations_in(folder: Path) -> dict[str, Calibration]:
         FormatError: If one is of another schema version, or a JSON file is damaged.
     """
     schemas = {file: _schema(file) for file in sorted(folder.glob("*.json"))}
-    files = [file for file, schema in schemas.items() if schema.startswith(SCHEMA.rpartition("/")[0])]
+    files = [file for file, schema in schemas.items() if schema.startswith(_FORM)]
     if not files:
         raise MissingFileError(f"{folder}: expected a folder of calibrations, .json; it holds none")
     if others := [file.name for file, schema in schemas.items() if not schema.startswith("forcetorque/")]:
         _LOG.warning("%s: left out %s: expected calibrations, got other JSON files", folder, ", ".join(others))
     return {str(file): read_calibration(file) for file in files}
+
+
+def is_other_result(file: Path) -> bool:
+    """Find out whether a JSON file is another result of the library, such as the truth of a simulation.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Whether its schema is one of the library and not that of a calibration.
+
+    Raises:
+        FormatError: If it is no JSON.
+    """
+    schema = _schema(file)
+    return schema.startswith("forcetorque/") and not schema.startswith(_FORM)
 
 
 def _schema(file: Path) -> str:
