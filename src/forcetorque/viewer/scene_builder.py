@@ -158,7 +158,7 @@ def build_scene(
         findings=tuple(
             _finding(finding, recording.start_ns)
             for finding in with_collisions(
-                inspect_experiment(usable, with_causes=False),
+                lambda: inspect_experiment(usable, with_causes=False),
                 usable,
                 {name: next(iter(group.values())) for name, group in groups.items() if group},
             )
