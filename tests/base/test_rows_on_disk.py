@@ -6,6 +6,7 @@ from __future__ import annotations
 import errno
 import mmap
 import os
+import platform
 import tempfile
 from pathlib import Path
 from typing import IO
@@ -16,7 +17,15 @@ import pytest
 from forcetorque.base import rows_on_disk
 from forcetorque.base.arrays import FloatArray, IntArray, is_frozen
 from forcetorque.base.errors import OutputError
-from forcetorque.base.rows_on_disk import RowsOnDisk, computed_rows, concatenated, forget_pages, row_blocks, rows_where
+from forcetorque.base.rows_on_disk import (
+    RowsOnDisk,
+    computed_rows,
+    concatenated,
+    forget_pages,
+    return_freed_memory,
+    row_blocks,
+    rows_where,
+)
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.int64])
@@ -35,6 +44,23 @@ def test_rows_are_those_that_were_written(monkeypatch: pytest.MonkeyPatch, dtype
     forget_pages([mapped, view, written])
     assert np.array_equal(mapped, written)
     assert np.array_equal(view, written[100:200])
+
+
+def test_freed_memory_is_returned() -> None:
+    """What lies between arrays that are kept, which glibc holds back; without glibc nothing is done."""
+    arrays = [np.ones(10_000) for _ in range(1000)]
+    full = _resident_bytes()
+    arrays = arrays[::20]
+    freed = _resident_bytes()
+    return_freed_memory()
+    assert len(arrays) == 50
+    if platform.libc_ver()[0] == "glibc":
+        assert full - freed < 10e6 < 50e6 < freed - _resident_bytes()
+
+
+def _resident_bytes() -> int:
+    statistics = Path("/proc/self/statm")
+    return int(statistics.read_text(encoding="ascii").split()[1]) * mmap.PAGESIZE if statistics.exists() else 0
 
 
 @pytest.mark.parametrize("count", [1, 6, 7, 8, 50])

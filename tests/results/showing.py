@@ -35,7 +35,7 @@ def require_shown(result: Result) -> None:
     assert folded(result, NARROW) == set()
     page = result._repr_html_().replace("\N{NO-BREAK SPACE}", " ")
     tables = [block for block in result.blocks() if isinstance(block, Table)]
-    assert page.count("<table>") == len(tables) > 0
+    assert page.count("<table ") == len(tables) > 0
     for table in tables:
         assert all(f">{cell}</td>" in page for cell in table.rows[0] if cell.isalnum())
     assert len(repr(result)) < FEW

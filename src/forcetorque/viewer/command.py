@@ -122,8 +122,9 @@ def view(
         show(shown, output_format, details=details)
 
 
-_SAMPLE_BYTES, _LARGE_BYTES = 5_000, 1_000_000_000
-"""Memory of a sample of a biped with six sensors, docs/measured.md, and what is stated before it is taken."""
+_LEAST_BYTES, _SAMPLE_BYTES, _LARGE_BYTES = 900_000_000, 3_300, 1_200_000_000
+"""Memory of half an hour or more of a biped: of the log and of each sample, docs/measured.md; what is stated before it
+is taken."""
 
 
 def _accept(output: Path | None, log: logging.Logger, samples: int) -> None:
@@ -132,9 +133,9 @@ def _accept(output: Path | None, log: logging.Logger, samples: int) -> None:
 
     if output is not None:
         require_room(output, samples)
-    if (size := samples * _SAMPLE_BYTES) > _LARGE_BYTES:
+    if (size := _LEAST_BYTES + samples * _SAMPLE_BYTES) > _LARGE_BYTES:
         log.warning(
-            "%d samples are shown at once, of six sensors in about %.1f GB of memory, of one in a quarter of that; "
+            "%d samples are shown at once, in about %.1f GB of memory, of one sensor nearly as much as of six; "
             "where there is less, give a part of the log",
             samples,
             size * 1e-9,

@@ -345,7 +345,7 @@ def test_the_page_of_a_calibration_says_what_was_learnt_and_what_is_doubtful(exp
     rows = information_gains(calibration)
     assert rows is not None
     page = calibration.model_copy(update={"warnings": ("a < b",)})._repr_html_()
-    assert page.startswith("<p><b>warning:</b> a &lt; b</p><table>")
+    assert page.startswith("<p><b>warning:</b> a &lt; b</p><table ")
     assert all(f"{row.direction} {100.0 * row.uncertainty_reduction:.0f} %" in page for row in rows)
 
 

@@ -43,7 +43,7 @@ def _part(name: str, share: float, *, mass_kg: float = 4.0) -> SubModelRow:
 
 
 def _error(value: float, deviation: float) -> ModelErrorRow:
-    return ModelErrorRow(name="mass of shank", unit="kg", value=value, deviation=deviation, prior_deviation=1.0)
+    return ModelErrorRow(name="mass of shank", unit="", value=value, deviation=deviation, prior_deviation=1.0)
 
 
 def _doubts(
@@ -119,11 +119,12 @@ def test_an_error_of_the_model_is_a_finding_where_chance_is_not_enough() -> None
     assert [words.split(":")[0] for words in _doubts(errors=[_error(5.0, 0.1), _error(0.1, 0.1)])] == ["mass of shank"]
 
 
-def test_the_widest_error_of_the_model_is_named() -> None:
-    """In whichever order they come; the others are counted."""
+def test_wide_errors_of_the_model_are_counted_by_kind() -> None:
+    """In whichever order they come; one alone is named."""
     for deviations in ((4.0, 40.0), (40.0, 4.0)):
         (one,) = _doubts(errors=[_error(0.0, deviation) for deviation in deviations])
-        assert "mass of shank 40 times, and of 1 more numbers" in one
+        assert "2 numbers of the kind mass up to 40 times. " in one
+    assert "mass of shank 4 times. " in next(iter(_doubts(errors=[_error(0.0, 4.0)])))
 
 
 def test_parts_that_keep_a_tenth_of_their_weight_disagree() -> None:

@@ -47,6 +47,16 @@ def test_of_two_copies_the_first_counts() -> None:
         )
 
 
+def test_a_sensor_that_rests_on_a_bench_is_no_copy() -> None:
+    """Two recordings of coarse counts, of which one channel goes back and forth."""
+    rng = np.random.default_rng(5)
+    parts = []
+    for name in ("one", "two"):
+        values = np.rint([1500.3, -20.0, 7.0, 0.0, 3.0, 81.0] + 0.4 * rng.normal(size=(60_000, 1)) * np.eye(1, 6))
+        parts.append((name, len(values), Content.model_construct(quantity="raw", windows=fingerprint(values))))
+    assert not readings_twice(parts)
+
+
 def test_what_is_lost_is_stated() -> None:
     """With a recording that is no copy: samples that are in no other one, of all its intervals."""
     parts = [_part("log", 0, 60), _part("half", 40, 80), _part("half", 100, 110)]

@@ -356,15 +356,30 @@ def _far_errors(errors: Sequence[ModelErrorRow]) -> Iterator[str]:
 
 
 def _wide_errors(errors: Sequence[ModelErrorRow], roots: Sequence[str]) -> Iterator[str]:
-    wide = sorted((row for row in errors if row.is_wide), key=lambda row: row.prior_deviation / row.deviation)
+    wide = [row for row in errors if row.is_wide]
     if wide:
-        worst = wide[0]
-        others = f", and of {len(wide) - 1} more numbers" if len(wide) > 1 else ""
+        kinds = ", ".join(_kind(unit, rows) for unit, rows in _by_unit(wide))
         yield (
-            f"errors of the robot model are found far above their tolerances: {worst.name} "
-            f"{worst.deviation / worst.prior_deviation:.0f} times{others}. "
+            f"errors of the robot model are by evidence far above their tolerances: {kinds}. "
             f"The model, or the motion, is not that of the robot. {_imu_question(roots)}"
         )
+
+
+_KINDS = {"": "mass", "m": "centre of mass", "rad": "joint zero", "m/s2": "acceleration", "s": "delay"}
+"""What a number of the model is, by its unit."""
+
+
+def _by_unit(rows: Sequence[ModelErrorRow]) -> Iterator[tuple[str, list[ModelErrorRow]]]:
+    for unit in dict.fromkeys(row.unit for row in rows):
+        yield unit, [row for row in rows if row.unit == unit]
+
+
+def _kind(unit: str, rows: Sequence[ModelErrorRow]) -> str:
+    worst = max(rows, key=lambda row: row.deviation / row.prior_deviation)
+    times = f"{worst.deviation / worst.prior_deviation:.0f} times"
+    return (
+        f"{worst.name} {times}" if len(rows) == 1 else f"{len(rows)} numbers of the kind {_KINDS[unit]} up to {times}"
+    )
 
 
 def _imu_question(roots: Sequence[str]) -> str:

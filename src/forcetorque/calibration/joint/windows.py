@@ -40,7 +40,9 @@ STILL_RAD_S: Final = 0.1
 _BLOCK = 500
 """Windows whose coefficients are written out at a time."""
 _UNUSUAL = 5.0
-"""Times the median of what an equation, or the middle one, is left with in a piece, beyond which it holds no more."""
+"""Times the median of what an equation is left with in a piece, beyond which it holds no more."""
+_MIDDLE = 1.25
+"""Times the median of these medians that one counts for at most: that of a part in touch all along is larger."""
 _SINGULAR = 1e-9
 """Added to the products of equations, which depend on each other where nothing touches the robot at all."""
 
@@ -68,7 +70,7 @@ class PartWindows:
     readings: FloatArray
     """Wrenches by the prior matrices at the nodes; shape (w, 3, k, 6)."""
     expected: FloatArray
-    """Readings of wrenches that are nearest to those of the fit that is known and make the equations hold; shape
+    """Readings of wrenches that are nearest to those of the fit that is known and make the equation hold; shape
     (w, 3, k, 6)."""
     variables: FloatArray
     """Variables less their reference values, at the nodes; shape (w, 3, m)."""
@@ -236,7 +238,7 @@ def _piece_windows(
         ]
     of_zeros = [{name: own.pop(name) for name in list(own) if name.startswith(ZERO)} for own in columns]
     without_zeros = [_Terms.of(one, terms, own) for one, own in zip(equations, columns, strict=True)]
-    wrenches = _balanced(without_zeros, nodes, about)
+    wrenches = _balanced([one for one in without_zeros if one.equation.part in parts], nodes, about)
     for equation, own, demanded in zip(equations, columns, of_zeros, strict=True):
         through = np.stack([wrenches[name] for name in equation.sensors], axis=1)
         for name, values in demanded.items():
@@ -307,12 +309,11 @@ def _balanced(equations: Sequence[_Terms], nodes: Stretch, about: JointFit | Non
     """Wrenches of the sensors that are nearest to the measured ones and make the equations hold; shape (n, 6) each.
 
     Where nothing is touched beyond a sensor they are what the bodies demand, without the noise of any reading. An
-    equation that is left with much more than it usually is in this piece, or than most are by the last fit, as in a
-    contact, decides nothing at that node.
+    equation that is left with much more than usual in this piece, or than most are by the last fit, as in a contact,
+    decides nothing of the sensors of others.
 
     Args:
-        equations: Equations of parts that nothing touches, without the columns of zeros of joints; those of weights
-            hold at rest.
+        equations: Equations of parts that nothing touches, without the columns of zeros of joints.
         nodes: What was logged at their n nodes.
         about: As of `part_windows`.
 
@@ -323,7 +324,9 @@ def _balanced(equations: Sequence[_Terms], nodes: Stretch, about: JointFit | Non
         name: values if about is None else about.wrench(name, nodes.session, values, nodes.variables)
         for name, values in nodes.readings.items()
     }
-    names, resting = list(wrenches), np.repeat(_at_rest(nodes), NODES)
+    if not equations:
+        return wrenches
+    names = list(wrenches)
     transmission = np.zeros((len(nodes), len(equations), LOADS, len(names), LOADS))
     missing = np.stack([one.missing(wrenches, about) for one in equations], axis=1)
     size = np.abs(missing).max(axis=2)
@@ -331,11 +334,11 @@ def _balanced(equations: Sequence[_Terms], nodes: Stretch, about: JointFit | Non
         warnings.simplefilter("ignore", RuntimeWarning)
         usual = np.nanmedian(size, axis=0)
         if about is not None:  # before that all are left with offsets
-            usual = np.minimum(usual, np.nanmedian(usual))
+            usual = np.minimum(usual, _MIDDLE * np.nanmedian(usual))
     holds = size <= _UNUSUAL * usual
     for place, one in enumerate(equations):
         of_sensors, own = one.transmission, [names.index(name) for name in one.equation.sensors]
-        holds[:, place] &= np.isfinite(of_sensors).all(axis=(1, 2)) & (resting | one.equation.rows.all())
+        holds[:, place] &= np.isfinite(of_sensors).all(axis=(1, 2))
         transmission[np.ix_(holds[:, place], [place], range(LOADS), own)] = of_sensors[holds[:, place]].reshape(
             -1, 1, LOADS, len(own), LOADS
         )
@@ -361,10 +364,6 @@ def _averaged(
     known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms.terms])
     transmission = equation.transmission * (UNITS / UNITS[:, None])
     readings = np.stack([nodes.readings[name] for name in equation.sensors], axis=1) / UNITS
-    expected = [
-        wrenches[name] if about is None else about.reading(name, nodes.session, wrenches[name], nodes.variables)
-        for name in equation.sensors
-    ]
     slopes = tuple(pair for pair in nodes.variables if pair[0] in equation.sensors)
     variables = np.concatenate([np.empty((len(nodes), 0)), *(nodes.variables[pair] for pair in slopes)], axis=1)
     variables = variables.reshape(w, NODES, len(slopes))
@@ -379,7 +378,7 @@ def _averaged(
         counts=windows.counts,
         transmission=transmission.reshape(w, NODES, k, LOADS, LOADS),
         readings=readings.reshape(w, NODES, k, LOADS),
-        expected=(np.stack(expected, axis=1) / UNITS).reshape(w, NODES, k, LOADS),
+        expected=_expected(terms, nodes, wrenches, about).reshape(w, NODES, k, LOADS),
         variables=variables,
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
@@ -392,3 +391,20 @@ def _averaged(
         for values in (result.right, transmission, readings, result.expected, variables, errors)
     ]
     return result.kept(np.logical_and.reduce(whole))
+
+
+def _expected(terms: _Terms, nodes: Stretch, wrenches: Mapping[str, FloatArray], about: JointFit | None) -> FloatArray:
+    """Readings by the prior matrices of wrenches that add up to what the bodies demand; shape (n, k, 6); in `UNITS`."""
+    transmission, missing = terms.transmission, terms.missing(wrenches, about)
+    # the least change of all wrenches; by a row that is left out none
+    whole = transmission @ transmission.transpose(0, 2, 1) + np.diag(1.0 - terms.equation.rows)
+    moved = np.einsum("nij,ni->nj", transmission, np.linalg.solve(whole, missing[..., None])[..., 0])
+    balanced = [
+        wrenches[name] + moved[:, LOADS * k : LOADS * (k + 1)] * UNITS for k, name in enumerate(terms.equation.sensors)
+    ]
+    if about is not None:
+        balanced = [
+            about.reading(name, nodes.session, one, nodes.variables)
+            for name, one in zip(terms.equation.sensors, balanced, strict=True)
+        ]
+    return np.stack(balanced, axis=1) / UNITS

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import Timeline
-from forcetorque.sensor.sessions.session_regression import Change, SessionMeans, fit_sessions, holm
+from forcetorque.sensor.sessions.session_change_tests import Change, SessionMeans, fit_sessions, holm
 from tests.sensor.sessions.drawn_figures import draw_session
 
 UNIT = np.repeat([1.0, 0.05], 3)
