@@ -247,11 +247,11 @@ def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, mon
         Finding(stream="arm_ft", kind="gap", message="a gap", count=1, start_ns=experiment.recording.start_ns + at)
         for at in (10**9, 20 * 10**9)
     )
-    assert [one.kind for one in with_collisions(others, experiment, {})] == ["gap", "collision", "gap"]
+    assert [one.kind for one in with_collisions(lambda: others, experiment, {})] == ["gap", "collision", "gap"]
     monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 10.0)
-    assert [one.kind for one in with_collisions(others, experiment, {})] == ["not_compared", "gap", "gap"]
+    assert [one.kind for one in with_collisions(lambda: others, experiment, {})] == ["not_compared", "gap", "gap"]
     ignored = experiment.recording.with_intervals([])
-    untold, *left = with_collisions(others, replace(experiment, recording=ignored), {})
+    untold, *left = with_collisions(lambda: others, replace(experiment, recording=ignored), {})
     assert (untold.kind, untold.sensor, tuple(left)) == ("not_compared", "arm_ft", others)
     assert untold.message.startswith("no look for collisions: ")
     assert "expected an interval with a support" in untold.message
@@ -263,7 +263,7 @@ def test_a_collision_hides_nothing_of_another_sensor_of_its_stream(folder: Path,
     own = next(one for one in inspect_experiment(experiment, with_causes=False) if one.kind in UNEXPLAINED)
     assert own.sensor == "arm_ft"
     other = replace(own, sensor="other_ft")
-    events = with_collisions([own, other], experiment, {})
+    events = with_collisions(lambda: [own, other], experiment, {})
     assert [(one.kind, one.sensor) for one in events if one is not other] == [("collision", "arm_ft")]
     assert any(one is other for one in events)
 
@@ -281,7 +281,7 @@ def test_a_push_is_one_event(folder: Path, tmp_path: Path, force_N: float, end_s
     experiment = _planted(folder, tmp_path, lambda run: force_N / FORCE_N * _push(run), end_s=end_s).experiment
     found = [one for one in inspect_experiment(experiment, with_causes=False) if one.kind in UNEXPLAINED]
     assert found
-    events = with_collisions(found, experiment, {})
+    events = with_collisions(lambda: found, experiment, {})
     assert [one.kind for one in events] == kinds
     assert events[-1].size == pytest.approx(force_N, rel=0.05)
     start_ns = experiment.recording.start_ns
@@ -292,7 +292,7 @@ def test_a_push_is_one_event(folder: Path, tmp_path: Path, force_N: float, end_s
             ("outlier", "arm_ft", 17, 17),
         )
     ]  # fmt: skip
-    assert {id(one) for one in others} <= {id(one) for one in with_collisions(others, experiment, {})}
+    assert {id(one) for one in others} <= {id(one) for one in with_collisions(lambda: others, experiment, {})}
 
 
 def test_the_command_prints_contacts_first(folder: Path, tmp_path: Path, run: Run) -> None:

@@ -92,7 +92,7 @@ def test_viewer_and_report_show_it_among_their_findings(standing: Standing, mome
     """At its time, of its sensor; without a moment there is none."""
     run = _with(standing, np.array([0.0, 0.0, 0.0, 0.0, moment_Nm, 0.0]))
     experiment = replace(run.experiment, sensors=(run.sensor,))
-    found = [one for one in with_collisions((), experiment, {}) if one.kind in get_args(EventKind)]
+    found = [one for one in with_collisions(tuple, experiment, {}) if one.kind in get_args(EventKind)]
     assert [(one.kind, one.sensor) for one in found] == [(kind, FOOT) for kind in kinds]
     interval = _on_right(experiment)
     for one in found:
@@ -107,7 +107,7 @@ def test_of_a_long_log_the_soles_that_were_not_tested_are_named(
 ) -> None:
     """By the sensor next to them; a sensor without one says nothing of soles."""
     monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 0.0)
-    found = {one.stream: one.message for one in with_collisions((), standing.experiment, {})}
+    found = {one.stream: one.message for one in with_collisions(tuple, standing.experiment, {})}
     streams = {one.name: one.stream for one in standing.experiment.sensors}
     assert "; no test of what presses on r_sole; see `robot balance`" in found[streams[FOOT]]
     assert "no look for collisions" in found[streams["r_leg_ft"]]

@@ -13,7 +13,7 @@ export function notes(data: SceneData): HTMLElement[] {
   const texts = [...data.scene.notes];
   if (data.samples === 0 && !data.scene.live) texts.push("The scene has no samples.");
   if (texts.length === 0) return [];
-  const list = el("ul", {}, ...texts.map((text) => el("li", {}, text)));
+  const list = el("ul", { tabindex: "0" }, ...texts.map((text) => el("li", {}, text)));
   const count = texts.length === 1 ? "1 note" : `${texts.length} notes`;
   return [
     el(
@@ -60,7 +60,7 @@ function folded(title: string, rows: HTMLLIElement[], empty: string): HTMLElemen
     "details",
     {},
     el("summary", {}, title),
-    el("ul", { class: "entries" }, ...rows),
+    el("ul", { class: "entries", tabindex: "0" }, ...rows),
     el("p", { class: "absent" }, empty),
   );
 }

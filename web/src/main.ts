@@ -187,7 +187,7 @@ function fillSide(
     "details",
     {},
     el("summary", {}, "Origin of the data"),
-    el("ul", { class: "entries" }, ...data.scene.provenance.map((line) => el("li", {}, line))),
+    el("ul", { class: "entries", tabindex: "0" }, ...data.scene.provenance.map((line) => el("li", {}, line))),
   );
   panels.side.append(
     ...notes(data),

@@ -137,7 +137,7 @@ def _require_rate(run: SensorRun) -> None:
 
 def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> tuple[FreeModel, Threshold]:
     """What is learnt from windows without contact."""
-    changes = np.concatenate([changes_of(one) for one in _untouched(run, free)])
+    changes = changes_of(_untouched(run, free))
     free_s = len(changes) * WINDOW_S
     if free_s < _LEAST_FREE_S:
         raise ExperimentError(

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import get_args
 
 from forcetorque.base.errors import ForceTorqueError
@@ -30,15 +30,16 @@ _MARGIN_NS = 500_000_000
 
 
 def with_collisions(
-    findings: Sequence[Finding], experiment: Experiment, calibrations: Mapping[str, Calibration]
+    inspect: Callable[[], Sequence[Finding]], experiment: Experiment, calibrations: Mapping[str, Calibration]
 ) -> tuple[Finding, ...]:
     """Add collisions of every sensor, in place of the same by `inspect`, and what soles bear that the ground cannot do.
 
     Of a sensor without a look the reason is added.
 
     Args:
-        findings: Other findings; of these, what `inspect` cannot explain is left out where half of it or more lies in
-            collisions of its sensor. A `step` stays beside a `new_level`, which may be that step.
+        inspect: Gives other findings, after the search, whose samples `inspect_experiment` need not compute again. Of
+            these, what `inspect` cannot explain is left out where half of it or more lies in collisions of its sensor.
+            A `step` stays beside a `new_level`, which may be that step.
         experiment: The experiment.
         calibrations: By what sensors are read, by their names; by prior or as logged without.
 
@@ -47,7 +48,7 @@ def with_collisions(
     """
     collisions = list(_collisions(experiment, calibrations))
     on_links = [one for one in collisions if one.kind not in get_args(EventKind)]
-    found = [*(one for one in findings if not _is_in(one, on_links)), *collisions]
+    found = [*(one for one in inspect() if not _is_in(one, on_links)), *collisions]
     return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
 
 

@@ -102,7 +102,7 @@ def locate(run: SensorRun, interval: Interval, at_ns: int, excess: FloatArray, c
     # the sensor and what touches carry the bodies together
     on_robot = -equation.transmission[0, 0]
     wrench, spread = on_robot @ excess, on_robot @ covariance @ on_robot.T
-    axes = _axes(tree, equation, 0)
+    axes = {link: points[0] for link, points in _axes(tree, equation).items()}
     lines = {link: _nearest(wrench, points) for link, points in axes.items()}
     half = {link: NORMAL_95 * _deviation(wrench, spread, points) for link, points in axes.items()}
     link = min(lines, key=lambda name: lines[name][0])
@@ -143,35 +143,31 @@ def noticed_on_links(
         ExperimentError: If the interval has no support, or no link lies beyond the sensor.
     """
     tree, equation = equation_at(run, interval, at_ns)
-    forces: dict[str, list[float]] = {}
-    for index, covariance in enumerate(covariances):
-        of_robot = np.linalg.inv(equation.transmission[index, 0])
-        information = of_robot.T @ np.linalg.solve(covariance, of_robot)
-        axes = _axes(tree, equation, index)
-        points = np.concatenate(list(axes.values()))
-        force = np.tile(np.eye(6, 3), (len(points), 1, 1))
-        force[:, 3:] = np.cross(points[:, None], np.eye(3)).swapaxes(1, 2)
-        least = np.linalg.eigvalsh(force.swapaxes(1, 2) @ information @ force)[:, 0]
-        ends = np.cumsum([len(of_link) for of_link in axes.values()])
-        for link, of_link in zip(axes, np.split(least, ends[:-1]), strict=True):
-            forces.setdefault(link, []).append(float(np.sqrt(square / of_link.min())))
-    return {link: np.array(values) for link, values in forces.items()}
+    of_robot = np.linalg.inv(equation.transmission[:, 0])
+    information = of_robot.swapaxes(1, 2) @ np.linalg.solve(covariances, of_robot)
+    forces = {}
+    for link, points in _axes(tree, equation).items():
+        force = np.tile(np.eye(6, 3), (*points.shape[:2], 1, 1))
+        force[..., 3:, :] = np.cross(points[:, :, None], np.eye(3)).swapaxes(2, 3)
+        least = np.linalg.eigvalsh(force.swapaxes(2, 3) @ information[:, None] @ force)[..., 0]
+        forces[link] = np.sqrt(square / least.min(axis=1))
+    return forces
 
 
-def _axes(tree: BodyTree, equation: PartEquation, at: int) -> dict[str, FloatArray]:
-    """Points of the axes of the bodies of a part at an instant, by the heaviest link of each; shape (k, 3); m."""
+def _axes(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:
+    """Points of the axes of the bodies of a part, by the heaviest link of each; shape (n, k, 3) each; m."""
     axes = {}
+    share = np.linspace(0.0, 1.0, _ALONG)[:, None]
     for index in equation.part.bodies:
-        body, pose = tree.bodies[index], equation.poses[index][at]
-        children = [k for k in equation.part.bodies if tree.bodies[k].parent == index]
-        ends = [equation.poses[k][at][:3, 3] for k in children]
-        ends += [(pose @ tree.frames[link][1])[:3, 3] for link in body.links]
+        body, poses = tree.bodies[index], equation.poses[index]
+        start = poses[:, None, :3, 3]
+        ends = [equation.poses[k][:, :3, 3] for k in equation.part.bodies if tree.bodies[k].parent == index]
+        ends += [(poses @ tree.frames[link][1])[:, :3, 3] for link in body.links]
         if body.inertia.mass > 0.0:
-            ends.append(pose[:3, :3] @ (body.inertia.first_moment / body.inertia.mass) + pose[:3, 3])
-        share = np.linspace(0.0, 1.0, _ALONG)[:, None]
-        points = [pose[:3, 3] + share * (end - pose[:3, 3]) for end in ends]
+            ends.append(poses[:, :3, :3] @ (body.inertia.first_moment / body.inertia.mass) + poses[:, :3, 3])
+        points = [start + share * (end[:, None] - start) for end in ends]
         name = max(body.links, key=lambda link: tree.inertias[link].mass)
-        axes[name] = np.concatenate([pose[None, :3, 3], *points])
+        axes[name] = np.concatenate([start, *points], axis=1)
     return axes
 
 

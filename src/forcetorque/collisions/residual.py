@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -221,19 +220,24 @@ def _weights(gains: tuple[float, ...]) -> FloatArray:
     return weights
 
 
-def changes_of(signals: Signals) -> FloatArray:
+def changes_of(intervals: Sequence[Signals]) -> FloatArray:
     """Take all windows against the level of those before them.
 
     Args:
-        signals: The windows.
+        intervals: Windows of at least one interval, with the same terms.
 
     Returns:
         Changes of their columns, without the windows that have no level yet; shape (w, 6, 1 + p).
     """
-    level = Level(signals)
-    ends = [*range(TOGETHER, len(signals), TOGETHER), len(signals)]
-    changes = [level.changes(first, end) for first, end in pairwise([0, *ends])]
-    return np.concatenate([columns[known] for columns, known in changes])
+    changes = np.empty((sum(map(len, intervals)), *intervals[0].columns.shape[1:]))
+    count = 0
+    for signals in intervals:
+        level = Level(signals)
+        for first in range(0, len(signals), TOGETHER):
+            columns, known = level.changes(first, min(first + TOGETHER, len(signals)))
+            before, count = count, count + int(np.count_nonzero(known))
+            changes[before:count] = columns[known]
+    return changes[:count]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

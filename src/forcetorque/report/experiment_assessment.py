@@ -191,7 +191,7 @@ def assess_experiment(
         duration_s=(end - start) * 1e-9,
         streams=stream_overviews(experiment.recording),
         intervals=interval_overviews(experiment.recording),
-        findings=finding_rows(start, with_collisions(inspect_segments(experiment), experiment, first)),
+        findings=finding_rows(start, with_collisions(lambda: inspect_segments(experiment), experiment, first)),
         sensors=tuple(sensors),
         sub_models=tuple(map(SubModelRow.of, residuals)),
         part_residuals=tuple(residuals),

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -16,6 +17,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.smoothing import smooth_columns
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.viewer.scene import ArrayRef
 
 ALIGNMENT = 8
@@ -106,8 +108,10 @@ _DERIVATIVES = {"velocity": 1, "acceleration": 2}
 class Priors:
     """How sensors are read without a calibration; what cannot be read is known, too, and not tried again."""
 
-    def __init__(self, experiment: Experiment) -> None:
+    def __init__(self, experiment: Experiment, sensors: Sequence[ExperimentSensor]) -> None:
+        """Take the sensors that will be asked for, whose expected wrenches are computed together."""
         self._experiment = experiment
+        self._shared = SharedWrenches(experiment.recording, {sensor.name: sensor.stream for sensor in sensors})
         self._known: dict[str, Correction | ForceTorqueError] = {}
 
     def of(self, sensor: ExperimentSensor) -> Correction:
@@ -124,7 +128,7 @@ class Priors:
         """
         if sensor.name not in self._known:
             try:
-                self._known[sensor.name] = SensorRun(self._experiment, sensor).uncalibrated()
+                self._known[sensor.name] = SensorRun(self._experiment, sensor, shared=self._shared).uncalibrated()
             except ForceTorqueError as error:
                 self._known[sensor.name] = error
         correction = self._known[sensor.name]

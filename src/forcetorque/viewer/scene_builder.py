@@ -118,7 +118,7 @@ def build_scene(
     accept(len(posture.stamp_ns))
     root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     computed = differentiated(usable)
-    priors = Priors(computed)
+    priors = Priors(computed, shown)
     expected, lacking = expected_readings(computed, tuple(names), posture)
     draft.notes.extend([_BESIDE] if skin_alone else [*posture.notes, *root.notes, *lacking])
     if experiment.processing.smoothing is not None:
@@ -158,7 +158,7 @@ def build_scene(
         findings=tuple(
             _finding(finding, recording.start_ns)
             for finding in with_collisions(
-                inspect_experiment(usable, with_causes=False),
+                lambda: inspect_experiment(usable, with_causes=False),
                 usable,
                 {name: next(iter(group.values())) for name, group in groups.items() if group},
             )
