@@ -134,8 +134,8 @@ def build_scene(
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
     if skin_alone and not (skin or events):
-        lacking = "; ".join(draft.notes[before_skin:])
-        raise ExperimentError(f"experiment {experiment.name!r}: nothing to show: {lacking}")
+        reasons = "; ".join(draft.notes[before_skin:])
+        raise ExperimentError(f"experiment {experiment.name!r}: nothing to show: {reasons}")
     robot, missing = drawn_robot(model, posture.names, urdf, draft.block, mesh_folders)
     if skin_alone:  # a ball that stands for a link would hide the patch on it
         patched = {patch.link for patch in skin}
