@@ -44,6 +44,7 @@ def test_the_mass_is_within_its_interval(tmp_path: Path) -> None:
         text = answer_text(list(weighed.answers()), 80)
         assert len(text.splitlines()) <= MOST_LINES
         assert "kg (95 %: ±" in text
+        assert weighed.figure().get_suptitle().startswith(next(iter(weighed.answers())).verdict)
         assert "parent_to_child, the reaction" in text
 
 

@@ -184,6 +184,14 @@ REFUSED = {
         ("<sensor name='ft' type='force_torque'><parent joint='mount'/><pose>0 0 0 0 0 1.57</pose></sensor>",),
         "<sensor name='ft'>: expected its pose as <origin xyz=... rpy=...>, got <pose>0 0 0 0 0 1.57</pose>",
     ),
+    "a plain pose that is no number": (
+        ("<sensor name='ft' type='force_torque'><parent joint='mount'/><pose>0 0 0.1 0 0 1,57</pose></sensor>",),
+        "<sensor name='ft'>: expected its pose as <origin xyz=... rpy=...>, got <pose>0 0 0.1 0 0 1,57</pose>",
+    ),
+    "a short plain pose": (
+        ("<sensor name='ft' type='force_torque'><parent joint='mount'/><pose>0 0 0</pose></sensor>",),
+        "<sensor name='ft'>: expected its pose as <origin xyz=... rpy=...>, got <pose>0 0 0</pose>",
+    ),
     "a short pose": (
         (_gazebo("mount", "ft", inside="<pose>0 0 1</pose>"),),
         "<pose>: expected six finite numbers, x y z roll pitch yaw, got '0 0 1'",

@@ -78,6 +78,8 @@ def test_a_patch_without_a_table_is_refused(run: Run, tmp_path: Path) -> None:
     assert "nothing to show: patch 'shank' is not shown: [[patch]] states no table" in error
     assert "`forcetorque skin calibrate`" in error
     assert not page.exists()
+    assert run("report", str(file), "--viewer", "-o", str(page)).code == 0
+    assert "The viewer could not be made: experiment" in page.read_text(encoding="utf-8")
 
 
 @pytest.mark.long

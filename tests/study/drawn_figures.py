@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -13,6 +15,9 @@ from forcetorque.study.result import ChosenCandidate, ModeChoice, StudiedSensor,
 
 UNKNOWN = UnfittedLoad(push_force_N=None, push_moment_Nm=None, deviation_sd=None)
 
+UNDETERMINED = 8
+"""Candidates that the data do not determine, with small errors."""
+
 
 def draw_studies(rng: np.random.Generator) -> Figure:
     """Two sensors, one with a long name and without a workbench matrix."""
@@ -20,11 +25,13 @@ def draw_studies(rng: np.random.Generator) -> Figure:
 
 
 def _sensor(rng: np.random.Generator, name: str, workbench_N: float | None) -> StudiedSensor:
-    rows = [
-        {"data_set": "all"} | {f"force_mean_{offset.replace('-', '_')}": force for offset in KNOWN_BEFORE}
-        for force in np.exp(rng.normal(0.5, 0.6, 60)).tolist()
+    keys = {offset: f"force_mean_{offset.replace('-', '_')}" for offset in KNOWN_BEFORE}
+    rows: list[dict[str, Any]] = [
+        {"data_set": "all", "determined": k >= UNDETERMINED}
+        | {key: float((0.1 if k < UNDETERMINED else 1.0) * np.exp(rng.normal(0.5, 0.6))) for key in keys.values()}
+        for k in range(60)
     ]
-    best = min(row["force_mean_fitted"] for row in rows)
+    best = {offset: min(row[key] for row in rows[UNDETERMINED:]) for offset, key in keys.items()}
     return StudiedSensor(
         sensor=name,
         serial="FT1",
@@ -35,9 +42,9 @@ def _sensor(rng: np.random.Generator, name: str, workbench_N: float | None) -> S
         combinations=(),
         left_out=(),
         workbench=None if workbench_N is None else _chosen(WORKBENCH, workbench_N),
-        modes=tuple(_mode(offset, best) for offset in KNOWN_BEFORE),
+        modes=tuple(_mode(offset, best[offset]) for offset in KNOWN_BEFORE),
         files=(),
-        candidate_rows=tuple(rows),
+        candidate_rows=(*rows, {"data_set": WORKBENCH} | dict.fromkeys(keys.values(), 0.01)),
     )
 
 

@@ -166,6 +166,7 @@ def test_the_rows_of_all_candidates_say_what_they_are_and_how_they_do() -> None:
     assert len(rows) == 352
     for row, candidate in zip(rows[:-1], study().fits.candidates, strict=True):
         assert (row["data_set"], row["type"]) == (candidate.data_set, candidate.kind.name)
+        assert row["determined"] is candidate.determined
         assert row["lambda_counts2"] == 6.0 * float(row["table_lambda_counts2"])
         assert row["relative_lambda"] == candidate.relative_lambda
     assert "table_lambda_counts2" not in rows[-1]

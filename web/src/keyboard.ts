@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Keys that work wherever nothing else takes them.
 
+import { expectedOf } from "./columns";
 import { nextEvent, worstSample } from "./points_of_interest";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
@@ -26,12 +27,17 @@ const KEYS: readonly (readonly [key: string, does: string])[] = [
   ["Alt + arrows, + −, 0", "turn, zoom, reset the focused 3-D view"],
 ];
 
-/** Keys of what only a recording has: expected wrenches, intervals, samples to save. */
-const RECORDED = ["w", "n", "p", "b", "e", "s"];
+/** Whether a page has what a key acts on; a stream has no expected wrenches, intervals or samples to save. */
+function acts(data: SceneData, key: string): boolean {
+  const { live, sensors } = data.scene;
+  if (key === "w") return !live && sensors.some(expectedOf);
+  if (["n", "p", "b", "e", "s"].includes(key)) return !live;
+  return sensors.length > 0 || !["f", "t", "Esc"].includes(key);
+}
 
 /** What the keys of a page do, for its help. */
 export function keysOf(data: SceneData): typeof KEYS {
-  return KEYS.filter(([key]) => !(data.scene.live && RECORDED.includes(key.charAt(0))));
+  return KEYS.filter(([keys]) => acts(data, keys.split(/[ ,]/)[0] ?? ""));
 }
 
 /** Listen to the keys. */
@@ -60,7 +66,7 @@ export function listen(data: SceneData, store: Store, say: (text: string) => voi
     if (event.ctrlKey || event.metaKey || event.altKey || takes(event.target, event.key)) return;
     const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     const action = by !== 0 ? () => step(data, store, event.shiftKey ? 10 * by : by) : actions[event.key];
-    if (!action || (data.scene.live && RECORDED.includes(event.key.toLowerCase()))) return;
+    if (!action || !acts(data, event.key.toLowerCase())) return;
     event.preventDefault();
     action();
   });

@@ -130,8 +130,6 @@ class SensorOffset:
     """What mechanics demands of the reading in the mean; shape (6,); N, N m."""
     load_moves_N: float
     """How far the force that it demands is from its mean at most."""
-    weight_N: float
-    """Mean norm of that force."""
     time_s: FloatArray
     """Instants of its samples after the start of the recording; shape (n,); s."""
     lacking: FloatArray
@@ -389,7 +387,6 @@ def _offset(
         estimate=OffsetEstimate.of(lacking, time_s),
         load=expected.mean(axis=0),
         load_moves_N=float(np.linalg.norm(force - force.mean(axis=0), axis=1).max()),
-        weight_N=float(np.linalg.norm(force, axis=1).mean()),
         time_s=time_s,
         lacking=lacking,
         not_logged=not_logged,

@@ -11,7 +11,6 @@ from forcetorque.formats.logged_wrist import BAG
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
 from forcetorque.payload.result import fitted_drifts, gravity_words, mount_words, tilt_words
 from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.tare_offset import STILL
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names
@@ -217,9 +216,8 @@ def tare_answers(tare: Tare) -> Iterator[Answer]:
             plus_minus(list(row.offset[part]), float(max(row.half_width_95[part])), unit)
             for part, unit in zip(FORCE_AND_MOMENT, ("N", "N m"), strict=True)
         )
-        weight = float((row.load[FORCE_AND_MOMENT[0]] ** 2).sum() ** 0.5)
-        moves = row.load_moves_N > STILL * weight
-        weighs = "the load " if moves else f"the load weighs {amount(weight, 'N')} and "
+        moves = row.load_moves
+        weighs = "the load " if moves else f"the load weighs {amount(row.weight_N, 'N')} and "
         yield Answer(
             subject=f"{row.sensor} ({row.serial}), {name}",
             verdict="THE LOAD MOVES" if moves else f"force offset {force}",

@@ -25,6 +25,7 @@ from forcetorque.results.figures import (
     thinned_line,
     two_digits,
 )
+from forcetorque.results.number_text import amount
 from forcetorque.results.visual_roles import PRIOR
 
 if TYPE_CHECKING:
@@ -103,7 +104,7 @@ _SENSOR_INCHES = 2.8
 
 @in_figure_style
 def tare_figure(sensors: Sequence[TaredSensor]) -> Figure:
-    """Draw offsets with their 95 % intervals, and how far the force is off at rest, before and after.
+    """Draw offsets with their 95 % intervals, and how far the force is off, before and after.
 
     Args:
         sensors: Tared sensors, a row each.
@@ -157,9 +158,11 @@ def _draw_offset(panel: Axes, row: TaredSensor, part: slice) -> None:
 
 
 def _tared(row: TaredSensor) -> str:
-    """RMS of the norm of the error of the force, before and after."""
+    """RMS of the norm of the error of the force, before and after; where the load moves, by how much."""
+    if row.load_moves:
+        return f"{shown_name(row.sensor)}: the load moves by {amount(row.load_moves_N, 'N')}: no tare"
     before, after = (_rms_force(values) for values in (row.errors.before, row.errors.after))
-    return f"{shown_name(row.sensor)}: error of the force at rest from {before} to {after} N RMS"
+    return f"{shown_name(row.sensor)}: error of the force from {before} to {after} N RMS"
 
 
 def _rms_force(wrenches: FloatArray) -> str:

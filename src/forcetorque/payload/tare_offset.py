@@ -10,9 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.wrench import FORCE
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.offsets import sensor_offset
@@ -61,6 +63,16 @@ class TaredSensor(Row):
     """How far that force is from its mean at most."""
     errors: TareErrors = Field(exclude=True, repr=False)
     """Errors before and after."""
+
+    @property
+    def weight_N(self) -> float:
+        """Norm of the force of the load; N."""
+        return float(np.linalg.norm(self.load[FORCE]))
+
+    @property
+    def load_moves(self) -> bool:
+        """Whether the load moves too much for an interval at rest."""
+        return self.load_moves_N > STILL * self.weight_N
 
     @property
     def bias(self) -> FloatArray:
@@ -141,12 +153,12 @@ def tare(run: SensorRun, interval: str, calibration: OneCalibration | None = Non
             after=tared.estimate.value - tared.lacking,
         ),
     )
-    return Tare(experiment=run.experiment.name, sensors=(row,), warnings=tuple(_doubts(row, tared.weight_N)))
+    return Tare(experiment=run.experiment.name, sensors=(row,), warnings=tuple(_doubts(row)))
 
 
-def _doubts(row: TaredSensor, weight: float) -> Iterator[str]:
-    if row.load_moves_N > STILL * weight:
+def _doubts(row: TaredSensor) -> Iterator[str]:
+    if row.load_moves:
         yield (
-            f"{row.sensor}: the load moves by {row.load_moves_N:.2g} of {weight:.3g} N in {row.interval!r}: expected "
-            "an interval at rest; errors of the model and of the matrix are in the offset too"
+            f"{row.sensor}: the load moves by {row.load_moves_N:.2g} of {row.weight_N:.3g} N in {row.interval!r}: "
+            "expected an interval at rest; errors of the model and of the matrix are in the offset too"
         )

@@ -21,6 +21,7 @@ from forcetorque.results.figures import (
     shown_name,
     two_digits,
 )
+from forcetorque.results.number_text import plus_minus
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,7 +72,7 @@ def standing_figure(weight: PlateWeight) -> Figure:
     shares = ", ".join(f"plate {row.plate} {row.force_N:.0f} N" for row in loaded[:_COLUMNS])
     headline(
         figure,
-        f"{weight.mass_kg:.2f} ±{two_digits(weight.half_width_95_kg)} kg (95 %): {shares}; "
+        f"{plus_minus(weight.mass_kg, weight.half_width_95_kg, 'kg')}: {shares}; "
         + (f"{doubts} contradiction{'s' * (doubts > 1)}" if doubts else "no contradiction"),
     )
     keys = [

@@ -318,12 +318,16 @@ def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str
         calibrations: Calibrations by their file.
 
     Returns:
-        The section.
+        The section; where there is nothing to show, the reason in place of the viewer.
     """
-    built = scene_of(path, experiment, calibrations)
+    title = f"Posture and forces: {experiment.name}"
+    try:
+        built = scene_of(path, experiment, calibrations)
+    except ForceTorqueError as error:
+        return Section(title=title, blocks=(Text(text=f"The viewer could not be made: {error}"),))
     page = Page(
         html=page_of(packed(built)),
         title=f"Viewer of {experiment.name}",
         instead=f"The HTML file has a viewer here; `forcetorque view {path}` opens it too.",
     )
-    return Section(title=f"Posture and forces: {experiment.name}", blocks=(page,))
+    return Section(title=title, blocks=(page,))

@@ -226,7 +226,8 @@ def _read_plain(place: UrdfPlace, tag: Element) -> ForceTorqueSensor:
     parent = tag.find("parent")
     if parent is None:
         raise here.error("<parent joint=...>", "none")
-    if any(parsed_numbers((tag.findtext("pose") or "").split())):
+    words = (tag.findtext("pose") or "").split()
+    if words and parsed_numbers(words) != [0.0] * 6:
         raise here.error("its pose as <origin xyz=... rpy=...>", f"<pose>{tag.findtext('pose')}</pose>")
     return _read_common(
         here, tag, name=name, joint=required(here.inside("<parent>"), parent, "joint"), pose=origin(here, tag)

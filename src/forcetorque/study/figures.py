@@ -186,7 +186,9 @@ _BEFORE: dict[str, Any] = {"color": PRIOR.colour, "marker": PRIOR.marker, "lines
 
 @in_figure_style
 def studies_figure(sensors: Sequence[StudiedSensor]) -> Figure:
-    """Draw the mean contact force of every candidate where nothing touches, beside the best and the workbench matrix.
+    """Draw the mean contact force of candidates where nothing touches, beside the best and the workbench matrix.
+
+    Candidates that the data do not determine are never chosen and are not drawn.
 
     Args:
         sensors: Studies, a line each for both offsets.
@@ -205,7 +207,7 @@ def studies_figure(sensors: Sequence[StudiedSensor]) -> Figure:
     panel = figure.subplots()
     for place, (sensor, mode) in enumerate(lines):
         key = f"force_mean_{mode.offset.replace('-', '_')}"
-        forces = [row[key] for row in sensor.candidate_rows if row["data_set"] != WORKBENCH]
+        forces = [row[key] for row in sensor.candidate_rows if row.get("determined")]
         panel.plot(forces, np.full(len(forces), place), color=MUTED, marker="|", linestyle="none", markersize=9.0)
         if sensor.workbench is not None and mode.offset is Offset.FIRST_SECOND:
             _draw_chosen(panel, place, sensor.workbench, _BEFORE)
@@ -219,7 +221,7 @@ def studies_figure(sensors: Sequence[StudiedSensor]) -> Figure:
     panel.set_xlabel("mean contact force where nothing touches, N")
     headline(figure, "; ".join(_best_words(sensor) for sensor in sensors))
     keys = [
-        ("candidate", {"color": MUTED, "marker": "|", "linestyle": "none"}),
+        ("candidate that the data determine", {"color": MUTED, "marker": "|", "linestyle": "none"}),
         ("best; line: 95 % interval", look(0).key | {"linestyle": "-"}),
         (WORKBENCH, _BEFORE),
     ]

@@ -110,9 +110,10 @@ def candidate_rows(study: Study) -> list[Row]:
     """Give everything about every candidate, and the workbench.
 
     Returns:
-        One row each: data set, type, lambda in three conventions, mean errors in both modes; N, N m. Then, where the
-        true matrix is known, the error of pushes that were not recorded; and how many standard deviations of the
-        generative fit of the same data set they are read from what that reads.
+        One row each: data set, type, lambda in three conventions, whether the data determine it, since nothing else is
+        chosen, mean errors in both modes; N, N m. Then, where the true matrix is known, the error of pushes that were
+        not recorded; and how many standard deviations of the generative fit of the same data set they are
+        read from what that reads.
     """
     pooled = {source: study.errors[source].pooled() for source in KNOWN_BEFORE}
     spread = {source: study.errors[source].standard_error() for source in KNOWN_BEFORE}
@@ -121,7 +122,7 @@ def candidate_rows(study: Study) -> list[Row]:
         row: Row = {"data_set": WORKBENCH}
         candidate = study.candidates[index] if index < len(study.candidates) else None
         if candidate is not None:
-            row = _labelled(candidate)
+            row = _labelled(candidate) | {"determined": candidate.determined}
         if isinstance(candidate, Candidate):
             row |= {
                 "lambda_counts2": candidate.lambda_counts2,

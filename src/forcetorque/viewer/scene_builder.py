@@ -129,11 +129,13 @@ def build_scene(
         series.append(scene_sensor(computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, draft))
     time_left.at(_POSTURE + _SENSOR * len(shown))
     contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft, contact_options)
+    before_skin = len(draft.notes)
     patches = computed.section(PATCHES)
     skin = () if patches is None else scene_skin(patches, model.links, draft)
     events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
     if skin_alone and not (skin or events):
-        raise ExperimentError(f"experiment {experiment.name!r}: nothing to show: {'; '.join(draft.notes[1:])}")
+        reasons = "; ".join(draft.notes[before_skin:])
+        raise ExperimentError(f"experiment {experiment.name!r}: nothing to show: {reasons}")
     robot, missing = drawn_robot(model, posture.names, urdf, draft.block, mesh_folders)
     if skin_alone:  # a ball that stands for a link would hide the patch on it
         patched = {patch.link for patch in skin}

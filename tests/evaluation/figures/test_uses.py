@@ -62,6 +62,21 @@ def test_what_may_be_too_much_differs_in_colour_marker_and_line(drawn: list[Figu
     assert [legend_of(figure)[1] for figure in drawn] == ["after: calibration", "after, perhaps too much"]
 
 
+def test_the_title_follows_the_verdict(drawn: list[Figure]) -> None:
+    """Measured errors beyond what is allowed, and a verdict against a use, come before good predictions."""
+    use_figure([use_of(measured=7.9)], NAMES)
+    use_figure([use_of(), use_of("new.json", measured=8.1)], NAMES)
+    use_figure([use_of(measured=8.1, decision="do not use")], NAMES)
+    use_figure([use_of(allowed=None, decision="do not use")], NAMES)
+    kept = "{} predictions stay within what is allowed, with 95 %"
+    assert [figure.get_suptitle().replace("\n", " ") for figure in drawn] == [
+        kept.format("1 of 1"),
+        f"Measured errors of 1 of 2 are beyond what is allowed. {kept.format('2 of 2')}",
+        f"Do not use for 1 of 1. Measured errors of 1 of 1 are beyond what is allowed. {kept.format('1 of 1')}",
+        "Do not use for 1 of 1. Largest predicted force error: at most 8.0 N",
+    ]
+
+
 def test_a_use_that_judges_nothing_and_a_calibration_without_prior_are_drawn(drawn: list[Figure]) -> None:
     """No limit, no grey, no line before; the legend does not speak of them."""
     use_figure([use_of(before=None, allowed=None)], NAMES)

@@ -56,9 +56,13 @@ def test_it_says_when_the_stretch_is_not_at_rest(tmp_path: Path) -> None:
         tare(run, "third")
     text = (tmp_path / "wrist.toml").read_text()
     (tmp_path / "turn.toml").write_text(text.replace("_s = 60.0", "_s = 70.0"))
-    (doubt,) = tare(_run(tmp_path / "turn.toml"), "first").warnings
+    turned = tare(_run(tmp_path / "turn.toml"), "first")
+    (doubt,) = turned.warnings
     assert "the load moves by" in doubt
     assert "expected an interval at rest" in doubt
+    assert [answer.verdict for answer in turned.answers()] == ["THE LOAD MOVES"]
+    assert turned.figure().get_suptitle().endswith("N: no tare")
+    assert "error of the force from" in tare(run, "first").figure().get_suptitle()
     (tmp_path / "short.toml").write_text(text.replace("end_s = 60.0", "end_s = 0.2"))
     with pytest.raises(FitError, match="expected at least 10 samples to determine an offset, got 4"):
         tare(_run(tmp_path / "short.toml"), "first")

@@ -83,11 +83,28 @@ def use_figure(verdicts: Sequence[LoadCaseVerdict], names: Mapping[str, str]) ->
         title="mark: half of such sensors err less; line: 95 % of them; “at most”: its upper end",
         points=_POINTS,
     )
-    headline(figure, _within_what_is_allowed(verdicts))
+    headline(figure, _title(verdicts))
     return figure
 
 
-def _within_what_is_allowed(verdicts: Sequence[LoadCaseVerdict]) -> str:
+def _title(verdicts: Sequence[LoadCaseVerdict]) -> str:
+    """Predictions come last: a verdict against a use, and measured errors beyond what is allowed, are said before."""
+    refused = sum(verdict.decision == "do not use" for verdict in verdicts)
+    beyond = sum(any(_measured_beyond(row) for row in verdict.errors) for verdict in verdicts)
+    return ". ".join(
+        [
+            *([f"Do not use for {refused} of {len(verdicts)}"] if refused else []),
+            *([f"Measured errors of {beyond} of {len(verdicts)} are beyond what is allowed"] if beyond else []),
+            _predicted(verdicts),
+        ]
+    )
+
+
+def _measured_beyond(row: LoadCaseError) -> bool:
+    return row.measured is not None and row.allowed is not None and row.measured > row.allowed
+
+
+def _predicted(verdicts: Sequence[LoadCaseVerdict]) -> str:
     limited = [verdict for verdict in verdicts if any(row.allowed is not None for row in verdict.errors)]
     if limited:
         kept = sum(all(_style(row) is _AFTER for row in verdict.errors) for verdict in limited)
