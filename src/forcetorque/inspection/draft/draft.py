@@ -212,7 +212,7 @@ class Draft(Result):
     @property
     def _next(self) -> str:
         goes_on = self.has_sensor and f"\n{line('motion', NO_MOTION)}" not in self.content
-        return typed("run" if goes_on else "inspect", self.file)
+        return typed("run", self.file) if goes_on else typed("inspect", self.file)
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
