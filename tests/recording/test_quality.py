@@ -133,6 +133,30 @@ def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
     assert (first.kind, first.channel, first.unit, first.count) == ("joint_jump", "knee", "rad/s", 3)
     assert (first.start_ns, first.end_ns) == (299 * PERIOD_NS, 301 * PERIOD_NS)
     assert second.size == pytest.approx(200.0 * np.pi, rel=0.02)
+    assert "a lost turn" in second.message
+    assert "start_s = 4.39, end_s = 5.60" in second.message
+    assert "a lost turn" not in first.message
+
+
+@pytest.mark.parametrize("held", [10, 50])
+def test_a_joint_that_holds_each_reading_does_not_jump(held: int) -> None:
+    """Of a slower source in a faster table; a lost turn among held readings, and a wrong row at rest, are found."""
+    rows = np.arange(COUNT * 6)
+    angle = 3.0 * np.sin((rows - rows % held) * 0.02)
+
+    def found(values: np.ndarray) -> list[str]:
+        joints = Signal(quantity="position", values=values[:, None], columns=("knee",), units=("rad",))
+        stream = Stream(name="leg", clock="c", stamp_ns=rows * PERIOD_NS, signals={"position": joints})
+        return [finding.kind for finding in stream_findings(stream)]
+
+    assert np.abs(np.diff(angle)).max() > 0.3  # rad
+    assert found(angle) == []
+    rest = np.zeros(len(rows))
+    rest[300] = 0.8
+    assert found(rest) == ["joint_jump"]
+    slow = angle * 0.1
+    slow[30 * held :] += 2.0 * np.pi
+    assert found(slow) == ["joint_jump"]
 
 
 def test_missing_values_are_found_by_stretch() -> None:

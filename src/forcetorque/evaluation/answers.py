@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
@@ -242,10 +242,9 @@ def to_export(calibration: str, sensor: str) -> tuple[str, str]:
 
 
 def _is_file(calibration: str) -> bool:
-    """Whether a calibration is in a file, which commands take; from Python it may have any name."""
-    # by its ending where it can be, because the result may be shown in another folder than it was made in
+    """Whether a calibration is in a file that is found from here, as a command needs it; in Python it has any name."""
     try:
-        return PurePath(calibration).suffix == ".json" or Path(calibration).is_file()
+        return Path(calibration).is_file()
     except OSError:  # too long for the name of a file
         return False
 

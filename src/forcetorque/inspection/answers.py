@@ -154,6 +154,23 @@ def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
     return tuple(row for row in findings if row.kind in _FAULTS)
 
 
+def causes(inspection: Inspection) -> tuple[FindingRow, ...]:
+    """Select the faults, and before them joints that jump in an interval in use, which make a measurement implausible.
+
+    Args:
+        inspection: What was found by an experiment file.
+
+    Returns:
+        The jumps, where a measurement is implausible, and the faults.
+    """
+    wrong = faults(inspection.findings)
+    if not any(row.kind == "implausible" for row in wrong):
+        return wrong
+    in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
+    jumps = [row for row in inspection.findings if row.kind == "joint_jump"]
+    return (*(row for row in jumps if any(_acts_s(row, *interval) > 0.0 for interval in in_use)), *wrong)
+
+
 def has_proposal(inspection: Inspection) -> bool:
     """Find out whether `init --resume` tries a change of the experiment file.
 
@@ -294,11 +311,12 @@ def inspection_answer(inspection: Inspection) -> Answer:
         touched = [event for event in spoiling if event.explains(wrong, in_use)] if is_experiment else []
         resumes = bool(touched) or (is_experiment and has_proposal(inspection))
         correct = "accept the change that corrects it" if resumes else "correct it, and inspect again"
+        ordered = causes(inspection)
         return Answer(
             subject=subject,
             verdict=f"{len(wrong)} FAULT{'S' * (len(wrong) > 1)}",
             why=(
-                *(f"{row.stream}: {row.message}" for row in wrong[: 1 if touched else 2]),
+                *(f"{row.stream}: {row.message}" for row in ordered[: 1 if touched else 2]),
                 *(f"in an interval that is used: {event.text}" for event in _most_harmful(touched, in_use)[:1]),
             ),
             step="leave the contact out of every [[interval]]" if touched else correct,

@@ -44,7 +44,10 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     Returns:
         Findings of its readers and of single streams; of patches that share their messages, one for all of them.
     """
-    found = (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
+    found = (
+        *recording.findings,
+        *(f for one in recording.streams.values() for f in stream_findings(one, recording.start_ns)),
+    )
     messages = {
         name: (stream.clock, stream.stamp_ns.tobytes())
         for name, stream in recording.streams.items()

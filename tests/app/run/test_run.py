@@ -124,6 +124,21 @@ def test_a_sensor_read_in_the_wrong_sense_stops_it(folder: Path, run: Run) -> No
     assert not Path("results").exists()
 
 
+def test_a_log_of_skin_ends_with_commands_that_take_it(
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`run` begins its file, and names `init --resume`, because a file without a sensor is none of `run`."""
+    monkeypatch.chdir(tmp_path)
+    head = ",".join(["time_s", *(f"taxel_{k}" for k in range(12)), "pressure_kPa"])
+    rows = "\n".join(",".join(map(str, [k / 10, *[240 - k] * 13])) for k in range(30))
+    Path("skin.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    stopped = run("run", "skin.csv", "-o", "results", "--no-input", "--format", "json")
+    assert stopped.code == 4
+    command = json.loads(stopped.out)["stages"][0]["command"]
+    assert command == "init --resume results/experiment.toml"
+    assert "TO FILL IN" in run(*command.split()).out
+
+
 def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """They are listed with exit code 4; answered one by one they end in the same way as a file that was written."""
     monkeypatch.chdir(tmp_path)

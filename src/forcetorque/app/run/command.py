@@ -180,7 +180,7 @@ def _unanswered(file: Path, again: str, *, no_input: bool) -> WholeRun | None:
     if listed:
         text = f"{len(listed)} question(s) are open, the first: {listed[0]}"
         remedy = f'put the answers in place of "?" in {file}'
-        command = again
+        command = again if draft.has_sensor else typed("init", "--resume", str(file))
     elif blocking := [one for one in draft.proposals if one.line is None or not asks]:
         listed = tuple(one.proposal for one in blocking)
         text = f"{len(listed)} proposal(s) are open, the first: {listed[0]}"

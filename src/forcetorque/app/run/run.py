@@ -29,7 +29,7 @@ from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.answers import faults, has_proposal
+from forcetorque.inspection.answers import causes, has_proposal
 from forcetorque.inspection.inspect import FindingRow, Inspection, inspected
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
@@ -309,8 +309,7 @@ def _inspect(
         inspection = inspected(experiment, sensors=sensors, progress=way.progress)
         way.results.append(inspection)
         found += sum(answer.verdict != "NOTHING FOUND" for answer in inspection.answers())
-        rows = faults(inspection.findings)
-        wrong += [f"{path}: {row.stream}: {row.message}" for row in rows]
+        wrong += [f"{path}: {row.stream}: {row.message}" for row in causes(inspection)]
         proposed = path if proposed is None and has_proposal(inspection) else proposed
         touched += [(path, f"{path}: {words}") for words in _contacts(experiment, inspection, sensors)]
     if touched:
@@ -366,7 +365,7 @@ def _check(way: _Way, campaigns: Mapping[str, Campaign], wrong: Sequence[str], p
                 unchecked.append(f"{name}: {error}")
     if contradicted or wrong:
         # a fault that explains the measurements comes first, a refusal that explains nothing last
-        explained = any(row.kind != "implausible" for one in inspections for row in faults(one.findings))
+        explained = any(row.kind != "implausible" for one in inspections for row in causes(one))
         reasons = list(dict.fromkeys([*wrong, *contradicted] if explained else [*contradicted, *wrong]))
         if proposed is None:
             way.stop("check", reasons, "correct what the file or the URDF states", "inspect", str(way.files[0]))

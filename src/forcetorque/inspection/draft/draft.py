@@ -205,9 +205,13 @@ class Draft(Result):
         )
 
     @property
+    def has_sensor(self) -> bool:
+        """Whether it is the file of a sensor or a workbench, which `run` reads; that of skin is none."""
+        return "[[sensor]]" in self.content or is_bench(tomllib.loads(self.content))
+
+    @property
     def _next(self) -> str:
-        fitted = "[[sensor]]" in self.content and f"\n{line('motion', NO_MOTION)}" not in self.content
-        goes_on = fitted or is_bench(tomllib.loads(self.content))
+        goes_on = self.has_sensor and f"\n{line('motion', NO_MOTION)}" not in self.content
         return typed("run", self.file) if goes_on else typed("inspect", self.file)
 
     def columns(self) -> list[str]:
