@@ -26,7 +26,7 @@ from forcetorque.formats.signals import OrientationTable
 from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
 from forcetorque.inspection.draft.questions import answer_questions, resume_experiment
-from forcetorque.inspection.draft.streams import column_matches
+from forcetorque.inspection.draft.streams import column_matches, is_estimated
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
@@ -218,7 +218,7 @@ def test_times_that_come_twice_are_times(tmp_path: Path, kept: int, is_asked: bo
     draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
     asked = [one.question for one in draft.questions if one.key == "stamp"]
     assert [text[:46] for text in asked] == ["most times of time_s come twice or more, or on"] * is_asked
-    assert all('{ column = "time_s", unit = "s" }' in text for text in asked)
+    assert all('{ column = "time_s", unit = "s" } uses only rows whose time rises' in text for text in asked)
     assert "a load cell or a sensor of three axes" not in draft.content  # of a wrench nothing else is offered
 
 
@@ -438,6 +438,59 @@ def test_headings_of_another_language_are_a_wrench_by_their_units(tmp_path: Path
     assert column_matches(by_side, []) == ()
 
 
+_WRENCH = "Fx [N],Fy [N],Fz [N],Tx [Nm],Ty [Nm],Tz [Nm]"
+_TAXELS = ",".join(f"left_taxel_{k}" for k in range(12))
+
+
+def _axes(text: str) -> str:
+    return ",".join(text.replace("?", axis) for axis in "xyz")
+
+
+@pytest.mark.parametrize(
+    ("others", "expected"),
+    [
+        (_axes("transform.rotation.?") + ",transform.rotation.w", {"orientation": "transform.rotation.x"}),
+        (_axes("rv_?") + ",rv_w", {}),
+        (f"{_axes('Soll ? [N]')},{_axes('Sollmoment ? [Nm]')},{_WRENCH}", {"wrench": "Fx [N]"}),
+        (f"{_axes('Soll ? [N]')},{_axes('Sollmoment ? [Nm]')},fx,fy,fz,tx,ty,tz", {"wrench": "fx"}),
+        (f"{_axes('TCP force ? [N]')},{_axes('TCP force r? [Nm]')}", {"wrench": "TCP force x [N]"}),
+        (_axes("r_? [rad/s]"), {}),
+        ("roll [rad/s],pitch [rad/s],yaw [rad/s]", {}),
+        (f"{_axes('target_TCP_pose_r?')},{_axes('actual_TCP_pose_r?')}", {"orientation": "actual_TCP_pose_rx"}),
+        (_axes("target_TCP_pose_r?"), {"orientation": "target_TCP_pose_rx"}),
+        (f"tempo [s],{_WRENCH}", {"wrench": "Fx [N]"}),
+        ("temps [s],temp [degC]", {"temperature": "temp [degC]"}),
+        (f"{_WRENCH},pressure [kPa]", {"wrench": "Fx [N]"}),
+        (f"{_TAXELS},pressure [kPa]", {"taxel_counts": "left_taxel_0", "pressure": "pressure [kPa]"}),
+        (",".join(f"taxel_{k} [N]" for k in range(12)), {}),
+        (",".join(f"cell_{k} [kPa]" for k in range(12)), {}),
+        (",".join(f"taxel_{k} [counts]" for k in range(12)), {"taxel_counts": "taxel_0 [counts]"}),
+        (f"{_TAXELS},{_TAXELS.replace('left', 'right')}", {"taxel_counts": "left_taxel_0"}),
+    ],
+)
+def test_columns_are_read_as_no_other_quantity(tmp_path: Path, others: str, expected: dict[str, str]) -> None:
+    """Units and a fourth component exclude a quantity; a desired value is not taken where a measured one is."""
+    names = others.split(",")
+    rows = [
+        ",".join([str(row / 100), *(f"{0.1 * (k % 5) - 0.01 * row:.3f}" for k in range(len(names)))]) for row in (0, 1)
+    ]
+    _written(tmp_path, "\n".join([f"time_s,{others}", *rows]) + "\n")
+    draft = draft_experiment([tmp_path / "log.csv"])
+    (stream,) = tomllib.loads(draft.content)["recording"]["stream"]
+    signals = {one["quantity"]: one["columns"][0] for one in stream["signal"] if one["quantity"] != "?"}
+    assert signals == expected
+    (answer,) = draft.answers()
+    left_out = "right_" in others or others.count("TCP_pose") > 3
+    assert any("left out; other columns are its" in text for text in answer.why) == left_out
+
+
+def test_a_time_is_no_temperature() -> None:
+    """It is passed over for the next column that is called so."""
+    names = [read_heading(name) for name in ("tempo", "temp")]
+    (match,) = column_matches(names, [], time=0)
+    assert match.columns == (1,)
+
+
 def test_counts_of_taxels_are_a_patch(tmp_path: Path) -> None:
     """With a pressure they are to be fitted, without one a layout is asked; of a few cells none is made."""
 
@@ -597,6 +650,29 @@ def test_an_estimated_wrench_is_a_sensor_where_it_is_alone_or_named(tmp_path: Pa
         assert [one["stream"] for one in tomllib.loads(draft.content)["sensor"]] == expected
         left_out = [note for note in draft.notes if "left out, an estimated wrench" in note]
         assert len(left_out) == (paths == logs and not wanted)
+        (answer,) = draft.answers()
+        assert set(left_out) <= set(answer.why)
+        streams = [one["name"] for one in tomllib.loads(draft.content)["recording"]["stream"]]
+        assert set(names) & set(streams) == {*expected}
+    assert not [one.key for one in draft_experiment(logs[:2]).questions if one.key == "frame"]
+
+
+def test_an_estimated_wrench_is_known_by_whole_words_and_by_headings(tmp_path: Path) -> None:
+    """A sensor with such letters in its name stays; columns of an estimate are passed over."""
+    for name in ("half_extended", "shelf_ext", "external_wrench_sensor"):
+        assert not is_estimated(name)
+    for name in ("/arm/external_wrench", "O_F_ext_hat_K[0]", "wrench_estimated"):
+        assert is_estimated(name)
+    head = ["fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"]
+    estimated = [f"external_wrench.{name}" for name in head]
+    rows = ["0" + ",1" * 12, "1" + ",2" * 12]
+    (tmp_path / "log.csv").write_text("\n".join([",".join(["t_s", *estimated, *head]), *rows]))
+    (tmp_path / "b.csv").write_text("\n".join([",".join(["t_s", *estimated]), *(row[:13] for row in rows)]))
+    draft = draft_experiment([tmp_path / "log.csv", tmp_path / "b.csv"])
+    (stream,) = tomllib.loads(draft.content)["recording"]["stream"]
+    assert stream["signal"][0]["columns"] == head
+    assert draft.notes[0].startswith("b: left out, an estimated wrench")
+    assert draft.notes[1].startswith("log: external_wrench.fx_N, ")
 
 
 def test_the_size_of_several_sensors_is_asked_once(two_legs: Path) -> None:

@@ -93,6 +93,8 @@ class ProposalRow(Row):
     """The same with the change; N."""
 
 
+_SHOWN_LEFT_OUT = 4
+"""Notes about what is left out that the answer has; --details has all."""
 _NO_SENSOR = (
     "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed with the "
     "model of its robot alone"
@@ -120,6 +122,8 @@ class Draft(Result):
     """Findings about the log, and reasons for what is unknown."""
     few_components: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """Columns of a sensor of fewer than six components, which are not read; none where a sensor was found."""
+    left_out: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
+    """Notes about streams and columns that are left out, as others are of their quantity."""
     robot_file: str | None = None
     """URDF that was written from the log's own description; None for none."""
     sensor_files: tuple[str, ...] = ()
@@ -152,6 +156,7 @@ class Draft(Result):
             )
             return
         step = "answer what is asked, in a terminal or in the file" if count else "read the file, then go on"
+        more = len(self.left_out) - _SHOWN_LEFT_OUT
         few = (
             f"{listed(self.few_components)} not read: of a load cell or a sensor of three axes, take the lines that "
             "the file has as comments, and state its [[sensor]]"
@@ -162,6 +167,8 @@ class Draft(Result):
             why=(
                 *(self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",)),
                 *((few,) if self.few_components else ()),
+                *self.left_out[:_SHOWN_LEFT_OUT],
+                *((f"{more} more left out: --details",) if more > 0 else ()),
             ),
             step=step,
             command=typed("init", "--resume", self.file) if count else self._next,
@@ -299,8 +306,9 @@ def draft_experiment(
     text, notes, drafted = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
     if kept is not None:
         notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
+    left_out = (*_about_others(found, chosen, asked=bool(sensors)), *_about_repeated(log))
     notes = (
-        *_about_others(found, chosen, asked=bool(sensors)),
+        *left_out,
         *_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model),
         *notes,
     )
@@ -319,6 +327,7 @@ def draft_experiment(
         questions=_questions(text),
         notes=notes,
         few_components=() if found else tuple(column for table in tables for column in few_components(table).values()),
+        left_out=left_out,
         robot_file=None if robot_file is None else str(robot_file),
         sensor_files=tuple(map(str, beside)),
         content=text,
@@ -499,6 +508,14 @@ def _about_others(found: Sequence[DraftedSensor], chosen: Sequence[DraftedSensor
     for sensor in found:
         if not asked and sensor not in chosen:
             yield f"{sensor.stream}: left out, an estimated wrench by its name; --sensor {sensor.name} takes it"
+
+
+def _about_repeated(log: DraftedLog) -> Iterator[str]:
+    """Columns that are not read, for others are read as the same quantity."""
+    for stream in log.streams:
+        for group in stream.repeated:
+            names = [] if stream.table is None else [stream.table.columns[k].name for k in group.columns]
+            yield f"{stream.name}: {listed(names, 3)} left out; other columns are its {group.words or group.quantity}"
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:

@@ -147,11 +147,11 @@ def without_streams(log: DraftedLog, names: Collection[str]) -> DraftedLog:
         names: Streams of sensors.
 
     Returns:
-        The log without those of them whose other quantities nothing needs; tables are kept whole.
+        The log without those of them whose other quantities nothing needs; a table is kept that holds anything else.
     """
     description = log.description
-    if description is None or not names:
-        return log
+    if description is None:
+        return replace(log, streams=tuple(one for one in log.streams if one.name not in names or not one.is_load_only))
     left_out = {
         stream.name for stream in log.streams if stream.name in names and not set(_OF_MOTION) & set(stream.quantities)
     }
@@ -267,7 +267,8 @@ def likely_quantities(sketch: LogSketch) -> dict[int, str]:
         named = {group.columns[0]: group.quantity for group in groups}
         return named if chosen is None else {**named, sketch.columns.index(chosen): "time"}
     headings = [read_heading(column.name) for column in sketch.columns]
-    likeness = {k: group.words or group.quantity for group in column_matches(headings, ()) for k in group.columns}
-    likeness |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in likeness}
     time = time_column(headings, [column.step for column in sketch.columns])
+    matches = column_matches(headings, (), time=time)
+    likeness = {k: group.words or group.quantity for group in matches for k in group.columns}
+    likeness |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in likeness}
     return likeness if time is None else {**likeness, time: "time"}

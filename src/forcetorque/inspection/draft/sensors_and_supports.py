@@ -34,8 +34,6 @@ _OF_SENSORS = {
     "data",
 }
 """Words that tell no sensor from another."""
-_ESTIMATED = re.compile(r"external_wrench|estimated_wrench|wrench_estimat|f_ext")
-"""Names of wrenches that controllers compute from the torques of joints."""
 _MOST_CANDIDATES = 12
 _DIGITS = 4
 """Decimals of a mount; deg, mm."""
@@ -77,6 +75,8 @@ class DraftedSensor:
     """Stream of its reading."""
     is_raw: bool
     """Whether that is of raw channels."""
+    is_estimated: bool = False
+    """Whether that is called an estimated wrench."""
     tags: tuple[str, ...] = ()
     """Sensors of the robot's file that it may be, where its name is open."""
     joints: tuple[str, ...] = ()
@@ -104,10 +104,18 @@ def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) ->
     reading = [stream for stream in streams if stream.reads_load]
     if model is None:
         return tuple(
-            DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=_is_raw(stream))
+            DraftedSensor(
+                name=_name_of(stream, reading),
+                stream=stream.name,
+                is_raw=_is_raw(stream),
+                is_estimated=stream.is_estimated,
+            )
             for stream in reading
         )
-    return tuple(replace(_matched(stream, reading, model), components=stream.components) for stream in reading)
+    return tuple(
+        replace(_matched(stream, reading, model), components=stream.components, is_estimated=stream.is_estimated)
+        for stream in reading
+    )
 
 
 def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> tuple[DraftedSensor, ...]:
@@ -128,7 +136,7 @@ def chosen_sensors(sensors: Sequence[DraftedSensor], wanted: Sequence[str]) -> t
     for name in wanted:
         require_known(name, known, ExperimentError, f"--sensor: the log has no sensor {name!r}")
     if not wanted:
-        return tuple(one for one in sensors if not _ESTIMATED.search(one.stream.lower())) or tuple(sensors)
+        return tuple(one for one in sensors if not one.is_estimated) or tuple(sensors)
     return tuple(one for one in sensors if {one.name, one.stream} & set(wanted))
 
 

@@ -24,19 +24,25 @@ _VECTORS = (
     (r"(?:gravity)", "gravity", ""),
     (r"(?:g)", OPEN, "gravity or angular_velocity"),
 )
-_QUATERNION = re.compile(r"^(?P<before>.*?)(?:quaternion|orientation|quat|q|r|o)" + _APART + r"(?P<axis>[xyzw])$")
+_QUATERNION = re.compile(
+    r"^(?P<before>.*?)(?:quaternion|orientation|rotation|quat|rot|q|r|o)" + _APART + r"(?P<axis>[xyzw])$"
+)
 _ANGLES = re.compile(
     r"^(?P<before>|.*(?:euler|rpy|orientation|rotation|pose|imu|tcp|ee|tool|flange|sensor)[ _./]+)"
     r"(?P<axis>roll|pitch|yaw)$"
 )
 """Alone or of a frame: those of a neck or a hip are joints."""
 _ROTATION_VECTOR = re.compile(
-    rf"^(?P<before>|.*[ _./:])(?:rotation_vector|rotvec|rotation|rot|rv|r){_APART}(?P<axis>[xyz])$"
+    rf"^(?P<before>|.*[ _./:])(?:rotation_vector|rotvec|rotation|rot|rv|r){_APART}(?P<axis>[xyzw])$"
 )
 _WITH_AXIS = re.compile(rf"^(?P<before>.*?){_APART}(?P<axis>[xyz])$")
 _MATRIX = re.compile(r"^(?P<before>.*?)r" + _APART + r"(?P<axis>[123]_?[123])$")
 _NUMBERED = re.compile(r"^(?P<before>.*?)(?P<number>\d+)(?P<behind>\D*)$")
 _ELEMENT = re.compile(r"^(?P<before>.+)\[(?P<number>\d+)\]$")
+_OF_ANGLES = (None, "rad", "deg")
+_OF_TEMPERATURE = (None, "degC", "K")
+_OF_COUNTS = (None, "counts")
+"""Units that headings of such columns may have; None for none."""
 FORMS_OF_THREE = (OrientationForm.EULER, OrientationForm.ROTATION_VECTOR)
 """Forms that three numbers may have, which their headings do not tell apart for sure."""
 _ORDERS = (OrientationForm.QUAT_XYZW, OrientationForm.QUAT_WXYZ)
@@ -70,6 +76,11 @@ _MOTIONS = {
 }
 _STATES = re.compile(r"^(?:.*_)?joint_states?_|^field_(?=position|velocity|effort)")
 """Prefixes of tables of joint messages that programs of ROS write."""
+_ESTIMATED = re.compile(
+    r"(?:^|_)(?:(?:external|estimated)_wrench(?:es)?|wrench_estimat(?:e[ds]?|ion|or)|f_ext)(?:_|$)(?!.*sensor)"
+)
+"""Names of wrenches that controllers compute from the torques of joints."""
+_WANTED = re.compile(r"(?:^|_)(?:target|desired)(?:_|$)")
 _FIXED_ROWS = 9
 _MOST_OF_SENSOR = 10
 """Columns of a table of one sensor: times, six components or channels, a temperature, a status."""
@@ -108,7 +119,7 @@ def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> i
 
 
 def column_matches(
-    headings: Sequence[Heading], joints: Sequence[str], unit_fours: Sequence[int] = ()
+    headings: Sequence[Heading], joints: Sequence[str], unit_fours: Sequence[int] = (), time: int | None = None
 ) -> tuple[ColumnMatch, ...]:
     """Match the columns of a table with quantities, by their headings.
 
@@ -116,26 +127,28 @@ def column_matches(
         headings: Headings of the columns.
         joints: Joints of the robot that move.
         unit_fours: First columns of four whose norm is 1 in every row.
+        time: Column of the time, which is no temperature; None for none.
 
     Returns:
         Groups of columns, in the order of their first columns; columns without a match are in none.
     """
     used: set[int] = set()
     groups: list[ColumnMatch] = []
+    units = [heading.unit for heading in headings]
     for search in (
         _of_joints,
         _wrenches,
         _rotations,
         _quaternions,
-        _angles,
-        _rotation_vectors,
+        partial(_angles, units),
+        partial(_rotation_vectors, units),
         _vectors,
-        _temperatures,
-        _pressures,
+        partial(_temperatures, units, time),
         partial(_listed_quaternions, unit_fours),
         _lists,
-        _numbered,
-        partial(_wrenches_by_unit, headings),
+        partial(_numbered, units),
+        partial(_pressures, groups),
+        partial(_wrenches_by_unit, headings, groups),
     ):
         free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
@@ -143,6 +156,30 @@ def column_matches(
                 groups.append(group)
                 used.update(group.columns)
     return tuple(sorted(groups, key=lambda group: group.columns[0]))
+
+
+def is_estimated(name: str) -> bool:
+    """Check whether a wrench is called one that a controller computes from the torques of joints.
+
+    Args:
+        name: Its stream, topic or heading.
+
+    Returns:
+        Whether it is.
+    """
+    return _ESTIMATED.search(_plain(name)) is not None
+
+
+def is_measured(name: str) -> bool:
+    """Check whether a heading is of a measurement, not of a desired or estimated value.
+
+    Args:
+        name: The heading.
+
+    Returns:
+        Whether it is.
+    """
+    return not is_estimated(name) and _WANTED.search(_plain(name)) is None
 
 
 def _plain(text: str) -> str:
@@ -217,36 +254,48 @@ def _quaternions(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnM
     ]
 
 
-def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+def _with_units(free: Mapping[int, str], units: Sequence[str | None], allowed: Sequence[str | None]) -> dict[int, str]:
+    return {k: name for k, name in free.items() if units[k] in allowed}
+
+
+def _angles(units: Sequence[str | None], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     return [
         ColumnMatch(
             quantity="orientation",
             columns=tuple(axes[axis] for axis in ("roll", "pitch", "yaw")),
             form=OrientationForm.EULER,
         )
-        for axes in _axes(free, _ANGLES).values()
+        for axes in _axes(_with_units(free, units, _OF_ANGLES), _ANGLES).values()
         if len(axes) == 3
     ]
 
 
-def _rotation_vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    """Three numbers, which may be Euler angles too: the form is asked."""
+def _rotation_vectors(units: Sequence[str | None], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    """Three numbers, which may be Euler angles too: the form is asked; with a fourth, w, they are neither."""
     return [
         ColumnMatch(
             quantity="orientation",
             columns=tuple(axes[axis] for axis in "xyz"),
             form=OrientationForm.ROTATION_VECTOR,
         )
-        for axes in _axes(free, _ROTATION_VECTOR).values()
-        if len(axes) == 3
+        for axes in _axes(_with_units(free, units, _OF_ANGLES), _ROTATION_VECTOR).values()
+        if set(axes) == set("xyz")
     ]
 
 
-def _wrenches_by_unit(headings: Sequence[Heading], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+def _wrenches_by_unit(
+    headings: Sequence[Heading], matched: Sequence[ColumnMatch], free: Mapping[int, str], joints: Sequence[str]
+) -> list[ColumnMatch]:
     """The only three columns x, y, z in units of force and of moment, by names of any language."""
+    if any(group.quantity == "wrench" for group in matched):
+        return []
     parts = []
     for si_unit in ("N", "N m"):
-        names = {k: name for k, name in free.items() if SI_FACTORS.get(headings[k].unit or "", ("",))[0] == si_unit}
+        names = {
+            k: heading.name.strip().lower()
+            for k, heading in enumerate(headings)
+            if SI_FACTORS.get(heading.unit or "", ("",))[0] == si_unit
+        }
         (axes, *others) = _axes(names, _WITH_AXIS).values() or ({},)
         if others or len(axes) < 3:
             return []
@@ -265,17 +314,22 @@ def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch
     return vectors
 
 
-def _temperatures(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    warm = [k for k, name in free.items() if re.split("[./]", name)[-1].startswith("temp")]
+def _temperatures(
+    units: Sequence[str | None], time: int | None, free: Mapping[int, str], joints: Sequence[str]
+) -> list[ColumnMatch]:
+    likely = _with_units(free, units, _OF_TEMPERATURE)
+    warm = [k for k, name in likely.items() if k != time and re.split("[./]", name)[-1].startswith("temp")]
     return [ColumnMatch(quantity="temperature", columns=(k,)) for k in warm[:1]]
 
 
-def _pressures(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+def _pressures(matched: Sequence[ColumnMatch], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+    """The gauge of a skin, beside its taxels alone: that of the air is none."""
     gauges = [k for k, name in free.items() if _plain(name).rpartition("_")[2] == "pressure"]
-    return [ColumnMatch(quantity="pressure", columns=tuple(gauges))] if len(gauges) == 1 else []
+    is_skin = any(group.quantity == "taxel_counts" for group in matched)
+    return [ColumnMatch(quantity="pressure", columns=tuple(gauges))] if is_skin and len(gauges) == 1 else []
 
 
-def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+def _numbered(units: Sequence[str | None], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
     """Channels of electronics, and as many joints by number as the robot has."""
     groups: dict[tuple[str, str], list[tuple[int, int]]] = {}
     for k, name in free.items():
@@ -283,11 +337,13 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
         if match:
             groups.setdefault((match["before"], match["behind"]), []).append((int(match["number"]), k))
     likeness: dict[str, ColumnMatch] = {}
+    patches: list[ColumnMatch] = []
     for (before, behind), members in groups.items():
         columns = tuple(k for _, k in sorted(members))
         word = _plain(before or behind)
         if _TAXELS.search(word) and len(columns) >= _FEWEST_TAXELS:
-            likeness.setdefault("taxel_counts", ColumnMatch(quantity="taxel_counts", columns=columns))
+            if all(units[k] in _OF_COUNTS for k in columns):
+                patches.append(ColumnMatch(quantity="taxel_counts", columns=columns))
         elif _CHANNELS.search(word) and len(columns) >= 6:
             likeness.setdefault("raw", ColumnMatch(quantity="raw", columns=columns))
         quantity = _motion(_plain(behind) or word) or _motion(word)
@@ -295,7 +351,7 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
         counted = len(columns) == len(joints) or (of_joints and 1 < len(columns) <= len(joints))
         if word and quantity is not None and counted:
             likeness.setdefault(quantity, ColumnMatch(quantity=quantity, columns=columns))
-    return list(likeness.values())
+    return [*patches, *likeness.values()]
 
 
 def _listed_quaternions(unit_fours: Sequence[int], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
@@ -390,8 +446,17 @@ class DraftedStream:
     """Columns of the table by quantity."""
     alternatives: tuple[ColumnMatch, ...] = ()
     """Columns that determine the motion a second time, beside those of `groups`; a file may have one of both."""
+    repeated: tuple[ColumnMatch, ...] = ()
+    """Columns of the table that look like a quantity of `groups` once more, and are not read."""
     components: tuple[str, ...] = ()
     """Components of its only reading of a load, where they are fewer than six."""
+
+    @property
+    def is_estimated(self) -> bool:
+        """Whether its wrench is called an estimated one, by its own name or by the headings."""
+        places = [k for group in self.groups if group.quantity == "wrench" for k in group.columns]
+        names = [] if self.table is None else [self.table.columns[k].name for k in places]
+        return is_estimated(self.name) or any(map(is_estimated, names))
 
     @property
     def is_sensor_alone(self) -> bool:
@@ -399,6 +464,11 @@ class DraftedStream:
         if self.table is None or not self.table.is_table or len(self.table.columns) > _MOST_OF_SENSOR:
             return False
         return self.reads_load and set(self.quantities) <= {"wrench", "raw", "temperature"}
+
+    @property
+    def is_load_only(self) -> bool:
+        """Whether it has nothing but the measurement of a force-torque sensor."""
+        return set(self.quantities) <= {"wrench", "raw"}
 
     @property
     def is_skin(self) -> bool:

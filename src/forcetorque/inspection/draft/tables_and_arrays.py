@@ -25,6 +25,7 @@ from forcetorque.inspection.draft.streams import (
     array_groups,
     array_words,
     column_matches,
+    is_measured,
     time_column,
 )
 from forcetorque.inspection.draft.toml_lines import (
@@ -102,7 +103,8 @@ def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple
     """
     streams = []
     for sketch in sketches:
-        groups, alternatives = _one_motion(_groups(sketch, joints), on_robot=bool(joints))
+        found, repeated = _groups(sketch, joints)
+        groups, alternatives = _one_motion(found, on_robot=bool(joints))
         streams.append(
             DraftedStream(
                 name=_stream_name(sketch.path, sketches),
@@ -111,6 +113,7 @@ def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple
                 table=sketch,
                 groups=groups,
                 alternatives=alternatives,
+                repeated=repeated,
             )
         )
     if joints and not any(stream.reads_load for stream in streams):
@@ -157,22 +160,27 @@ def _headings(sketch: LogSketch) -> list[Heading]:
     return [read_heading(column.name) for column in sketch.columns]
 
 
-def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[ColumnMatch, ...]:
-    """Groups of columns, each quantity once; an orientation rules over what may be gravity, which follows from it."""
+def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[tuple[ColumnMatch, ...], tuple[ColumnMatch, ...]]:
+    """Groups of columns, each quantity once, a measured one first; and those of a quantity that comes again."""
     if not (sketch.has_headings or sketch.names_specified):
-        return ()
+        return (), ()
+    headings = _headings(sketch)
+    time = time_column(headings, [column.step for column in sketch.columns])
+    matches = column_matches(headings, joints, sketch.quaternion, time)
+    by_measurement = sorted(matches, key=lambda one: not all(is_measured(headings[k].name) for k in one.columns))
     groups: dict[str, ColumnMatch] = {}
-    for group in column_matches(_headings(sketch), joints, sketch.quaternion):
+    for group in by_measurement:
         groups.setdefault(group.quantity, group)
+    repeated = tuple(group for group in matches if groups[group.quantity] is not group)
     if "position" in groups:  # which tell the pose
         groups = {name: group for name, group in groups.items() if group.form not in FORMS_OF_THREE}
-    if "orientation" in groups:
+    if "orientation" in groups:  # from which gravity follows
         unclear = groups.pop(OPEN, None)
         if joints:
             groups.pop("gravity", None)
         elif unclear is not None and "gravity" not in groups and _is_gravity(sketch, unclear):
             groups["gravity"] = replace(unclear, quantity="gravity", words="")
-    return tuple(groups.values())
+    return tuple(groups.values()), tuple(group for group in repeated if group.quantity in groups)
 
 
 def _is_gravity(sketch: LogSketch, group: ColumnMatch) -> bool:
@@ -288,7 +296,8 @@ def _stamp_lines(sketch: LogSketch) -> list[str]:
             words = f"most times of {times[0].text} come twice or more, or one falls"
             stated = {"column": times[0].text, "unit": times[0].unit or OPEN}
             choice = (
-                f"{words}: {toml_value(stated)} takes them as they are; or the two lines below for rows at even steps"
+                f"{words}: {toml_value(stated)} uses only rows whose time rises; or the two lines below for rows at "
+                "even steps"
             )
             return [question("stamp", choice), *RATE_LINES]
         words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
