@@ -190,7 +190,7 @@ def test_what_is_left_is_carried_to_the_sensor_that_alone_is_to_blame() -> None:
         kept = np.ones(len(windows), dtype=np.bool_)
         blocks = windows.offsets.reshape(len(windows), 6, len(windows.sensors), 6)
         for place in range(len(windows.sensors)):
-            left = PartResidual.of(windows, blocks[:, :, place] @ (error / UNITS), kept)
+            left = PartResidual.of(windows, blocks[:, :, place] @ (error / UNITS), kept, {})
             if windows.rows.all():
                 np.testing.assert_allclose(left.at_sensors[:, place], np.tile(error, (len(windows), 1)), atol=1e-9)
                 seen += 1

@@ -130,6 +130,15 @@ def test_parts_are_closed_with_what_the_temperature_adds_or_not_at_all(recorded:
         (part,) = part_residuals(experiment, {SENSOR: of}, Use.CALIBRATION)
         return float(np.sqrt((part.after[:, :3] ** 2).mean()))
 
+    # what a data sheet says of the temperature counts beside a prior matrix that is right
+    right = replace(sensor, prior=calibration.matrix)
+    linear = replace(sensor.variables[0].linear, prior=temperature.coefficients)
+    sheet = replace(right, variables=(replace(sensor.variables[0], linear=linear),))
+    plain, stated = (
+        part_residuals(replace(experiment, sensors=(one,)), {SENSOR: calibration}, Use.CALIBRATION)[0].before
+        for one in (right, sheet)
+    )
+    assert np.sqrt((stated**2).mean()) < 0.5 * np.sqrt((plain**2).mean())
     # negative control: the same with half of what the temperature adds
     half = temperature.model_copy(update={"coefficients": 0.5 * temperature.coefficients})
     assert left(calibration) < 0.5 * left(calibration.model_copy(update={"variables": (half,)}))

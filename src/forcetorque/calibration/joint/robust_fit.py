@@ -161,7 +161,8 @@ class PartResidual:
     time_s: FloatArray
     """Mean instants; shape (w,); s on the clock of the recording."""
     before: FloatArray
-    """By the prior matrices, with the offsets that suit these windows best; shape (w, 6); N, N m."""
+    """By the prior matrices and what variables are expected to add, with the offsets that suit these windows best;
+    shape (w, 6); N, N m."""
     after: FloatArray
     """By the fit, or by calibrations; shape (w, 6); N, N m."""
     at_sensors: FloatArray
@@ -175,17 +176,27 @@ class PartResidual:
     """Windows that were fitted: the others disagree with them; shape (w,)."""
 
     @classmethod
-    def of(cls, windows: PartWindows, after: FloatArray, kept: BoolArray) -> PartResidual:
+    def of(
+        cls,
+        windows: PartWindows,
+        after: FloatArray,
+        kept: BoolArray,
+        expected: Mapping[tuple[str, str], FloatArray],
+    ) -> PartResidual:
         """Take what is left in windows.
 
         Args:
             windows: Windows of a part.
             after: What is left of their equations; shape (w, 6); in `UNITS`.
             kept: Which of them were fitted; shape (w,).
+            expected: What a unit of a variable is expected to add beside the prior matrices, by sensor and variable;
+                shape (6,) each; N, N m per unit; nothing of one that is not there.
 
         Returns:
             The same in N and N m.
         """
+        prior = {name: np.eye(LOADS) for name in windows.sensors}
+        slopes = {pair: expected.get(pair, np.zeros(LOADS)) for pair in windows.slopes}
         count = len(windows.sensors)
         carried = np.full((len(windows), count, LOADS), np.nan)
         start = 0
@@ -203,7 +214,7 @@ class PartResidual:
             root_link=stretch.tree.root_link,
             sensors=windows.sensors,
             time_s=windows.time_s,
-            before=residuals(windows, None) * UNITS,
+            before=residuals_by(windows, prior, None, slopes) * UNITS,
             after=after * UNITS,
             at_sensors=carried * UNITS,
             rows=windows.rows,
@@ -286,10 +297,15 @@ def fit_stretches(
         windows = _filled(_windows(stretches, terms, fit, every if number < ROUNDS else 1))
         fit = _fit(windows, _agreeing(windows, fit), terms, priors, fit, widened=number == ROUNDS)
     kept = _agreeing(windows, fit)
+    expected = {
+        (name, variable): mean * UNITS
+        for name, prior in (priors or {}).items()
+        for variable, mean in prior.expected_slopes.items()
+    }
     return JointResult(
         fit=fit,
         residuals=tuple(
-            PartResidual.of(one, residuals(one, fit), marks) for one, marks in zip(windows, kept, strict=True)
+            PartResidual.of(one, residuals(one, fit), marks, expected) for one, marks in zip(windows, kept, strict=True)
         ),
         touches=all_touches(windows, kept),
         left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),

@@ -427,4 +427,10 @@ def _residuals(
         }
         slopes = {pair: variables[pair].coefficients for pair in windows.slopes}
         left = residuals_by(windows, factors, offsets if len(offsets) == len(own) else None, slopes)
-        yield PartResidual.of(windows, left, np.ones(len(windows), dtype=bool))
+        expected = {
+            (name, variable.linear.name): variable.linear.prior
+            for name in windows.sensors
+            for variable in experiment.sensor(name).variables
+            if variable.linear.prior is not None
+        }
+        yield PartResidual.of(windows, left, np.ones(len(windows), dtype=bool), expected)
