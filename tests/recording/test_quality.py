@@ -6,10 +6,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.recording.stream_faults import saturation_findings, stream_findings
+from forcetorque.recording.stream_faults import glitched_values, saturation_findings, stream_findings
 
 PERIOD_NS = 10_000_000
 COUNT = 1000
@@ -185,3 +186,34 @@ def test_saturation_is_found_within_half_a_percent(recovered: bool, value: float
     finding = _only(saturation_findings(_stream(), counts, limit_counts=32767, recovered=recovered))
     assert (finding.channel, finding.count, finding.size) == ("ch3", 10, abs(value))
     assert ("recovered" in finding.message) is recovered
+
+
+_WARMING = 25.0 + 10.0 * (1.0 - np.exp(-np.arange(400) / 100.0))
+
+
+def _with(base: FloatArray, first: int, last: int, value: float) -> FloatArray:
+    values = base.copy()
+    values[first:last] = value
+    return values
+
+
+@pytest.mark.parametrize(
+    ("values", "glitched"),
+    [
+        (_with(_WARMING, 200, 201, 1e4), {200}),
+        (_with(_WARMING, 200, 204, -273.15), {200, 201, 202, 203}),
+        (_with(_WARMING, 0, 1, 1e4), {0}),
+        (_with(np.full(400, 25.0), 50, 52, 85.0), {50, 51}),
+        (_with(_WARMING, 100, 101, np.inf), {100}),
+        (_with(_WARMING, 100, 101, np.nan), set()),
+        (_WARMING, set()),
+        (_with(_WARMING, 200, 201, 50.0), set()),  # within ten times the range: the noise of another thermometer
+        (_with(np.full(400, 25.0), 390, 400, 30.0), set()),  # a step before the log ends
+        (np.r_[np.full(390, 25.0), 25.0 + 0.5 * np.arange(10)], set()),  # it warms up at the end
+        (_with(np.full(400, 25.0), 100, 140, 60.0), set()),  # too long for a glitch
+        (np.array([25.0, 1e4, 25.0]), set()),  # too few to tell
+    ],
+)
+def test_values_nowhere_near_the_others_are_glitches(values: FloatArray, glitched: set[int]) -> None:
+    """Those that come and go by a jump; not steps, drifts or what lasts."""
+    assert set(np.flatnonzero(glitched_values(values)).tolist()) == glitched

@@ -32,6 +32,9 @@ median of the five steps on either side, of a reading that is held those at whic
 _SPOILT_S = 0.6
 """Time about a jump that its derivatives spoil: twice the windows that they are taken over."""
 _TURN = 2.0 * np.pi
+_GLITCH_SHARE, _GLITCH_REACH, _GLITCH_AT_ENDS = 0.05, 10.0, 3
+"""Values beyond ten times the distance from the median within which 95 % of them lie are glitches if they come and go
+by jumps of as much; a run at an end of the log, which only comes or only goes, if it is of at most three samples."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -114,6 +117,30 @@ def _reported_saturation(stream: Stream) -> list[Finding]:
     return [
         _finding(stream, "saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)
     ]
+
+
+def glitched_values(values: FloatArray) -> BoolArray:
+    """Find values that a quantity takes for a moment and that are nowhere near its others, such as a failed conversion.
+
+    Args:
+        values: One column in the order of the log; shape (n,); NaN where it is missing.
+
+    Returns:
+        Which they are; shape (n,).
+    """
+    seen = np.flatnonzero(np.isfinite(values))
+    glitched = np.isinf(values)
+    if len(seen) < 2 * _GLITCH_AT_ENDS:
+        return glitched
+    known = values[seen]
+    away = np.abs(known - np.median(known))
+    limit = _GLITCH_REACH * float(np.quantile(away, 1.0 - _GLITCH_SHARE, method="higher"))
+    steps = np.abs(np.diff(known))
+    for first, last in true_runs(away > limit):
+        ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
+        if min(ends) > limit and (len(ends) == 2 or last - first < _GLITCH_AT_ENDS):
+            glitched[seen[first : last + 1]] = True
+    return glitched
 
 
 def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
