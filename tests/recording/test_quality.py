@@ -115,7 +115,10 @@ def test_a_resting_joint_is_not_stuck() -> None:
 
 
 def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
-    """A wrong row and a turn that is lost later are two findings; a fast joint, noise and a pause are none."""
+    """Wrong rows and lost turns are one finding per joint; a posture that is not its own for longer has an interval.
+
+    A fast joint, noise and a pause are none.
+    """
     angle = 2.0 * np.sin(np.arange(COUNT) * 0.03) + 1e-3 * np.random.default_rng(6).normal(size=COUNT)
     stamps = np.arange(COUNT) * PERIOD_NS
     stamps[700:] += 500_000_000
@@ -128,15 +131,25 @@ def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
     assert np.abs(np.diff(angle)).max() > 0.05  # rad; 5 rad/s
     angle[700:] += 1.0
     assert found(angle) == ()
+    turning = angle.copy()
+    for row in (500, 600, 800):
+        turning[row:] += 2.0 * np.pi
+    (turned,) = found(turning)
+    assert (turned.kind, turned.channel, turned.unit) == ("joint_spike", "knee", "rad")
+    assert "jumps by a whole turn 3 times, by up to 6.3 rad" in turned.message
     angle[300] += 0.8
     angle[500:] += 2.0 * np.pi
-    first, second = found(angle)
-    assert (first.kind, first.channel, first.unit, first.count) == ("joint_jump", "knee", "rad/s", 3)
-    assert (first.start_ns, first.end_ns) == (299 * PERIOD_NS, 301 * PERIOD_NS)
-    assert second.size == pytest.approx(200.0 * np.pi, rel=0.02)
-    assert "a lost turn" in second.message
-    assert "start_s = 4.39, end_s = 5.60" in second.message
-    assert "a lost turn" not in first.message
+    (spike,) = found(angle)
+    assert "jumps and comes back, or by whole turns, 2 times" in spike.message
+    assert (spike.start_ns, spike.end_ns) == (299 * PERIOD_NS, 500 * PERIOD_NS)
+    away = angle.copy()
+    away[400:460] -= 0.7
+    other, slipped = found(away)
+    assert (other.message, slipped.kind, slipped.count) == (spike.message, "joint_jump", 61)
+    assert "is back 0.61 s later" in slipped.message
+    assert "start_s = 3.99, end_s = 4.60" in slipped.message
+    angle[850:] -= 0.7
+    assert "never is back, for 1.50 s: where" in found(angle)[1].message
 
 
 @pytest.mark.parametrize("held", [10, 50])
@@ -154,10 +167,10 @@ def test_a_joint_that_holds_each_reading_does_not_jump(held: int) -> None:
     assert found(angle) == []
     rest = np.zeros(len(rows))
     rest[300] = 0.8
-    assert found(rest) == ["joint_jump"]
+    assert found(rest) == ["joint_spike"]
     slow = angle * 0.1
     slow[30 * held :] += 2.0 * np.pi
-    assert found(slow) == ["joint_jump"]
+    assert found(slow) == ["joint_spike"]
 
 
 def test_missing_values_are_found_by_stretch() -> None:

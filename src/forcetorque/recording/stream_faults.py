@@ -15,6 +15,7 @@ from forcetorque.recording.frozen_and_saturated_samples import (
     exceeds_limit,
     noisy_runs,
 )
+from forcetorque.recording.joint_jumps import joint_jump_findings
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 
@@ -26,12 +27,6 @@ STUCK_NOISY_SECONDS = 0.2
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
-_JUMP, _JUMP_SPEED, _JUMP_STEPS, _AROUND = 0.1, 15.0, 10.0, 5
-"""Joints jump from one sample to the next by over 0.1 rad (0.1 m), faster than 15 rad/s (15 m/s), and by ten times the
-median of the five steps on either side, of a reading that is held those at which it changes."""
-_SPOILT_S = 0.6
-"""Time about a jump that its derivatives spoil: twice the windows that they are taken over."""
-_TURN = 2.0 * np.pi
 _GLITCH_SHARE, _GLITCH_REACH, _GLITCH_AT_ENDS = 0.05, 10.0, 3
 """Values beyond ten times the distance from the median within which 95 % of them lie are glitches if they come and go
 by jumps of as much; a run at an end of the log, which only comes or only goes, if it is of at most three samples."""
@@ -61,7 +56,9 @@ def stream_findings(stream: Stream, start_ns: int | None = None) -> tuple[Findin
         if signal.quantity in _NOISY:
             findings += _stuck_channels(stream, signal)
         if signal.quantity == "position" and stream.clock != ROW_CLOCK:
-            findings += _joint_jumps(stream, signal, int(stream.stamp_ns.min()) if start_ns is None else start_ns)
+            findings += joint_jump_findings(
+                stream, signal, int(stream.stamp_ns.min()) if start_ns is None else start_ns
+            )
     return tuple(findings)
 
 
@@ -179,51 +176,6 @@ def _finding(
         size=size,
         unit=unit,
     )
-
-
-def _joint_jumps(stream: Stream, signal: Signal, start_ns: int) -> list[Finding]:
-    """Joints that move faster from one sample to the next than any robot does; not across gaps."""
-    rows = usable_samples(stream.stamp_ns)
-    if len(rows) <= 2 * _AROUND:
-        return []
-    periods = np.diff(stream.stamp_ns[rows])
-    steps = np.abs(np.diff(signal.values[rows], axis=0))
-    seconds = np.maximum(periods, np.median(periods)) * 1e-9
-    fast = (steps > np.maximum(_JUMP, _JUMP_SPEED * seconds[:, None])) & (
-        periods <= gap_limit_ns(stream.stamp_ns[rows])
-    )[:, None]
-    findings = []
-    for column, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
-        changes = np.flatnonzero(steps[:, column] != 0.0)
-        jumps = [
-            changes[k]
-            for k in np.flatnonzero(fast[changes, column]).tolist()
-            if steps[changes[k], column] > _JUMP_STEPS * _usual_step(steps[changes, column], k)
-        ]
-        for own in np.split(np.array(jumps, dtype=int), np.flatnonzero(np.diff(jumps) > _AROUND) + 1):
-            if not len(own):
-                continue
-            size, speed = float(steps[own, column].max()), float((steps[own, column] / seconds[own]).max())
-            first, last = int(rows[own[0]]), int(rows[own[-1] + 1])
-            begin, end = ((int(stream.stamp_ns[row]) - start_ns) * 1e-9 for row in (first, last))
-            is_turn = unit == "rad" and abs(size - _TURN) < 0.05 * _TURN
-            text = (
-                f"joint {name!r} jumps by {size:.2g} {unit} from one sample to the next ({speed:.3g} {unit}/s): "
-                f"{'a lost turn: unwrap it, or' if is_turn else 'its derivatives there are not those of the robot:'} "
-                f"put an [[interval]] with start_s = {max(begin - _SPOILT_S, 0.0):.2f}, end_s = {end + _SPOILT_S:.2f}, "
-                'use = "ignore" about it'
-            )
-            findings.append(
-                _finding(stream, "joint_jump", text, first, last, channel=name, size=speed, unit=f"{unit}/s")
-            )
-    return findings
-
-
-def _usual_step(changes: FloatArray, k: int) -> float:
-    """Median of the changes about one of them; where a reading rests but for a few, that of rest."""
-    if len(changes) <= 2 * _AROUND:
-        return 0.0
-    return float(np.nanmedian(changes[max(k - _AROUND, 0) : k + _AROUND + 1]))
 
 
 def _gaps(stream: Stream) -> list[Finding]:
