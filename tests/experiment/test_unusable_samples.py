@@ -16,17 +16,19 @@ from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sens
 from forcetorque.calibration.joint.untouched_interval import joint_interval
 from forcetorque.calibration.reduced_recordings import store_moments
 from forcetorque.evaluation.commands import evaluate, validate
+from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.calibration.stored_moments import read_moments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sample_quality import sample_quality
+from forcetorque.experiment.sample_quality import sample_quality, unusable_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload.identify import weigh_load
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
+from forcetorque.recording.recording import Use
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream
-from tests.scenes.experiments import JOINTS, MOUNTED, PARQUET, RATE_HZ
+from tests.scenes.experiments import JOINTS, MOUNTED, PARQUET, RATE_HZ, add
 from tests.scenes.wrist_postures import write_postures
 
 FIT, JUDGE = slice(100, 250), slice(900, 950)
@@ -76,6 +78,24 @@ def test_what_says_nothing_of_the_load_is_not_fitted(arm: Path) -> None:
         assert fit.provenance.unusable == COUNTS
         assert without.provenance.unusable == UnusableCounts(repeated=3)
         assert np.abs(fit.matrix - _fitted(plain, **options).matrix).max() > 0.0
+
+
+@pytest.mark.parametrize(
+    ("keep", "counts"),
+    [
+        ("saturated", UnusableCounts(frozen=150, repeated=3)),
+        ("frozen", UnusableCounts(saturated=10, repeated=3)),
+        ('frozen", "saturated', UnusableCounts(repeated=3)),
+    ],
+)
+def test_what_is_to_be_kept_is_used_and_said(arm: Path, keep: str, counts: UnusableCounts) -> None:
+    """Samples that the file keeps are not left out; messages that come twice have no time of their own."""
+    add(arm / PARQUET, f'\n[processing]\nkeep = ["{keep}"]\n')
+    damaged = _damaged(load_experiment(arm / PARQUET))
+    (fit, *_) = damaged.intervals(Use.CALIBRATION)
+    assert unusable_in(damaged, damaged.sensor("arm_ft"), fit) == counts
+    (said,) = added_to(damaged.recording)
+    assert said.endswith(f"as keep of [processing] states: {keep.replace(chr(34), '')}")
 
 
 @pytest.mark.long

@@ -55,8 +55,9 @@ def follow_recipes(
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)
-    recording = _without_glitches(parsed, recording)
-    findings = (*recording.findings, *_standing(fixed, parsed), *_corrected(parsed))
+    if "glitches" not in parsed.processing.keep:
+        recording = _without_glitches(parsed, recording)
+    findings = (*recording.findings, *_standing(fixed, parsed), *_corrected(parsed), *_kept(parsed))
     return replace(recording, findings=findings)
 
 
@@ -86,6 +87,14 @@ def _corrected(parsed: schema.ExperimentFile) -> Sequence[Finding]:
         return ()
     text = f"the robot model is corrected by the masses, centres and joint zeros of {parsed.robot.tolerance.found_by}"
     return (Finding(stream=parsed.name, kind="corrected_robot", message=text, count=1),)
+
+
+def _kept(parsed: schema.ExperimentFile) -> Sequence[Finding]:
+    if not parsed.processing.keep:
+        return ()
+    kept = ", ".join(parsed.processing.keep)
+    text = f"used although left out by default, as keep of [processing] states: {kept}"
+    return (Finding(stream=parsed.name, kind="kept", message=text, count=len(parsed.processing.keep)),)
 
 
 def _without_glitches(parsed: schema.ExperimentFile, recording: Recording) -> Recording:
@@ -170,7 +179,7 @@ def _pose(table: PoseTable | None) -> FloatArray:
 Options = ParamSpec("Options")
 Answer = TypeVar("Answer", bound=Result)
 
-ADDED = {"clock", "transformed", "fixed_joint", "corrected_robot", "stated_rate", "skipped_rows", "glitch"}
+ADDED = {"clock", "transformed", "fixed_joint", "corrected_robot", "stated_rate", "skipped_rows", "glitch", "kept"}
 """Kinds of findings that say what the experiment file adds to its log, or what is left out of it for all."""
 
 
