@@ -14,7 +14,7 @@ from scipy.stats import chi2, f
 
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
-from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses, unexplained
+from forcetorque.payload.identification.frame_unit_and_clock_errors import _lag, hypotheses, unexplained
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
 from tests.payload.identification.payloads import (
@@ -191,6 +191,22 @@ def test_sound_input_has_no_name(problem: Callable[[], LoadProblem]) -> None:
 ANGLES = np.sin(np.outer(np.arange(120.0), [0.11, 0.17, 0.07]))
 MOVING = Rotation.from_rotvec(0.8 * ANGLES)
 RESTING = Rotation.from_rotvec(0.001 * ANGLES)
+
+
+@pytest.mark.parametrize("lag", [0.3, 2.3])
+def test_a_reading_is_as_late_in_time_as_it_is_early_in_reversed_time(lag: float) -> None:
+    """Name, size and what is left are the same; also beyond the longest lag that is tried."""
+    late = _lagging(lag)
+    rows = late.rows
+    reversed_rows = replace(
+        rows, wrench=rows.wrench[::-1], proper_acceleration=rows.proper_acceleration[::-1], time_s=-rows.time_s[::-1]
+    )
+    (behind,), (ahead,) = (
+        _lag(one, plain_fit(one, drift=False)[1], drift=False) for one in (late, replace(late, rows=reversed_rows))
+    )
+    assert behind.name == ahead.name == "lag"
+    assert behind.description.replace("behind", "ahead of") == ahead.description
+    assert behind.residual_share == pytest.approx(ahead.residual_share, rel=1e-6)
 
 
 @pytest.mark.parametrize(
