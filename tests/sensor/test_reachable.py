@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.sensor.full_scale import RawLimits, all_channels_full_scale, coverage, reachable_full_scale
+from forcetorque.sensor.full_scale import RawLimits, axis_resolution, coverage, reachable_full_scale
 
 RNG = np.random.default_rng(1)
 UNITS = np.array([1.0, 1, 1, 0.02, 0.02, 0.02])[:, None]
@@ -61,7 +61,7 @@ def test_at_the_largest_load_exactly_the_named_channel_is_at_its_limit() -> None
 def test_reachable_is_less_than_stated() -> None:
     """No load reaches the full scale that has all channels at their limits, where axes share channels."""
     centred = dataclasses.replace(MIXED, offset=np.zeros(6))
-    stated = all_channels_full_scale(MIXED.matrix, limit_counts=32768)
+    stated = 32768 * axis_resolution(MIXED.matrix)
     found = reachable_full_scale(centred)
     assert (found.positive <= stated).all()
     assert (found.positive < 0.95 * stated).any()
