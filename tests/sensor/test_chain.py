@@ -9,7 +9,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.sensor.elastic import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
 from forcetorque.sensor.electronics import QUARTER_BRIDGE, Y_ELEMENT, Adc, Bridge, hold_on_saturation
-from forcetorque.sensor.full_scale import RawLimits, axis_resolution, coverage, reachable_full_scale
+from forcetorque.sensor.full_scale import RawLimits, axis_resolution, reachable_full_scale
 from forcetorque.sensor.gauge import ResistiveGauge
 
 FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
@@ -89,4 +89,3 @@ def test_the_board_holds_where_the_reachable_scale_ends(axis: int) -> None:
     held = hold_on_saturation(_counts(loads), lowest=ADC.lowest, highest=ADC.highest)
     np.testing.assert_array_equal(held.saturated, [False, False, True, True])
     np.testing.assert_array_equal(held.counts[3], held.counts[1])
-    assert coverage(limits, loads).share == 0.5
