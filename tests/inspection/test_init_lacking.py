@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -192,3 +193,57 @@ def test_no_row_is_taken_for_a_title(tmp_path: Path, text: str) -> None:
     (tmp_path / "log.csv").write_text(text, encoding="utf-8")
     with pytest.raises(FormatError):
         inspect_log(tmp_path / "log.csv")
+
+
+def _thermometer(folder: Path) -> Path:
+    rows = (f"{k:.1f},{25.0 + 0.01 * k:.2f}\n" for k in range(300))
+    return _csv(folder / "thermometer.csv", "time_s,temperature_C\n", rows)
+
+
+def _csv(file: Path, headings: str, rows: Iterable[str]) -> Path:
+    file.write_text(headings + "".join(rows), encoding="utf-8")
+    return file
+
+
+def test_a_thermometer_alone_names_the_file_that_it_belongs_to(tmp_path: Path) -> None:
+    """No answer makes it an experiment; together with the table of its sensor it is a variable of that."""
+    table = _thermometer(tmp_path)
+    draft = draft_experiment([table])
+    (answer,) = draft.answers()
+    assert (answer.verdict, _keys(draft.content)) == ("NO SENSOR AND NO ROBOT", ["units"])
+    assert f"forcetorque init LOG {table}" in answer.why[1]
+    assert '[[sensor.variable]] name = "temperature", stream = "thermometer"' in answer.why[1]
+    sensor = _csv(
+        tmp_path / "sensor.csv", "time_s,fx,fy,fz,tx,ty,tz\n", (f"{k:.1f},0,0,{k % 7},0,0,0\n" for k in range(300))
+    )
+    both = draft_experiment([table, sensor], tmp_path / "both.toml").content
+    both = both.replace('units = "?"', 'units = ["degC"]', 1)
+    both = both.replace('units = "?"', 'units = ["N", "N", "N", "N m", "N m", "N m"]', 1)
+    (loaded,) = _loaded(both, tmp_path).sensors
+    assert [one.source.stream for one in loaded.variables] == ["thermometer"]
+
+
+def test_a_second_column_of_times_has_its_clock_as_comments(tmp_path: Path) -> None:
+    """As they stand nothing is moved; without the comment signs the pose is brought from its clock to the first."""
+    log = _csv(
+        tmp_path / "log.csv",
+        "time_s,fx [N],fy [N],fz [N],tx [N m],ty [N m],tz [N m],t_pose [ms],qx,qy,qz,qw\n",
+        (
+            f"{0.1 * k:.1f},0,0,{k % 7},0,0,0,{100 * k + 90_000},{np.sin(0.01 * k):.7f},0,0,{np.cos(0.01 * k):.7f}\n"
+            for k in range(300)
+        ),
+    )
+    draft = draft_experiment([log])
+    (answer,) = draft.answers()
+    assert "t_pose [ms] rises as a second time" in " ".join(answer.why)
+    assert _drafted_streams(draft.content) == ["log"]
+    taken = re.sub(r"^# (?=\[\[|\w+ = )", "", draft.content, flags=re.MULTILINE).replace("# full_scale", "full_scale")
+    assert _drafted_streams(taken) == ["log", "log_t_pose"]
+    content = tomllib.loads(taken)
+    assert [one["signal"][0]["quantity"] for one in content["recording"]["stream"]] == ["wrench", "orientation"]
+    (clock,) = content["clock"]
+    assert (clock["delay_s"], clock["around_s"]) == ("estimate", 90.0)
+
+
+def _drafted_streams(text: str) -> list[str]:
+    return [one["name"] for one in tomllib.loads(text)["recording"]["stream"]]
