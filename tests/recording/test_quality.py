@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -136,6 +138,31 @@ def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
     assert "a lost turn" in second.message
     assert "start_s = 4.39, end_s = 5.60" in second.message
     assert "a lost turn" not in first.message
+
+
+def test_joints_that_wrap_are_one_finding_and_jumps_that_are_ignored_are_none() -> None:
+    """With the number of turns; a wrong row beside them is a finding of its own, and what is not ignored is left."""
+    turns = np.arange(COUNT) * 0.05
+    wrapped = turns % (2.0 * np.pi)
+    wraps = np.flatnonzero(np.diff(wrapped) < 0.0)
+    wrapped[300] += 0.8
+    assert len(wraps) > 5
+    assert not set(wraps.tolist()) & set(range(290, 310))
+
+    def found(ignored_ns: Sequence[tuple[int, int]] = (), values: np.ndarray = wrapped) -> list[tuple[int, str]]:
+        joints = Signal(quantity="position", values=values[:, None], columns=("knee",), units=("rad",))
+        stream = Stream(name="leg", clock="c", stamp_ns=np.arange(COUNT) * PERIOD_NS, signals={"position": joints})
+        return [(one.count, one.message) for one in stream_findings(stream, ignored_ns=ignored_ns)]
+
+    (all_turns, words), (wrong_row, _) = found()
+    assert (all_turns, wrong_row) == (len(wraps), 3)
+    assert f"by a turn from one sample to the next {len(wraps)} times" in words
+    about = [((int(row) - 60) * PERIOD_NS, (int(row) + 60) * PERIOD_NS) for row in (*wraps[:-1], 300)]
+    ((count, words),) = found(about)
+    assert (count, "a lost turn" in words) == (2, True)
+    assert found([(0, COUNT * PERIOD_NS)]) == []
+    # negative control: an interval that ends within the jump leaves it
+    assert len(found([(0, 300 * PERIOD_NS)], np.where(np.arange(COUNT) == 300, turns + 0.8, turns))) == 1
 
 
 @pytest.mark.parametrize("held", [10, 50])

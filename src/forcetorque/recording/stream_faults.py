@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
@@ -32,18 +35,23 @@ median of the five steps on either side, of a reading that is held those at whic
 _SPOILT_S = 0.6
 """Time about a jump that its derivatives spoil: twice the windows that they are taken over."""
 _TURN = 2.0 * np.pi
+_FEW = 3
+"""Jumps of a joint by a turn whose times are named."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
 """Sizes of counters that start again at zero."""
 
 
-def stream_findings(stream: Stream, start_ns: int | None = None) -> tuple[Finding, ...]:
+def stream_findings(
+    stream: Stream, start_ns: int | None = None, ignored_ns: Sequence[tuple[int, int]] = ()
+) -> tuple[Finding, ...]:
     """Look for what is wrong with a stream, without a model of what it measures.
 
     Args:
         stream: The stream.
         start_ns: Start of the recording, from which intervals are stated; ns; that of the stream if None.
+        ignored_ns: First and last instant of spans that are left out of every use; ns. Joints that jump there are none.
 
     Returns:
         Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels, joints that jump and
@@ -58,7 +66,8 @@ def stream_findings(stream: Stream, start_ns: int | None = None) -> tuple[Findin
         if signal.quantity in _NOISY:
             findings += _stuck_channels(stream, signal)
         if signal.quantity == "position" and stream.clock != ROW_CLOCK:
-            findings += _joint_jumps(stream, signal, int(stream.stamp_ns.min()) if start_ns is None else start_ns)
+            begin_ns = int(stream.stamp_ns.min()) if start_ns is None else start_ns
+            findings += _joint_jumps(stream, signal, begin_ns, ignored_ns)
     return tuple(findings)
 
 
@@ -154,18 +163,19 @@ def _finding(
     )
 
 
-def _joint_jumps(stream: Stream, signal: Signal, start_ns: int) -> list[Finding]:
+def _joint_jumps(
+    stream: Stream, signal: Signal, start_ns: int, ignored_ns: Sequence[tuple[int, int]]
+) -> Iterator[Finding]:
     """Joints that move faster from one sample to the next than any robot does; not across gaps."""
     rows = usable_samples(stream.stamp_ns)
     if len(rows) <= 2 * _AROUND:
-        return []
+        return
     periods = np.diff(stream.stamp_ns[rows])
     steps = np.abs(np.diff(signal.values[rows], axis=0))
     seconds = np.maximum(periods, np.median(periods)) * 1e-9
     fast = (steps > np.maximum(_JUMP, _JUMP_SPEED * seconds[:, None])) & (
         periods <= gap_limit_ns(stream.stamp_ns[rows])
     )[:, None]
-    findings = []
     for column, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
         changes = np.flatnonzero(steps[:, column] != 0.0)
         jumps = [
@@ -173,23 +183,76 @@ def _joint_jumps(stream: Stream, signal: Signal, start_ns: int) -> list[Finding]
             for k in np.flatnonzero(fast[changes, column]).tolist()
             if steps[changes[k], column] > _JUMP_STEPS * _usual_step(steps[changes, column], k)
         ]
+        found = []
         for own in np.split(np.array(jumps, dtype=int), np.flatnonzero(np.diff(jumps) > _AROUND) + 1):
-            if not len(own):
-                continue
-            size, speed = float(steps[own, column].max()), float((steps[own, column] / seconds[own]).max())
-            first, last = int(rows[own[0]]), int(rows[own[-1] + 1])
-            begin, end = ((int(stream.stamp_ns[row]) - start_ns) * 1e-9 for row in (first, last))
-            is_turn = unit == "rad" and abs(size - _TURN) < 0.05 * _TURN
+            if len(own):
+                first, last = int(rows[own[0]]), int(rows[own[-1] + 1])
+                size, speed = float(steps[own, column].max()), float((steps[own, column] / seconds[own]).max())
+                found.append(_Jump(first=first, last=last, size=size, speed=speed, unit=unit))
+        stamps = stream.stamp_ns
+        kept = [
+            one for one in found if not any(a <= stamps[one.first] and stamps[one.last] <= b for a, b in ignored_ns)
+        ]
+        turns = [one for one in kept if one.is_turn]
+        if len(turns) > 1:
+            kept = [one for one in kept if not one.is_turn]
+            yield _wraps(stream, name, turns, start_ns)
+        for one in kept:
+            begin, end = ((int(stamps[row]) - start_ns) * 1e-9 for row in (one.first, one.last))
+            cause = "a lost turn: unwrap it, or" if one.is_turn else "its derivatives there are not those of the robot:"
+            begin_s, end_s = max(begin - _SPOILT_S, 0.0), end + _SPOILT_S
             text = (
-                f"joint {name!r} jumps by {size:.2g} {unit} from one sample to the next ({speed:.3g} {unit}/s): "
-                f"{'a lost turn: unwrap it, or' if is_turn else 'its derivatives there are not those of the robot:'} "
-                f"put an [[interval]] with start_s = {max(begin - _SPOILT_S, 0.0):.2f}, end_s = {end + _SPOILT_S:.2f}, "
+                f"joint {name!r} jumps by {one.size:.2g} {unit} from one sample to the next ({one.speed:.3g} "
+                f"{unit}/s): {cause} put an [[interval]] with start_s = {begin_s:.2f}, end_s = {end_s:.2f}, "
                 'use = "ignore" about it'
             )
-            findings.append(
-                _finding(stream, "joint_jump", text, first, last, channel=name, size=speed, unit=f"{unit}/s")
+            yield _finding(
+                stream, "joint_jump", text, one.first, one.last, channel=name, size=one.speed, unit=f"{unit}/s"
             )
-    return findings
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Jump:
+    """A jump of a joint."""
+
+    first: int
+    """Last row before it."""
+    last: int
+    """First row behind it."""
+    size: float
+    """Largest step in it; rad or m."""
+    speed: float
+    """Largest speed in it; rad/s or m/s."""
+    unit: str
+    """Unit of the step."""
+
+    @property
+    def is_turn(self) -> bool:
+        """Whether it is by a turn."""
+        return self.unit == "rad" and abs(self.size - _TURN) < 0.05 * _TURN
+
+
+def _wraps(stream: Stream, name: str, turns: Sequence[_Jump], start_ns: int) -> Finding:
+    """One finding for all jumps of a joint by a turn."""
+    times = ", ".join(f"{(int(stream.stamp_ns[one.first]) - start_ns) * 1e-9:.2f}" for one in turns[:_FEW])
+    more = ", ..." if len(turns) > _FEW else ""
+    text = (
+        f"joint {name!r} jumps by a turn from one sample to the next {len(turns)} times, at {times}{more} s: its "
+        f'reading wraps; unwrap it (numpy.unwrap), or put an [[interval]] with use = "ignore" from {_SPOILT_S} s '
+        f"before to {_SPOILT_S} s behind each"
+    )
+    speed = max(one.speed for one in turns)
+    return _finding(
+        stream,
+        "joint_jump",
+        text,
+        turns[0].first,
+        turns[-1].last,
+        count=len(turns),
+        channel=name,
+        size=speed,
+        unit=f"{turns[0].unit}/s",
+    )
 
 
 def _usual_step(changes: FloatArray, k: int) -> float:
