@@ -120,7 +120,7 @@ def next_lines(use: LoadCaseVerdict) -> tuple[str, ...]:
 
     Returns:
         A load case that the sensor can read, where the default one is beyond its range; that with a tared offset, where
-        data show a constant error.
+        taring is next.
     """
     stated = use.readable_load_case if _states_loads(use) else use.tared_load_case
     return tuple((stated or "").splitlines())

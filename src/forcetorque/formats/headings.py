@@ -192,3 +192,15 @@ def is_time_name(name: str) -> bool:
         Whether it is.
     """
     return name.lower().strip(" #%") in _TIME_NAMES
+
+
+def names_a_time(name: str) -> bool:
+    """Check whether a word of a name is one for a time, as in `t_pose` or `imu.stamp`.
+
+    Args:
+        name: Its name, without the unit.
+
+    Returns:
+        Whether it is.
+    """
+    return not _TIME_NAMES.isdisjoint(re.split(r"[^a-z]+", name.lower()))

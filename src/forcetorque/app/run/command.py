@@ -163,7 +163,7 @@ def _begun(
         raise ExperimentError(
             f"{', '.join(map(str, logs))}: expected a wrench or raw samples of a force-torque sensor, got none; name "
             "its columns by --column-names where the log has no headings; forcetorque payload weighs the load of a "
-            "Franka arm by its joint torques"
+            f"Franka arm by its joint torques{''.join(f'; {one}' for one in draft.thermometers)}"
         )
     return file
 

@@ -153,7 +153,8 @@ class LoadCaseVerdict(Row):
     readable_load_case: str | None = None
     """A [[load_case]] of its kind that the sensor can read; None where it can read the default one."""
     tared_load_case: str | None = None
-    """The [[load_case]] with `offset = "tared"`, where data show a constant error and taring is next; else None."""
+    """The [[load_case]] with `offset = "tared"`, where taring is next: data show a constant error, or most of the
+    predicted error comes from the offset; else None."""
 
     @property
     def tone(self) -> Tone:
@@ -614,7 +615,8 @@ def load_case_verdict(
     case = usual if beyond is None else _recorded(measured) or usual
     assessment = LoadCaseAssessment(case, fitted, measured, worse=[*worse(_COMPARED[case.offset])])
     decision, reasons = assessment.verdict()
-    tare = next((reason.remedy for reason in reasons if reason.remedy is not None), None) == TARE
+    remedy = next((reason.remedy for reason in reasons if reason.remedy is not None), "")
+    tare = remedy == TARE or (case.offset is LoadCaseOffset.FITTED and ADVICE_BY_SOURCE["offset"] in remedy)
     verdict = LoadCaseVerdict(
         sensor=sensor.name,
         serial=sensor.serial,
