@@ -12,14 +12,14 @@ from forcetorque.payload.identification.load_estimates import BiasRow, Three
 from forcetorque.payload.result import LoadRow, load_words
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, WrenchValues, table_of
 
 _CONTACTS = 0.2
 """Share of windows that disagree with the tool from which on the identification is doubtful (heuristic)."""
 
 
-class CompensatedDataset(Result):
+class CompensatedDataset(DrawnResult):
     """A dataset with the wrench that the tool's weight and bias were taken off."""
 
     schema_name: Literal["forcetorque/compensate_dataset/1"] = Field(
@@ -78,6 +78,9 @@ class CompensatedDataset(Result):
     """Files of frames that an earlier run had written."""
 
     answered_by: ClassVar[str | None] = "forcetorque.dataset.compensation_result:compensation_answer"
+
+    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the load and the biases.

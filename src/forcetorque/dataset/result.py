@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.results.answer import Answer, Concern
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
 
 _MOST_SHOWN = 40
@@ -106,7 +106,7 @@ class EpisodeFieldRow(Row):
         return wrong, self.noise_over_usual or 0.0
 
 
-class DatasetCheck(Result):
+class DatasetCheck(DrawnResult):
     """What is wrong with the forces of a dataset."""
 
     schema_name: Literal["forcetorque/check_dataset/1"] = Field(default="forcetorque/check_dataset/1", alias="schema")
@@ -131,6 +131,8 @@ class DatasetCheck(Result):
     """A record for each episode and field."""
 
     answered_by: ClassVar[str | None] = "forcetorque.dataset.result:check_answer"
+
+    drawn_by: ClassVar[str] = "forcetorque.dataset.figure:episodes_figure"
 
     @property
     def passed(self) -> bool:
