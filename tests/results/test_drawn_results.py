@@ -107,7 +107,7 @@ def test_every_command_with_a_figure_gives_a_result_with_one() -> None:
     offered = {question_of(words) for words in _drawing_commands(program)}
     assert offered == drawn - OTHER_RESULTS.keys()
     assert offered >= set(OTHER_RESULTS.values())
-    assert len(drawn) == 41
+    assert len(drawn) == 42
     for name in drawn:
         kind = results[name]
         assert issubclass(kind, DrawnResult)

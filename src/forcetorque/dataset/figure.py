@@ -101,4 +101,6 @@ def _message(check: DatasetCheck) -> str:
     harmed = {number for finding in check.findings if finding.harm for number in finding.episodes}
     rest = len(check.findings) - _MOST_ROWS
     more = f"; {counted(rest, 'more finding')} not drawn" if rest > 0 else ""
-    return f"{shown_name(check.source)}: {len(harmed)} of {counted(check.episodes, 'episode')} do harm{more}"
+    kinds = len({finding.kind for finding in check.findings if finding.harm})
+    found = f"{counted(kinds, 'kind')} of harm, in {len(harmed)} of {counted(check.episodes, 'episode')}"
+    return f"{shown_name(check.source)}: {found if kinds else 'no harm found'}{more}"
