@@ -27,9 +27,9 @@ from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.dataset import Dataset, is_dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.from_dataset import COMMANDS, FROM_LOGS, DatasetLogs
-from forcetorque.fleet.job import CalibrateJob, run_calibrate
 from forcetorque.fleet.report import fleet_report_of
 from forcetorque.fleet.report_page import page
+from forcetorque.fleet.run import CalibrateJob, run_calibrate
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of

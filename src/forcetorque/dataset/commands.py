@@ -13,8 +13,7 @@ from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
-    from forcetorque.dataset.compensation_result import CompensatedDataset
-    from forcetorque.dataset.result import DatasetCheck
+    from forcetorque.dataset.result import CompensatedDataset, DatasetCheck
     from forcetorque.experiment.calibration.artefact import Calibration
 
 _SENSES = ("sensor_to_world", "world_to_sensor")

@@ -15,7 +15,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.lerobot.dataset import INFO, Feature, LeRobotDataset
-from forcetorque.inspection.draft.streams import FORMS_OF_THREE, array_words, column_matches
+from forcetorque.inspection.draft.column_matches import FORMS_OF_THREE, array_words, column_matches
 from forcetorque.recording.orientation import OrientationForm, OrientationLayout, OrientationSense, orientation_signals
 
 _WORDS = {"wrench", "force", "forces", "torque", "torques", "moment", "moments", "effort", "ft", "tau"}

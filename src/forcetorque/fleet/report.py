@@ -18,8 +18,8 @@ from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import Moments
+from forcetorque.fleet.add import stored_failures
 from forcetorque.fleet.dataset import Dataset, RecordingNames
-from forcetorque.fleet.failures import stored_failures
 from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.table import FleetSensor, fleet_sensors
@@ -146,7 +146,7 @@ class FailedRecording(Row):
 class FleetReport(Result):
     """The sensors of a fleet, the worst first."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.fleet.report_answers:report_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.fleet.answers:report_answers"
 
     schema_name: Literal["forcetorque/fleet_report/1"] = Field(default="forcetorque/fleet_report/1", alias="schema")
     """Form of the result."""

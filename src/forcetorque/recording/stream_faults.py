@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
@@ -13,7 +15,9 @@ from forcetorque.recording.frozen_and_saturated_samples import (
     at_limit,
     equal_runs,
     exceeds_limit,
+    mask_of,
     noisy_runs,
+    repeated_readings,
 )
 from forcetorque.recording.joint_jumps import joint_jump_findings
 from forcetorque.recording.recording import Finding
@@ -54,7 +58,7 @@ def stream_findings(stream: Stream, start_ns: int | None = None) -> tuple[Findin
         if signal.quantity not in _SPARSE:
             findings += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
-            findings += _stuck_channels(stream, signal)
+            findings += [*_stuck_channels(stream, signal), *_repeated_readings(stream, signal)]
         if signal.quantity == "position" and stream.clock != ROW_CLOCK:
             findings += joint_jump_findings(
                 stream, signal, int(stream.stamp_ns.min()) if start_ns is None else start_ns
@@ -259,6 +263,19 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
             seconds = _seconds(stream, (at, last))
             findings.append(_finding(stream, "stuck", text, at, last, channel=name, size=seconds, unit="s"))
     return findings
+
+
+def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
+    """Readings that the log gives again under new stamps, beside those that are frozen."""
+    long = mask_of(equal_runs(stream.stamp_ns, signal.values), len(stream))
+    again = np.flatnonzero(repeated_readings(stream.stamp_ns, signal.values) & ~long & ~stream.held)
+    if len(again):
+        text = (
+            f"{len(again)} of {len(stream)} samples repeat the {signal.quantity} before under a new stamp: the sensor "
+            "is slower than its log, or messages were lost and replaced; fits leave them out"
+        )
+        first, last = int(again[0]), int(again[-1])
+        yield _finding(stream, "repeated_reading", text, first, last, channel=signal.quantity, count=len(again))
 
 
 def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:

@@ -23,10 +23,10 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.signals import OrientationTable
+from forcetorque.inspection.draft.column_matches import column_matches, is_estimated
 from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
 from forcetorque.inspection.draft.questions import answer_questions, resume_experiment
-from forcetorque.inspection.draft.streams import column_matches, is_estimated
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording

@@ -14,7 +14,8 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.bench_file import THESIS_TABLE
 from forcetorque.formats.headings import Heading, is_time_name, read_heading, without_bracket
 from forcetorque.formats.log_format import LogSketch
-from forcetorque.inspection.draft.streams import DraftedLog, column_matches, time_column
+from forcetorque.inspection.draft.column_matches import column_matches, time_column
+from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
 
 BENCH_SCHEMA: Final = "forcetorque/bench/1"

@@ -16,18 +16,17 @@ from forcetorque.formats.headings import Heading, is_time_name, read_heading
 from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
-from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import (
+from forcetorque.inspection.draft.column_matches import (
     FORMS_OF_THREE,
     ColumnMatch,
-    DraftedLog,
-    DraftedStream,
     array_groups,
     array_words,
     column_matches,
     is_measured,
     time_column,
 )
+from forcetorque.inspection.draft.joints import joints_question
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.toml_lines import (
     RATE_LINES,
     TIME_UNITS,
