@@ -79,7 +79,7 @@ _ESTIMATED = re.compile(
     r"(?:^|_)(?:(?:external|estimated)_wrench(?:es)?|wrench_estimat(?:e[ds]?|ion|or)|f_ext)(?:_|$)(?!.*sensor)"
 )
 """Names of wrenches that controllers compute from the torques of joints."""
-_WANTED = re.compile(r"(?:^|_)(?:target|desired)(?:_|$)")
+_WANTED = re.compile(r"(?:^|_)(?:target|desired|cmd|command(?:s|ed)?|ref(?:erence)?|set_?point|goal|soll)(?:_|$)")
 _FIXED_ROWS = 9
 _OF_JOINTS = {"j", "joint", "joints"}
 """Words of columns that are of joints, however many they are."""
@@ -403,7 +403,7 @@ def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> I
         What they look like.
     """
     quantities: set[str] = set()
-    for k, array in enumerate(members):
+    for k, array in sorted(enumerate(members), key=lambda one: not is_measured(one[1].name)):
         words = set(array_words(array.name))
         for quantity, likely in _ARRAY_WORDS.items():
             width = _WIDTHS.get(quantity)

@@ -33,13 +33,15 @@ class DraftedStream:
     alternatives: tuple[ColumnMatch, ...] = ()
     """Columns that determine the motion a second time, beside those of `groups`; a file may have one of both."""
     repeated: tuple[ColumnMatch, ...] = ()
-    """Columns of the table that look like a quantity of `groups` once more, and are not read."""
+    """Columns of the table that are not read: a quantity of `groups` once more, or a wrench estimated beside raw."""
     components: tuple[str, ...] = ()
     """Components of its only reading of a load, where they are fewer than six."""
 
     @property
     def is_estimated(self) -> bool:
-        """Whether its wrench is called an estimated one, by its own name or by the headings."""
+        """Whether its reading is a wrench that is called an estimated one, by its own name or by the headings."""
+        if "raw" in self.quantities:
+            return False
         places = [k for group in self.groups if group.quantity == "wrench" for k in group.columns]
         names = [] if self.table is None else [self.table.columns[k].name for k in places]
         return is_estimated(self.name) or any(map(is_estimated, names))
