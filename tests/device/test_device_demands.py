@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError
-from forcetorque.device.demand_result import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.description import device_load
 from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
 from forcetorque.device.mechanical_demands import average_torque
+from forcetorque.device.requirements import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.tolerances import Tolerance
 
 DEVICE = read_device()

@@ -26,8 +26,8 @@ from forcetorque.experiment.calibration.robot_model_error import (
 )
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.root_motion import imu_frame
-from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion

@@ -18,8 +18,8 @@ from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.inspection.plausibility.fault_hypotheses import Changes, Robot
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.model import JointType
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
