@@ -25,8 +25,8 @@ from benchmarks.commands import command_cost, simulated_recordings
 from benchmarks.fleet_by_hand import with_dask, with_moments, with_pandas, write_tables
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray
-from forcetorque.fleet.job import AddJob, run_add
 from forcetorque.fleet.pool import DaskPool, LocalPool, Pool
+from forcetorque.fleet.run import AddJob, run_add
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
 

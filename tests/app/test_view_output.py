@@ -13,8 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment import loading
-from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.formats.ros.mcap_writer import typestore
+from forcetorque.formats.ros.bag import opened_bag, typestore
 from tests.app.outcome import Run
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.scenes.experiments import PARQUET

@@ -13,7 +13,7 @@ import pytest
 from forcetorque.experiment.calibration.artefact import read_calibration
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
-from tests.scenes.experiments import edit, snapshot
+from tests.scenes.experiments import edit, snapshot, write_sharing
 from tests.scenes.studies import CALIBRATION
 
 
@@ -79,6 +79,15 @@ def test_a_copy_of_a_log_is_refused(days: Path, run: Run, options: list[str]) ->
     assert re.search(r"'copy' has readings of '.*' again, and readings count once; leave one of the two out", error)
     assert not (days / "fit").exists()
     assert not (days / "fit.json").exists()
+
+
+@pytest.mark.parametrize("options", [[], ["--lambda", "5"], ["--jointly"]], ids=["default", "thesis", "jointly"])
+def test_the_share_of_readings_in_two_recordings_is_that_of_their_samples(
+    arm: Path, run: Run, options: list[str]
+) -> None:
+    """Two of eight seconds are in the longer recording too: 25 %, not one interval of two."""
+    error = run("calibrate", *write_sharing(arm, "calibration"), *options, "-o", "fit").error()
+    assert "'second' has about 25 % of its readings in common with 'first'" in error
 
 
 @pytest.mark.long

@@ -31,6 +31,7 @@ from tests.calibration.synthetic import (
     read_by,
 )
 from tests.cases import some_cases
+from tests.payload.identification.payloads import slow
 
 ROUNDING = 1e-8
 """Relative: double precision times the condition of the whitened columns, some 1e6."""
@@ -71,6 +72,24 @@ def test_loads_that_rounding_makes_negative_have_no_rank() -> None:
     """Squares of a load that does not move are zero but for rounding, of either sign."""
     assert _have_rank(np.eye(6))
     assert not _have_rank(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1e-17]))
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "lasts_s", "found"),
+    [(0.0, 2.0, {2.0}), (0.0, 15.0, {15.0}), (0.1, 2.0, {15.0}), (0.1, 15.0, {15.0, 50.0})],
+)
+def test_noise_beside_an_error_of_the_reference_lasts_15_s_or_longer(
+    accuracy: float, lasts_s: float, found: set[float]
+) -> None:
+    """What averages out is not the reference's; noise that lasts 15 s is found where it is, in four channels of six."""
+    rng, load = np.random.default_rng(4), anyhow(n=400)
+    means = read_by(load)
+    noisy = replace(means, raw=means.raw + 20.0 * np.column_stack([slow(400, lasts_s, rng) for _ in range(6)]))
+    stated = np.repeat([accuracy, 0.1 * accuracy], 3)
+    noises = fit_generative([noisy], PRIOR, assumptions(accuracy=stated)).posterior.noise
+    times = [noise.time_constant_s for noise in noises]
+    assert set(times) <= found
+    assert times.count(min(found)) >= 4
 
 
 def test_a_limb_that_stands_still_leaves_the_prior_and_finds_the_offset() -> None:

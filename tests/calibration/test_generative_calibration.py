@@ -195,3 +195,7 @@ def test_a_contact_that_nobody_stated_is_left_out_and_said(arm: Path, tmp_path: 
     assert doubt in read_calibration(tmp_path / "fitted.json").warnings
     errors = [push_error(one.matrix, MOUNTED).force_N for one in (clean, fitted)]
     assert errors[1] < 1.5 * errors[0]
+    keeping = replace(touched, processing=replace(touched.processing, keep=frozenset({"disagreeing"})))
+    kept = _calibrated([SensorRun(keeping, "arm_ft")])
+    assert kept.provenance.dropped == 0
+    assert not any("is left out" in one for one in kept.warnings)

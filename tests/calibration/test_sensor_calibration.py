@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +20,12 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use
+from forcetorque.recording.storage import read_recording
+from forcetorque.robot import motion
 from tests.app.python.arrays import arrays_of
 from tests.results.showing import require_shown
 from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
-from tests.scenes.warm_experiments import TEMPERATURE, with_variables
+from tests.scenes.warm_experiments import TEMPERATURE, put, with_variables
 
 
 def _calibrated(
@@ -137,3 +140,25 @@ def test_doubts_name_the_channel(arm: Path) -> None:
     doubts = list(data_doubts(SensorRun(experiment_of_arrays(**arrays | {"reading": counts}), "arm_ft")))
     assert any("s: ch4 within 0.5 % of 32767 counts" in sentence for sentence in doubts)
     assert any("s: ch2 stays at 12 counts" in sentence for sentence in doubts)
+
+
+def test_joints_that_jump_leave_the_calibration_as_it_is(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten wrong rows and two lost turns in 24 s move the matrix by less than a tenth of what mounting does."""
+    clean = calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")
+    recording = read_recording(arm / "recording")
+    joints = recording.stream("joints")
+    position = joints.signal("position")
+    values, rng = position.values.copy(), np.random.default_rng(5)
+    for row in rng.integers(40, len(values) - 40, size=10).tolist():
+        values[row, rng.integers(values.shape[1])] += 0.8
+    for row in rng.integers(40, len(values) - 40, size=2).tolist():
+        values[row:, rng.integers(values.shape[1])] -= 2.0 * np.pi
+    put(arm, replace(joints, signals={**joints.signals, "position": replace(position, values=values)}))
+    broken = calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")
+    change = np.abs(broken.matrix @ np.linalg.inv(clean.matrix) - np.eye(6)).max()
+    assert change < 0.1 * 0.05
+    assert 0 < broken.provenance.dropped <= 24
+    # negative control: derivatives across jumps are those of no robot
+    monkeypatch.setattr(motion, "joint_jumps", lambda *_: np.empty(0, dtype=np.int64))
+    with pytest.raises(FitError, match="times as much as the reference, which no sensor does"):
+        calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")

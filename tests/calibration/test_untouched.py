@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration import contact_windows
-from forcetorque.calibration.contact_windows import Disagreeing, _loses_direction, agreeing_samples
+from forcetorque.calibration.contact_windows import Disagreeing, _loses_direction, _mean_variance, agreeing_samples
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
@@ -233,3 +233,15 @@ def test_a_constant_load_does_not_hide_a_direction_that_is_lost() -> None:
         loads[:, 0], loads[:, 2] = common + change, common - change
         for shift in (0.0, np.array([300.0, 0.0, -100.0, 0.0, 20.0, 0.0])):
             assert _loses_direction(loads + shift, marks) is is_lost
+
+
+@pytest.mark.parametrize("start_s", [0.0, 100.1, 1e6 + 0.3])
+def test_noise_of_a_window_is_that_of_its_quarters_on_any_clock(start_s: float) -> None:
+    """By hand: the variance of four means over four, of quarters of a second from the first sample on."""
+    quarters = np.random.default_rng(5).normal(size=(4, 6))
+    time_s = start_s + np.arange(round(30.0 * RATE_HZ)) / RATE_HZ
+    inside_s = (np.arange(len(time_s)) / RATE_HZ) % 1.0
+    error = quarters[(inside_s / 0.25 + 1e-9).astype(int)]
+    data = DataSet(label="log", raw=error, reference=error, time_s=time_s, session="day", recording="log")
+    variance = _mean_variance(data, error, data.window)
+    np.testing.assert_allclose(variance, np.tile(quarters.var(axis=0, ddof=1) / 4.0, (30, 1)), rtol=1e-9)

@@ -7,8 +7,16 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from forcetorque.collisions.figures import collisions_figure, joint_collisions_figure
-from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, SensitivityRow
-from forcetorque.collisions.torque_result import JointCollisions, JointRow, TorqueContactRow, TorqueCurve
+from forcetorque.collisions.result import (
+    CollisionCurve,
+    CollisionRow,
+    Collisions,
+    JointCollisions,
+    JointRow,
+    SensitivityRow,
+    TorqueContactRow,
+    TorqueCurve,
+)
 
 
 def draw_collisions(rng: np.random.Generator) -> Figure:

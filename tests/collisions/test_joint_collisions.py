@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.collisions.by_torques import find_joint_collisions
 from forcetorque.collisions.momentum import ArmMotion, external_torque, low_passed
-from forcetorque.collisions.torque_result import JointCollisions, TorqueContactRow
+from forcetorque.collisions.result import JointCollisions, TorqueContactRow
 from forcetorque.experiment.loading import Purpose, load_experiment
 from tests.app.outcome import Run
 

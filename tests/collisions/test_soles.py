@@ -13,8 +13,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.collisions.collisions import find_collisions
-from forcetorque.collisions.findings import with_collisions
-from forcetorque.collisions.soles import events_on_soles
+from forcetorque.collisions.findings import events_on_soles, with_collisions
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.section import SOLES as SECTION

@@ -219,6 +219,14 @@ def test_units_of_names_are_taken(tmp_path: Path) -> None:
             np.testing.assert_allclose(measurement.factors(), 1e-3)
 
 
+@pytest.mark.parametrize("form", ["rotation_vector", "euler", "quaternion"])
+def test_forms_of_unknown_units_are_refused_by_their_name(tmp_path: Path, form: str) -> None:
+    """Not by the number of their elements, which may be right."""
+    dataset = read_dataset(write_dataset(tmp_path / "d", EPISODES[:1]))
+    with pytest.raises(FormatError, match=f"expected the form quat_xyzw, .*matrix_columns, got {form}"):
+        orientation_field(dataset, "observation.state", "sensor_to_world", form)
+
+
 RAW = "observation.raw"
 MATRIX = np.random.default_rng(5).normal(size=(6, 6)) + 4.0 * np.eye(6)
 """Of the sensor; N/count, N m/count."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from forcetorque.device.description import Turn, device_load
+from forcetorque.device.description import Turn, device_load, part_inertia
 from forcetorque.device.device_file import read_device
 from forcetorque.device.model import BASE, device_model
 from forcetorque.robot.dynamics import link_pose
@@ -27,6 +27,22 @@ def test_sensors_are_stacked() -> None:
         tree = build_tree(device_model(device, device_load(device, 35.0)), BASE)
         heights.append(link_pose(tree, level, "carrier")[0, 0, 3])
     np.testing.assert_allclose(np.diff(heights), DEVICE.sensor[0].height_m, rtol=1e-9)
+
+
+@pytest.mark.parametrize("load_kg", [5.0, 35.0])
+def test_plates_are_a_solid_cylinder_beyond_the_foot_beside_the_carrier(load_kg: float) -> None:
+    """Against a sum over small rings: mass, first moment and second moments about the carrier's frame."""
+    weights, carrier = DEVICE.weights, part_inertia(DEVICE.carrier)
+    whole = device_load(DEVICE, load_kg).inertia
+    first, second = whole.first_moment - carrier.first_moment, whole.second_moment - carrier.second_moment
+    height = weights.height_m * load_kg / weights.step_kg
+    radii, places = (np.arange(400) + 0.5) / 400.0 * weights.radius_m, (np.arange(400) + 0.5) / 400.0 * height
+    share, up = radii / radii.sum(), weights.foot_m + places
+    mass, square = load_kg - DEVICE.carrier.mass_kg, float(share @ radii**2)
+    across = mass * (square / 2.0 + float((up**2).mean()))
+    assert whole.mass == pytest.approx(load_kg)
+    np.testing.assert_allclose(first, [0.0, 0.0, mass * up.mean()], rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(second, np.diag([across, across, mass * square]), rtol=1e-4, atol=1e-12)
 
 
 def test_a_turn_is_a_joint_before_the_hinge() -> None:

@@ -108,6 +108,10 @@ def test_friction_that_changed_is_named(arm: Path, fitted: Calibration) -> None:
     verdicts = {(row.interval, row.source): row.verdict for row in fusion.sources}
     assert verdicts["judge", "current"] == "in conflict, left out"
     assert {verdicts[span, source] for span in ("fit", "judge") for source in ("ft", "skin")} == {"used"}
+    windows = {(row.interval, row.source): row.windows_percent for row in fusion.sources}
+    for span in ("fit", "judge"):  # of each window at most one source is alone in conflict
+        assert 0.0 <= sum(windows[span, source] for source in ("ft", "skin", "current")) <= 100.0 + 1e-9
+    assert windows["judge", "current"] > 90.0
     assert verdicts["fit", "current"] == "used"
     assert "judge: source current is in conflict, left out" in _fused(file, fitted).warnings
 

@@ -19,7 +19,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from tests.scenes.experiments import PARQUET, YARP, add, edit
+from tests.scenes.experiments import PARQUET, YARP, add, edit, write_sharing
 
 
 @pytest.fixture(scope="module")
@@ -104,6 +104,13 @@ def test_a_calibration_without_prior_stands_alone(experiment: Experiment, fitted
     alone = fitted.model_copy(update={"prior": None})
     verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": alone}).verdicts
     assert [v.calibration for v in verdicts] == ["new", "new"]
+
+
+def test_the_share_of_readings_in_two_recordings_is_that_of_their_duration(arm: Path) -> None:
+    """Two of eight seconds are in the longer recording too: 25 %, not one interval of two."""
+    runs = [SensorRun(load_experiment(arm / file), "arm_ft") for file in write_sharing(arm, "validation")]
+    with pytest.raises(ExperimentError, match=r"^'second' has about 25 % of its readings in common with 'first'"):
+        evaluate(runs, {})
 
 
 def test_another_serial_number_is_refused(experiment: Experiment, fitted: Calibration) -> None:

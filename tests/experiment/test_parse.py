@@ -258,7 +258,7 @@ TABLES = {
         r"interval\[1\]",
         "contact_links, end_s, files, kind, label, load, session, start_s, support, use",
     ),
-    "[processing]": ("processing", "derivatives, smoothing"),
+    "[processing]": ("processing", "derivatives, keep, smoothing"),
     "[calibration]": (
         "calibration",
         "accuracy, drift, from_reference, lambda_counts2, nonlinear, offset, repeatability, sphere_intervals, "

@@ -13,6 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
+from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -124,6 +125,24 @@ def test_samples_in_a_gap_of_the_thermometer_are_left_out(warm_log: Path) -> Non
     assert _close(made.variables[0].coefficients, PER_DEGREE)
     (without,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
     assert without.samples.dropped == 0
+
+
+@pytest.mark.parametrize("place", [TEMPERATURE, SLOW_TEMPERATURE], ids=["own stream", "slow stream"])
+def test_a_glitch_of_the_thermometer_is_left_out_and_named(warm_log: Path, place: str) -> None:
+    """One value of 1e4 degC would take the coefficients to nothing; the fit stays exact, and the result says so."""
+    name = "arm_ft" if place == TEMPERATURE else "board"
+    stream = read_recording(warm_log / "recording").stream(name)
+    temperature = stream.signal("temperature")
+    values = np.array(temperature.values)
+    values[len(values) // 2] = 1e4
+    put(warm_log, replace(stream, signals={**stream.signals, "temperature": replace(temperature, values=values)}))
+    experiment = load_experiment(with_variables(warm_log / PARQUET, place))
+    made = _fitted(experiment)
+    assert _close(made.variables[0].coefficients, PER_DEGREE)
+    assert made.variables[0].maximum < 40.0
+    (said,) = added_to(experiment.recording)
+    assert f"{name}: temperature (degC): left out 1 value of {len(values)} that is nowhere near" in said
+    assert "1e+04; the others lie from 2" in said
 
 
 def test_a_missing_temperature_leaves_its_sample_out(warm_log: Path) -> None:

@@ -27,9 +27,9 @@ from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.dataset import Dataset, is_dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.from_dataset import COMMANDS, FROM_LOGS, DatasetLogs
-from forcetorque.fleet.job import CalibrateJob, run_calibrate
 from forcetorque.fleet.report import fleet_report_of
 from forcetorque.fleet.report_page import page
+from forcetorque.fleet.run import CalibrateJob, run_calibrate
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
@@ -392,6 +392,10 @@ def test_commands(added: Path, recorded: Path, tmp_path: Path, run: Run, monkeyp
     evaluated = run("evaluate", str(added), "-c", "c.json", "--format", "json").result()
     assert evaluated["schema"] == "forcetorque/evaluate_dataset/1"
     assert evaluated["load_cases"]
+    drawn = run("evaluate", str(added), "-c", "c.json", "--figure", "e.png", "--format", "json").result()
+    assert drawn["figure"] == "e.png"
+    assert (tmp_path / "e.png").read_bytes().startswith(b"\x89PNG")
+    assert "expected a name that ends in" in run("evaluate", str(added), "-c", "c.json", "--figure", "e.txt").error()
     shown = run("evaluate", str(added), "-c", "c.json")
     assert len(shown.out.splitlines()) <= 12
     assert "need the log" in run("evaluate", str(added), "-c", "c.json", "--details").out

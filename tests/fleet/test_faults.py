@@ -16,9 +16,8 @@ import pytest
 
 from forcetorque.base.errors import ChangingFileError, ExperimentError, FormatError, OutputError
 from forcetorque.fleet import add
-from forcetorque.fleet.add import add_recording
+from forcetorque.fleet.add import Failures, add_recording, stored_failures
 from forcetorque.fleet.dataset import Dataset
-from forcetorque.fleet.failures import Failures, stored_failures
 from forcetorque.fleet.run import run_plan
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource

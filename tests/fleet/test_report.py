@@ -21,10 +21,9 @@ from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.commands import fleet_report
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
-from forcetorque.fleet.job import CalibrateJob, run_calibrate
 from forcetorque.fleet.report import FleetReport, _next
 from forcetorque.fleet.report_page import page
-from forcetorque.fleet.run import run_plan
+from forcetorque.fleet.run import CalibrateJob, run_calibrate, run_plan
 from forcetorque.fleet.sensor_evaluation import SensorEvaluation
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.results.answer import MOST_LINES, answer_text
@@ -118,8 +117,8 @@ def test_every_verdict_has_the_last_recording(base: Path, tmp_path: Path, monkey
     assert reported[serials[1]][0] != "use"
     assert "in the last recording" not in reported[serials[0]][1]
     made = SimpleNamespace(save=lambda: None, calibrations=[SimpleNamespace(calibration=read_calibration(file))])
-    monkeypatch.setattr("forcetorque.fleet.job.calibrate_for_file", lambda *_, **__: made)
-    monkeypatch.setattr("forcetorque.fleet.job.Dataset.moments", lambda *_: ([], ()))
+    monkeypatch.setattr("forcetorque.fleet.run.calibrate_for_file", lambda *_, **__: made)
+    monkeypatch.setattr("forcetorque.fleet.run.Dataset.moments", lambda *_: ([], ()))
     job = CalibrateJob(serial=serials[1], dataset=dataset.folder, folder=tmp_path, code_version="1", created="2020")
     assert run_calibrate(job).decision == reported[serials[1]][0]
 

@@ -109,6 +109,24 @@ def test_a_joint_a_unit_and_a_delay_are_named(clean: Experiment) -> None:
     assert 'write [[clock]] stream = "arm_ft", to = "joints"' in delay.message
 
 
+@pytest.mark.parametrize("first", [0, 400], ids=["offset", "jump"])
+def test_a_joint_that_jumps_has_no_zero_to_add(clean: Experiment, first: int) -> None:
+    """Its zero is the same to the log as a whole; negative control is a joint that is off from the begin."""
+    joints = clean.recording.stream("joints")
+    position = joints.signal("position")
+    values = np.array(position.values)
+    values[first:, position.columns.index("shoulder_pitch")] += 1.0
+    streams = {
+        **clean.recording.streams,
+        "joints": replace(joints, signals={**joints.signals, "position": replace(position, values=values)}),
+    }
+    experiment = replace(clean, recording=replace(clean.recording, streams=streams))
+    finding = fault_finding(*_diagnosed(experiment))
+    assert (finding.kind, finding.channel) == ("joint_offset", "shoulder_pitch")
+    assert ("add it to the column of 'shoulder_pitch'" in finding.message) == (first == 0)
+    assert ("in the mean over readings that jump" in finding.message) == (first > 0)
+
+
 def test_nothing_is_tested_where_nothing_moves(clean: Experiment) -> None:
     """A limb at rest under a changing contact is neither reversed nor anything else; one finding says why."""
     experiment = _resting(clean)

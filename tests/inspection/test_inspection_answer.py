@@ -106,11 +106,21 @@ def test_a_contact_that_explains_a_fault_is_named(stream: str, end_s: float, com
 
 @pytest.mark.parametrize(
     ("start_s", "kind", "first"),
-    [(20.0, "implausible", "joint_jump"), (70.0, "implausible", "implausible"), (20.0, "gravity", "gravity")],
+    [
+        (20.0, "implausible", "joint_jump"),
+        (70.0, "implausible", "implausible"),
+        (20.0, "gravity", "gravity"),
+        (20.0, "joint_offset elbow", "joint_jump"),
+        (70.0, "joint_offset elbow", "joint_offset"),
+        (20.0, "joint_sign wrist", "joint_sign"),
+    ],
 )
-def test_a_joint_that_jumps_explains_an_implausible_measurement(start_s: float, kind: str, first: str) -> None:
-    """It comes before it where an interval uses it; a fault that explains the measurements comes first."""
-    found = _inspection(_row(kind), _row("joint_jump", start_s, start_s, stream="joints"))
+def test_a_joint_that_jumps_explains_a_measurement(start_s: float, kind: str, first: str) -> None:
+    """It comes first where an interval uses it, unless a fault of something else explains the measurements."""
+    kind, _, channel = kind.partition(" ")
+    found = _inspection(
+        _row(kind, channel=channel or None), _row("joint_jump", start_s, start_s, stream="joints", channel="elbow")
+    )
     answer = inspection_answer(found.model_copy(update={"in_use_s": ((16.0, 60.0),)}))
     assert (answer.verdict, answer.why[0].rpartition(" ")[2]) == ("1 FAULT", first)
 

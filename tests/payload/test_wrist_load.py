@@ -86,9 +86,11 @@ use = "validation"
 """
 
 
-def _write(folder: Path, *, text: str = TEXT, matrix: np.ndarray | None = None, pushed: slice = slice(0)) -> Path:
+def _write(
+    folder: Path, *, text: str = TEXT, matrix: np.ndarray | None = None, pushed: slice = slice(0), seed: int = 1
+) -> Path:
     """Write a table of still poses: gravity in g, moments in N mm, and readings of the known load, some with a push."""
-    rng = np.random.default_rng(1)
+    rng = np.random.default_rng(seed)
     down = rng.normal(size=(POSES, 3))
     down /= np.linalg.norm(down, axis=1, keepdims=True)
     weight = MASS * 9.80665 * down
@@ -179,6 +181,27 @@ def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path
     assert answer.why[1].startswith("bias of 'contact', the last of 2 power cycles")
     assert answer.step.startswith("look at 'contact', which disagrees: contact is the likely cause")
     assert answer.command == typed("inspect", FIRST_EXPERIMENT)
+
+
+def test_each_of_several_recordings_weighs_the_load_by_itself_too(tmp_path: Path) -> None:
+    """With the numbers of that recording alone; all together know the mass better than any. A single one has no row."""
+    runs = []
+    for k in range(3):
+        (tmp_path / f"{k}").mkdir()
+        path = _write(tmp_path / f"{k}", text=TEXT.replace('name = "wrist"', f'name = "day {k}"', 1), seed=k)
+        experiment = load_experiment(path)
+        runs.append(SensorRun(experiment, experiment.sensors[0]))
+    alone = [weigh_load(run) for run in runs]
+    assert [one.recordings for one in alone] == [()] * 3
+    loads = [one.loads[0] for one in alone]
+    masses = [(f"day {k}", load.mass_kg, load.mass_half_width_95_kg) for k, load in enumerate(loads)]
+    for count in (2, 3):
+        together = weigh_load(runs[:count])
+        rows = [(row.recording, row.mass_kg, row.mass_half_width_95_kg) for row in together.recordings]
+        assert rows == masses[:count]
+        halves = [half for _, _, half in rows if half is not None]
+        assert len(halves) == count
+        assert (together.loads[0].mass_half_width_95_kg or np.inf) < min(halves)
 
 
 @pytest.mark.long

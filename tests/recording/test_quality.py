@@ -8,10 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.recording.stream_faults import saturation_findings, stream_findings
+from forcetorque.recording.stream_faults import glitched_values, saturation_findings, stream_findings
 
 PERIOD_NS = 10_000_000
 COUNT = 1000
@@ -116,7 +117,10 @@ def test_a_resting_joint_is_not_stuck() -> None:
 
 
 def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
-    """A wrong row and a turn that is lost later are two findings; a fast joint, noise and a pause are none."""
+    """Wrong rows and lost turns are one finding per joint; a posture that is not its own for longer has an interval.
+
+    A fast joint, noise and a pause are none.
+    """
     angle = 2.0 * np.sin(np.arange(COUNT) * 0.03) + 1e-3 * np.random.default_rng(6).normal(size=COUNT)
     stamps = np.arange(COUNT) * PERIOD_NS
     stamps[700:] += 500_000_000
@@ -129,19 +133,29 @@ def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
     assert np.abs(np.diff(angle)).max() > 0.05  # rad; 5 rad/s
     angle[700:] += 1.0
     assert found(angle) == ()
+    turning = angle.copy()
+    for row in (500, 600, 800):
+        turning[row:] += 2.0 * np.pi
+    (turned,) = found(turning)
+    assert (turned.kind, turned.channel, turned.unit) == ("joint_spike", "knee", "rad")
+    assert "jumps by a whole turn 3 times, by up to 6.3 rad" in turned.message
     angle[300] += 0.8
     angle[500:] += 2.0 * np.pi
-    first, second = found(angle)
-    assert (first.kind, first.channel, first.unit, first.count) == ("joint_jump", "knee", "rad/s", 3)
-    assert (first.start_ns, first.end_ns) == (299 * PERIOD_NS, 301 * PERIOD_NS)
-    assert second.size == pytest.approx(200.0 * np.pi, rel=0.02)
-    assert "a lost turn" in second.message
-    assert "start_s = 4.39, end_s = 5.60" in second.message
-    assert "a lost turn" not in first.message
+    (spike,) = found(angle)
+    assert "jumps and comes back, or by whole turns, 2 times" in spike.message
+    assert (spike.start_ns, spike.end_ns) == (299 * PERIOD_NS, 500 * PERIOD_NS)
+    away = angle.copy()
+    away[400:460] -= 0.7
+    other, slipped = found(away)
+    assert (other.message, slipped.kind, slipped.count) == (spike.message, "joint_jump", 61)
+    assert "next, back 0.61 s later" in slipped.message
+    assert "start_s = 3.99, end_s = 4.60" in slipped.message
+    angle[850:] -= 0.7
+    assert "next, not back for 1.50 s: where" in found(angle)[1].message
 
 
 def test_joints_that_wrap_are_one_finding_and_jumps_that_are_ignored_are_none() -> None:
-    """With the number of turns; a wrong row beside them is a finding of its own, and what is not ignored is left."""
+    """With the number of turns and of wrong rows; what is not ignored is left."""
     turns = np.arange(COUNT) * 0.05
     wrapped = turns % (2.0 * np.pi)
     wraps = np.flatnonzero(np.diff(wrapped) < 0.0)
@@ -154,15 +168,22 @@ def test_joints_that_wrap_are_one_finding_and_jumps_that_are_ignored_are_none() 
         stream = Stream(name="leg", clock="c", stamp_ns=np.arange(COUNT) * PERIOD_NS, signals={"position": joints})
         return [(one.count, one.message) for one in stream_findings(stream, ignored_ns=ignored_ns)]
 
-    (all_turns, words), (wrong_row, _) = found()
-    assert (all_turns, wrong_row) == (len(wraps), 3)
-    assert f"by a turn from one sample to the next {len(wraps)} times" in words
+    ((count, words),) = found()
+    assert count == len(wraps) + 1
+    assert f"jumps and comes back, or by whole turns, {count} times" in words
     about = [((int(row) - 60) * PERIOD_NS, (int(row) + 60) * PERIOD_NS) for row in (*wraps[:-1], 300)]
     ((count, words),) = found(about)
-    assert (count, "a lost turn" in words) == (2, True)
+    assert (count, "jumps by a whole turn once" in words) == (1, True)
     assert found([(0, COUNT * PERIOD_NS)]) == []
-    # negative control: an interval that ends within the jump leaves it
-    assert len(found([(0, 300 * PERIOD_NS)], np.where(np.arange(COUNT) == 300, turns + 0.8, turns))) == 1
+    # a posture that lasts, ignored as the finding says; an interval that ends in it leaves it
+    slipped = turns + 0.8 * (np.abs(np.arange(COUNT) - 320) <= 20)
+    ((_, words),) = found(values=slipped)
+    assert "start_s = 2.99, end_s = 3.41" in words
+    assert found([(2_990_000_000, 3_410_000_000)], slipped) == []
+    assert len(found([(2_990_000_000, 3_300_000_000)], slipped)) == 1
+    shifted = turns + 0.8 * (np.arange(COUNT) >= 300)
+    assert found([(0, 2_990_000_000)], shifted) == found([(2_990_000_000, COUNT * PERIOD_NS)], shifted) == []
+    assert len(found([(0, 2_900_000_000)], shifted)) == 1
 
 
 @pytest.mark.parametrize("held", [10, 50])
@@ -180,10 +201,10 @@ def test_a_joint_that_holds_each_reading_does_not_jump(held: int) -> None:
     assert found(angle) == []
     rest = np.zeros(len(rows))
     rest[300] = 0.8
-    assert found(rest) == ["joint_jump"]
+    assert found(rest) == ["joint_spike"]
     slow = angle * 0.1
     slow[30 * held :] += 2.0 * np.pi
-    assert found(slow) == ["joint_jump"]
+    assert found(slow) == ["joint_spike"]
 
 
 def test_missing_values_are_found_by_stretch() -> None:
@@ -212,3 +233,34 @@ def test_saturation_is_found_within_half_a_percent(recovered: bool, value: float
     finding = _only(saturation_findings(_stream(), counts, limit_counts=32767, recovered=recovered))
     assert (finding.channel, finding.count, finding.size) == ("ch3", 10, abs(value))
     assert ("recovered" in finding.message) is recovered
+
+
+_WARMING = 25.0 + 10.0 * (1.0 - np.exp(-np.arange(400) / 100.0))
+
+
+def _with(base: FloatArray, first: int, last: int, value: float) -> FloatArray:
+    values = base.copy()
+    values[first:last] = value
+    return values
+
+
+@pytest.mark.parametrize(
+    ("values", "glitched"),
+    [
+        (_with(_WARMING, 200, 201, 1e4), {200}),
+        (_with(_WARMING, 200, 204, -273.15), {200, 201, 202, 203}),
+        (_with(_WARMING, 0, 1, 1e4), {0}),
+        (_with(np.full(400, 25.0), 50, 52, 85.0), {50, 51}),
+        (_with(_WARMING, 100, 101, np.inf), {100}),
+        (_with(_WARMING, 100, 101, np.nan), set()),
+        (_WARMING, set()),
+        (_with(_WARMING, 200, 201, 50.0), set()),  # within ten times the range: the noise of another thermometer
+        (_with(np.full(400, 25.0), 390, 400, 30.0), set()),  # a step before the log ends
+        (np.r_[np.full(390, 25.0), 25.0 + 0.5 * np.arange(10)], set()),  # it warms up at the end
+        (_with(np.full(400, 25.0), 100, 140, 60.0), set()),  # too long for a glitch
+        (np.array([25.0, 1e4, 25.0]), set()),  # too few to tell
+    ],
+)
+def test_values_nowhere_near_the_others_are_glitches(values: FloatArray, glitched: set[int]) -> None:
+    """Those that come and go by a jump; not steps, drifts or what lasts."""
+    assert set(np.flatnonzero(glitched_values(values)).tolist()) == glitched

@@ -6,13 +6,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.recording.frozen_and_saturated_samples import (
     SampleQuality,
     UnusableCounts,
     at_limit,
     equal_runs,
     noisy_runs,
+    repeated_readings,
     repeated_samples,
 )
 
@@ -125,4 +126,29 @@ def test_every_unusable_sample_is_counted_once() -> None:
     assert counts == UnusableCounts(frozen=1, saturated=1, repeated=1)
     assert quality.unusable.tolist() == [True, True, True, False, True]
     assert UnusableCounts.total([counts, counts]) == UnusableCounts(frozen=2, saturated=2, repeated=2)
-    assert (str(counts), bool(UnusableCounts())) == ("1 frozen, 1 saturated, 1 with a repeated stamp", False)
+    assert (str(counts), bool(UnusableCounts())) == ("1 frozen, 1 saturated, 1 repeated", False)
+
+
+@pytest.mark.parametrize(
+    "repeats",
+    [
+        np.arange(COUNT) % 3 == 2,  # every third message was lost and replaced
+        np.arange(COUNT) % 2 == 1,  # a sensor of half the rate of its log
+        (np.arange(COUNT) > 1000) & (np.arange(COUNT) <= 1008),  # frozen for 80 ms
+    ],
+)
+@pytest.mark.parametrize(("noise", "step"), [(1.5, 0.0), (3.0, 1.0), (40.0, 10.0)])
+def test_readings_that_come_again_under_new_stamps_are_found(repeats: BoolArray, noise: float, step: float) -> None:
+    """All that the log repeats, and no other sample, moving or at rest."""
+    before = np.maximum.accumulate(np.where(repeats, 0, np.arange(COUNT)))
+    for rests in (False, True):
+        values = _read(_motion(rests=rests), noise, step)[before]
+        np.testing.assert_array_equal(repeated_readings(STAMPS, values), repeats)
+
+
+@pytest.mark.parametrize("noise", NOISES)
+@pytest.mark.parametrize("step", STEPS)
+def test_a_load_at_rest_repeats_nothing(noise: float, step: float) -> None:
+    """Equal readings of a log whose noise gives them by itself, or that has none, are measurements."""
+    for rests in (False, True):
+        assert not repeated_readings(STAMPS, _read(_motion(rests=rests), noise, step)).any()

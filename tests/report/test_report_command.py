@@ -333,6 +333,16 @@ def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Ru
     assert not any("For “push”" in step for step in steps(USE.format(allowed=5.0, clearance=12)))
 
 
+def test_a_viewer_without_a_sensor_is_left_out_with_its_reason(arm: Path, run: Run) -> None:
+    """The rest of the report is written."""
+    text = Path(PARQUET).read_text(encoding="utf-8")
+    bare = re.sub(r"(?ms)^\[\[sensor\]\].*?(?=^\[|\Z)", "", text)
+    assert bare != text
+    Path("bare.toml").write_text(bare, encoding="utf-8")
+    assert run("report", "bare.toml", "--viewer", "-o", "report.html").code == 0
+    assert any("The viewer could not be made: " in line and "got none" in line for line in _words("report.html"))
+
+
 def test_a_folder_stands_for_the_calibrations_in_it(arm: Path) -> None:
     """As `calibrate` and `run` write it for several sensors."""
     (arm / "folder").mkdir()

@@ -171,6 +171,19 @@ def add(file: Path, text: str) -> Path:
     return file
 
 
+def write_sharing(folder: Path, use: str) -> tuple[str, str]:
+    """Write two files of one log: `first` uses 9.5 s of it, `second` 2 s of these and 6 s of others."""
+    head = (folder / PARQUET).read_text(encoding="utf-8").split("\n[[interval]]")[0]
+    names = ("first.toml", "second.toml")
+    for file, spans in zip(names, ([(0.5, 10.0)], [(2.0, 4.0), (11.0, 17.0)]), strict=True):
+        text = head.replace('name = "small arm"', f'name = "{file.removesuffix(".toml")}"')
+        for k, (start, end) in enumerate(spans):
+            text += f'\n[[interval]]\nlabel = "part {k}"\nstart_s = {start}\nend_s = {end}\n'
+            text += f'use = "{use}"\nsupport = "base"\n'
+        (folder / file).write_text(text, encoding="utf-8")
+    return names
+
+
 def edit_lines(file: Path, change: Callable[[list[str]], list[str]]) -> Path:
     """Rewrite a file by its lines, each with its end, and give the file back."""
     lines = file.read_bytes().decode().splitlines(keepends=True)

@@ -7,29 +7,32 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.sensor.elastic import Beam, Material, RectangularSection, y_shaped_element
-from forcetorque.sensor.electronics import FULL_BRIDGE, QUARTER_BRIDGE, Adc, Amplifier, Bridge, hold_on_saturation
-from forcetorque.sensor.full_scale import RawLimits, axis_resolution, coverage, reachable_full_scale
+from forcetorque.sensor.elastic import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
+from forcetorque.sensor.electronics import QUARTER_BRIDGE, Y_ELEMENT, Adc, Bridge, hold_on_saturation
+from forcetorque.sensor.full_scale import RawLimits, axis_resolution, reachable_full_scale
 from forcetorque.sensor.gauge import ResistiveGauge
 
-ELEMENT = y_shaped_element(
+FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
+ELEMENT = ElasticElement(
     beam=Beam(
         length=0.012,
         section=RectangularSection(width=0.004, height=0.005),
         material=Material.from_poisson_ratio(200e9, 0.3),
     ),
     hub_radius=0.006,
-    position=0.001,
+    arm_angles=Y_ELEMENT.arm_angles,
+    places=tuple(GaugePlace(arm=arm, position=0.001, bending=bending) for arm in range(3) for bending in Bending),
 )
 GAUGE = ResistiveGauge(gauge_factor=100.0, resistance=1000.0, temperature_coefficient=9e-4)
 SUPPLY = 3.0
-AMPLIFIER = Amplifier(amplifier_gain=np.full(6, 24.0), offset=np.full(6, 0.05))
+AMPLIFIER_GAIN, AMPLIFIER_OFFSET = 24.0, 0.05
 ADC = Adc(bits=16, reference=2.5, signed=True)
 
 
 def _counts(wrench: FloatArray, *, bridge: Bridge = FULL_BRIDGE, warming: float = 0.0) -> FloatArray:
     strain = wrench @ ELEMENT.strain_matrix().T
-    return ADC.counts(AMPLIFIER.output(SUPPLY * bridge.ratio(GAUGE, strain, warming)))
+    volts = AMPLIFIER_GAIN * SUPPLY * bridge.ratio(GAUGE, strain, warming) + AMPLIFIER_OFFSET
+    return np.clip(np.rint(volts / ADC.step), ADC.lowest, ADC.highest)
 
 
 def _loads(count: int) -> FloatArray:
@@ -39,9 +42,9 @@ def _loads(count: int) -> FloatArray:
 
 def _matrix() -> tuple[FloatArray, FloatArray]:
     """Matrix and offset by hand: a full bridge gives gauge factor times strain of the supply."""
-    counts_per_strain = SUPPLY * GAUGE.gauge_factor * 24.0 / ADC.step
+    counts_per_strain = SUPPLY * GAUGE.gauge_factor * AMPLIFIER_GAIN / ADC.step
     matrix = np.linalg.inv(counts_per_strain * ELEMENT.strain_matrix())
-    return matrix, -matrix @ np.full(6, 0.05 / ADC.step)
+    return matrix, -matrix @ np.full(6, AMPLIFIER_OFFSET / ADC.step)
 
 
 def test_the_matrix_of_the_parts_tells_the_load() -> None:
@@ -86,4 +89,3 @@ def test_the_board_holds_where_the_reachable_scale_ends(axis: int) -> None:
     held = hold_on_saturation(_counts(loads), lowest=ADC.lowest, highest=ADC.highest)
     np.testing.assert_array_equal(held.saturated, [False, False, True, True])
     np.testing.assert_array_equal(held.counts[3], held.counts[1])
-    assert coverage(limits, loads).share == 0.5

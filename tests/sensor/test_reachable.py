@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reachable full scale and coverage of a motion: by hand, at the limit, and against the stated full scale."""
+"""Reachable full scale: by hand, at the limit, and against the stated full scale."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.sensor.full_scale import RawLimits, all_channels_full_scale, coverage, reachable_full_scale
+from forcetorque.sensor.full_scale import RawLimits, axis_resolution, reachable_full_scale
 
 RNG = np.random.default_rng(1)
 UNITS = np.array([1.0, 1, 1, 0.02, 0.02, 0.02])[:, None]
@@ -61,7 +61,7 @@ def test_at_the_largest_load_exactly_the_named_channel_is_at_its_limit() -> None
 def test_reachable_is_less_than_stated() -> None:
     """No load reaches the full scale that has all channels at their limits, where axes share channels."""
     centred = dataclasses.replace(MIXED, offset=np.zeros(6))
-    stated = all_channels_full_scale(MIXED.matrix, limit_counts=32768)
+    stated = 32768 * axis_resolution(MIXED.matrix)
     found = reachable_full_scale(centred)
     assert (found.positive <= stated).all()
     assert (found.positive < 0.95 * stated).any()
@@ -95,39 +95,6 @@ def test_twice_the_gain_reaches_half_as_far() -> None:
     np.testing.assert_allclose(reachable_full_scale(half).positive, 50.0, rtol=1e-12)
 
 
-def test_coverage_by_hand() -> None:
-    """Loads of 50, 100 and -120 N along x: the second touches the limit, the third exceeds it by 200 counts."""
-    loads = np.zeros((3, 6))
-    loads[:, 0] = [50.0, 100.0, -120.0]
-    found = coverage(PLAIN, loads)
-    assert found.count == 3
-    assert found.share == pytest.approx(1 / 3)
-    np.testing.assert_allclose(found.head_room_below, [-200, 1000, 1000, 1000, 1000, 1000], atol=ROUNDING)
-    np.testing.assert_allclose(found.head_room_above, [0, 1000, 1000, 1000, 1000, 1000], atol=ROUNDING)
-
-
-def test_a_count_at_either_limit_is_saturated() -> None:
-    """Just within both limits is covered, at either one is not: as the board has it."""
-    at_limit = np.array([100.0, -100.0, 99.9999, -99.9999])[:, None] * np.eye(6)[2]
-    assert [coverage(PLAIN, load[None]).share for load in at_limit] == [0.0, 0.0, 1.0, 1.0]
-
-
-def test_coverage_does_not_depend_on_the_order_of_samples() -> None:
-    """Shuffled loads give the same share and head-room."""
-    loads = RNG.normal(size=(200, 6)) * [200, 200, 400, 8, 8, 8]
-    found, shuffled = coverage(MIXED, loads), coverage(MIXED, RNG.permutation(loads))
-    assert 0.0 < found.share < 1.0
-    assert shuffled.share == found.share
-    np.testing.assert_allclose(shuffled.head_room_above, found.head_room_above, rtol=0, atol=ROUNDING)
-
-
-def test_loads_within_each_axis_may_saturate_together() -> None:
-    """Negative control: half the reachable load along all axes at once is not covered, so axes are not independent."""
-    found = reachable_full_scale(MIXED)
-    together = np.array([found.positive * signs for signs in RNG.choice([-0.5, 0.5], size=(64, 6))])
-    assert coverage(MIXED, together).share < 1.0
-
-
 def test_a_sensor_that_is_saturated_at_rest_is_refused() -> None:
     """Without room at zero load there is no full scale; the message names the channel."""
     with pytest.raises(SensorError, match="channel 0 reads -1010 counts without load"):
@@ -135,7 +102,7 @@ def test_a_sensor_that_is_saturated_at_rest_is_refused() -> None:
 
 
 def test_bad_limits_are_refused() -> None:
-    """Eight channels, a singular matrix, limits that cross, no loads."""
+    """Eight channels, a singular matrix, limits that cross."""
     with pytest.raises(ShapeError, match="matrix"):
         dataclasses.replace(PLAIN, matrix=np.ones((6, 8)))
     with pytest.raises(SensorError, match="singular"):
@@ -144,10 +111,6 @@ def test_bad_limits_are_refused() -> None:
         dataclasses.replace(PLAIN, matrix=np.diag([1.0, 1, 1, 1, 1, 0]))
     with pytest.raises(SensorError, match="lowest below highest"):
         dataclasses.replace(PLAIN, lowest=PLAIN.highest)
-    with pytest.raises(SensorError, match="at least one load"):
-        coverage(PLAIN, np.zeros((0, 6)))
-    with pytest.raises(ShapeError, match="wrench"):
-        coverage(PLAIN, np.zeros(6))
 
 
 def test_units_of_moments_do_not_make_a_matrix_singular() -> None:

@@ -17,7 +17,7 @@ from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from forcetorque.skin.wrench.patch import SkinPatch
-from forcetorque.skin.wrench.pressures_over_recording import touched_at_rest
+from forcetorque.skin.wrench.pressures_over_recording import _short_noise, touched_at_rest
 from tests.scenes.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 from tests.skin.contact_trials import chamber_table
 
@@ -145,3 +145,13 @@ def test_what_heat_cannot_explain_is_not_taken_as_rest(table: PressureTable, lea
     follower, told = _followed(table, slow, HAND, re_tare=True)
     assert [release.re_tare for release in follower.releases] == ["no"]
     assert _forces(told, 315.0, 325.0).min() > 0.3 * TRUE_N
+
+
+def test_the_noise_from_one_message_to_the_next_is_its_standard_deviation() -> None:
+    """Of white noise of less than two counts, to four standard errors; one large step among 4000 changes it by 1 %."""
+    rng = np.random.default_rng(12)
+    counts = rng.normal(size=(4000, 2)) * [0.4, 1.2]
+    noise = _short_noise(counts)
+    np.testing.assert_allclose(noise, [0.4, 1.2], rtol=4.0 * np.sqrt(0.75 / 4000))
+    counts[2000:] += 80.0
+    np.testing.assert_allclose(_short_noise(counts), noise, rtol=0.02)

@@ -14,8 +14,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.formats.ros.mcap_writer import typestore
+from forcetorque.formats.ros.bag import opened_bag, typestore
 from forcetorque.viewer.foxglove_layout import layout_file, write_layout
 from forcetorque.viewer.mcap_file import write_mcap
 from forcetorque.viewer.scene_builder import BuiltScene

@@ -100,9 +100,15 @@ def agreeing_moments(
     """
     recording, data_sets = CampaignRecording.of(run), [interval.data_set for interval in intervals]
     compared = data_sets if around is None else around
-    of_compared, spans = agreeing_samples(
-        compared, recording.sensor.prior, assumptions_of(recording), variables=variables, drift=recording.options.drift
-    )
+    of_compared, spans = [np.ones(len(data.raw), dtype=bool) for data in compared], tuple[Disagreeing, ...]()
+    if "disagreeing" not in run.experiment.processing.keep:
+        of_compared, spans = agreeing_samples(
+            compared,
+            recording.sensor.prior,
+            assumptions_of(recording),
+            variables=variables,
+            drift=recording.options.drift,
+        )
     if around is None:
         agree = of_compared
     else:
@@ -121,7 +127,7 @@ def agreeing_moments(
     return kept, [
         f"interval {span.label!r}: {span.start_s - start_s:.2f} to {span.end_s - start_s:.2f} s is left out: the "
         f"readings disagree there with all others, by up to {span.force_N:.2g} N and {span.moment_Nm:.2g} N m, as if "
-        "something touched the distal links; `inspect` shows contacts"
+        "something touched the distal links; `inspect` shows contacts, keep of [processing] uses them all the same"
         for span in spans
     ]
 

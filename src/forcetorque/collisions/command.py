@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from forcetorque.results.command import Option, command
 
 if TYPE_CHECKING:
-    from forcetorque.collisions.result import Collisions
-    from forcetorque.collisions.torque_result import JointCollisions
+    from forcetorque.collisions.result import Collisions, JointCollisions
     from forcetorque.experiment.calibrations_under_test import OneCalibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_run import SensorRun
@@ -49,7 +48,7 @@ def collisions(
         ExperimentError: If there is no interval to look at, or too little time without contact.
     """
     from forcetorque.collisions.collisions import find_collisions
-    from forcetorque.collisions.soles import events_on_soles
+    from forcetorque.collisions.findings import events_on_soles
     from forcetorque.experiment.calibrations_under_test import one_named
 
     name, read_by = one_named(calibration)

@@ -23,8 +23,7 @@ from forcetorque.results.visual_roles import CONTACT
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from forcetorque.collisions.result import Collisions
-    from forcetorque.collisions.torque_result import JointCollisions
+    from forcetorque.collisions.result import Collisions, JointCollisions
 
 
 _FORCE: dict[str, Any] = {"color": look(0).colour, "linewidth": 0.8}

@@ -13,8 +13,7 @@ from forcetorque.results.command import Option, Saved, command
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
-    from forcetorque.dataset.compensation_result import CompensatedDataset
-    from forcetorque.dataset.result import DatasetCheck
+    from forcetorque.dataset.result import CompensatedDataset, DatasetCheck
     from forcetorque.experiment.calibration.artefact import Calibration
 
 _SENSES = ("sensor_to_world", "world_to_sensor")
@@ -28,7 +27,7 @@ def _require_positive(flag: str, value: float | None) -> None:
 
 
 @command(
-    None,
+    "the findings over episodes, and the weight along gravity in each",
     Saved(flags=("--html",), help="HTML page of the result.", function="forcetorque.dataset.check:write_page"),
 )
 def check_dataset(
@@ -107,7 +106,7 @@ def _refuse_contradiction(calibration: "Calibration", direction: str, unit: str 
         )
 
 
-@command(None)
+@command("mass and centre of mass of the tool that was taken off")
 def compensate_dataset(
     folder: Annotated["Path | str", Option("Folder of a LeRobot dataset, v2.1 or v3.0.")],
     output: Annotated[

@@ -19,10 +19,10 @@ from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.units import NORMAL_95, si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection, wrench_matrix
 from forcetorque.dataset.added_features import Added, AddedFeature, add_features, refuse_known_features
-from forcetorque.dataset.compensation_result import CompensatedDataset
 from forcetorque.dataset.episode_checks import equal_runs
 from forcetorque.dataset.force_fields import ForceField, OrientationField
 from forcetorque.dataset.frames import episode_frames, file_frames
+from forcetorque.dataset.result import CompensatedDataset
 from forcetorque.dataset.resumable_folder import resumable_folder
 from forcetorque.dataset.tool_load import KnownLoad, Tool, ToolSamples, identified
 from forcetorque.experiment.calibration.artefact import Calibration

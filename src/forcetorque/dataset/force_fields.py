@@ -15,7 +15,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.lerobot.dataset import INFO, Feature, LeRobotDataset
-from forcetorque.inspection.draft.streams import FORMS_OF_THREE, array_words, column_matches
+from forcetorque.inspection.draft.column_matches import FORMS_OF_THREE, array_words, column_matches
 from forcetorque.recording.orientation import OrientationForm, OrientationLayout, OrientationSense, orientation_signals
 
 _WORDS = {"wrench", "force", "forces", "torque", "torques", "moment", "moments", "effort", "ft", "tau"}
@@ -235,6 +235,12 @@ def orientation_field(
     if chosen in known and form is None:
         labels, written = known[chosen]
     elif form is not None:
+        forms = [one for one in OrientationForm if one not in FORMS_OF_THREE]
+        if form not in forms:
+            raise FormatError(
+                f"{where}: {chosen}: expected the form {', '.join(forms)}, got {form}; of angles and rotation vectors "
+                "the dataset states no unit: write quaternions"
+            )
         labels, written = dataset.feature(chosen).labels, OrientationForm(form)
     else:
         dataset.feature(chosen)
@@ -243,6 +249,6 @@ def orientation_field(
             "qz qw; the format does not say"
         )
     layout = OrientationLayout(form=written, sense=OrientationSense(sense), gravity=gravity)
-    if layout.unit != "1" or layout.count != len(labels):
+    if layout.count != len(labels):
         raise FormatError(f"{where}: {chosen}: expected {layout.count} numbers of {written}, got {len(labels)}")
     return OrientationField(name=chosen, labels=labels, layout=layout)

@@ -13,7 +13,12 @@ from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.results.table import FloatOrNull, Row
-from forcetorque.sensor.full_scale import RawLimits, ReachableFullScale, all_channels_full_scale, reachable_full_scale
+from forcetorque.sensor.full_scale import (
+    RawLimits,
+    ReachableFullScale,
+    axis_resolution as largest_step,
+    reachable_full_scale,
+)
 from forcetorque.sensor.gains.amplifier_gains import AxisResolution, axis_resolution
 
 LEAST_TEMPERATURE_SPAN = 1.0
@@ -68,7 +73,7 @@ def matrix_checks(matrix: FloatArray, offset: FloatArray, *, limit_counts: float
     return MatrixChecks(
         resolution=axis_resolution(matrix),
         condition=matrix_condition(matrix),
-        stated_full_scale=all_channels_full_scale(matrix, limit_counts=limit_counts),
+        stated_full_scale=limit_counts * largest_step(matrix),
         full_scale=full_scale,
         no_full_scale=reason,
     )
@@ -90,7 +95,7 @@ def matrix_condition(matrix: FloatArray) -> float:
     Raises:
         ShapeError: If there are fewer than six channels.
     """
-    scale = all_channels_full_scale(matrix, limit_counts=1.0)
+    scale = largest_step(matrix)
     if matrix.shape[1] < 6:
         raise ShapeError(f"matrix: expected at least 6 channels, got {matrix.shape[1]}; six components need six")
     if not scale.all():

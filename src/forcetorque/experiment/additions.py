@@ -20,6 +20,8 @@ from forcetorque.experiment.core_tables import PoseTable, TransformTable
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.recording.orientation import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
+from forcetorque.recording.stream_faults import glitched_values
+from forcetorque.results.number_text import counted
 from forcetorque.results.result import Result, UnusableSamples
 from forcetorque.robot.model import RobotModel
 
@@ -53,7 +55,9 @@ def follow_recipes(
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)
-    findings = (*recording.findings, *_standing(fixed, parsed), *_corrected(parsed))
+    if "glitches" not in parsed.processing.keep:
+        recording = _without_glitches(parsed, recording)
+    findings = (*recording.findings, *_standing(fixed, parsed), *_corrected(parsed), *_kept(parsed))
     return replace(recording, findings=findings)
 
 
@@ -83,6 +87,58 @@ def _corrected(parsed: schema.ExperimentFile) -> Sequence[Finding]:
         return ()
     text = f"the robot model is corrected by the masses, centres and joint zeros of {parsed.robot.tolerance.found_by}"
     return (Finding(stream=parsed.name, kind="corrected_robot", message=text, count=1),)
+
+
+def _kept(parsed: schema.ExperimentFile) -> Sequence[Finding]:
+    if not parsed.processing.keep:
+        return ()
+    kept = ", ".join(parsed.processing.keep)
+    text = f"used although left out by default, as keep of [processing] states: {kept}"
+    return (Finding(stream=parsed.name, kind="kept", message=text, count=len(parsed.processing.keep)),)
+
+
+def _without_glitches(parsed: schema.ExperimentFile, recording: Recording) -> Recording:
+    """The recording without single values of the sensors' variables that are nowhere near the others."""
+    columns = {
+        (variable.stream or sensor.stream, variable.quantity, variable.column)
+        for sensor in parsed.sensor
+        for variable in sensor.variable
+    }
+    for name, quantity, column in sorted(columns, key=str):
+        stream = recording.streams.get(name)
+        signal = None if stream is None else stream.signals.get(quantity)
+        if stream is None or signal is None or column not in (None, *signal.columns):
+            continue  # whoever reads the variable says so
+        place = 0 if column is None else signal.columns.index(column)
+        values = signal.values[:, place]
+        glitched = glitched_values(values)
+        if not glitched.any():
+            continue
+        rows, kept = np.flatnonzero(glitched), values[np.isfinite(values) & ~glitched]
+        message = (
+            f"{signal.columns[place]} ({signal.units[place]}): left out {counted(len(rows), 'value')} of {len(values)} "
+            f"that {'is' if len(rows) == 1 else 'are'} nowhere near the others: "
+            f"{', '.join(f'{value:.4g}' for value in np.unique(values[rows])[:3])}; the others lie from "
+            f"{kept.min():.4g} to {kept.max():.4g}"
+        )
+        finding = Finding(
+            stream=name,
+            kind="glitch",
+            message=message,
+            count=len(rows),
+            start_ns=int(stream.stamp_ns[rows[0]]),
+            end_ns=int(stream.stamp_ns[rows[-1]]),
+            channel=signal.columns[place],
+        )
+        without = signal.values.copy()
+        without[rows, place] = np.nan
+        signals = {**stream.signals, quantity: replace(signal, values=without)}
+        recording = replace(
+            recording,
+            streams={**recording.streams, name: replace(stream, signals=signals)},
+            findings=(*recording.findings, finding),
+        )
+    return recording
 
 
 def _transformed(recording: Recording, entry: TransformTable) -> Recording:
@@ -123,8 +179,8 @@ def _pose(table: PoseTable | None) -> FloatArray:
 Options = ParamSpec("Options")
 Answer = TypeVar("Answer", bound=Result)
 
-ADDED = {"clock", "transformed", "fixed_joint", "corrected_robot", "stated_rate", "skipped_rows"}
-"""Kinds of findings that say what the experiment file adds to its log."""
+ADDED = {"clock", "transformed", "fixed_joint", "corrected_robot", "stated_rate", "skipped_rows", "glitch", "kept"}
+"""Kinds of findings that say what the experiment file adds to its log, or what is left out of it for all."""
 
 
 def added_to(recording: Recording) -> tuple[str, ...]:

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Supports and intervals of an experiment, on the clock of its recording."""
+"""Supports and intervals of an experiment, on the clock of its recording; also those stated once for every file."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from forcetorque.base.arrays import BoolArray, IntArray
-from forcetorque.base.errors import ExperimentError, known_names
+from forcetorque.base.errors import ExperimentError, known_names, require_known
 from forcetorque.experiment import file as schema
+from forcetorque.experiment.file import EACH_FILE, ExperimentFile
 from forcetorque.experiment.input_files import stated_in
-from forcetorque.experiment.intervals_of_files import with_intervals_of_files
 from forcetorque.experiment.section import require_link
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.mechanics.root_motion import imu_frame, imu_streams
@@ -218,3 +219,68 @@ def read_spans(parsed: schema.ExperimentFile, file: Path, recording: Recording) 
         spans.append(RecordedSpan(label=span.label, start_ns=start_ns, end_ns=end_ns, use=span.use))
     refuse_overlap(file, spans)
     return tuple(spans)
+
+
+_AFTER_S = 1e-9
+"""Time after the last sample of a file at which its interval ends, itself excluded; one step of the clock."""
+
+
+def with_intervals_of_files(parsed: ExperimentFile, file: Path, recording: Recording) -> ExperimentFile:
+    """Replace every interval with `files` by one for each file of its stream.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        recording: The streams, with the files that they were put together of.
+
+    Returns:
+        The content with intervals in the order of the files.
+
+    Raises:
+        ExperimentError: If there is no such stream of files, a file is shorter, or [[clock]] moves samples.
+    """
+    if all(span.files is None for span in parsed.interval):
+        return parsed
+    spans = [
+        one
+        for index, span in enumerate(parsed.interval)
+        for one in ([span] if span.files is None else _of_files(f"{file}: interval[{index}]", parsed, span, recording))
+    ]
+    return parsed.model_copy(update={"interval": tuple(spans)})
+
+
+def _of_files(
+    where: str, parsed: ExperimentFile, span: schema.Interval, recording: Recording
+) -> Iterator[schema.Interval]:
+    stream = span.files or ""
+    require_known(
+        stream, recording.files, ExperimentError, f"{where}: files: expected a stream of text tables, got {stream!r}"
+    )
+    if parsed.clock:
+        raise ExperimentError(f"{where}: files: expected no [[clock]] beside it; state start_s and end_s of each file")
+    files, stamps = recording.files[stream], recording.stream(stream).stamp_ns
+    stems = [PurePosixPath(one.name).stem for one in files]
+    same = [stem for stem, count in Counter(stems).items() if count > 1]
+    if same:
+        raise ExperimentError(f"{where}: files: expected names that differ, got {same[0]!r} in several folders")
+    first = 0
+    for stem, one in zip(stems, files, strict=True):
+        own = stamps[first : first + one.rows]
+        first += one.rows
+        if not len(own):
+            raise ExperimentError(f"{where}: files: {one.name} has no sample; take it away")
+        start_s, last_s = (1e-9 * (int(stamp) - recording.start_ns) for stamp in (own[0], own[-1]))
+        end_s = last_s + _AFTER_S if span.end_s is None else start_s + span.end_s
+        if not span.start_s + start_s <= last_s or end_s > last_s + 2.0 * _AFTER_S:
+            raise ExperimentError(
+                f"{where}: {one.name} has samples of {last_s - start_s:.6g} s, expected as many as from start_s = "
+                f"{span.start_s:g} to end_s = {'its end' if span.end_s is None else format(span.end_s, 'g')}"
+            )
+        yield span.model_copy(
+            update={
+                "label": span.label.replace(EACH_FILE, stem),
+                "files": None,
+                "start_s": start_s + span.start_s,
+                "end_s": end_s,
+            }
+        )

@@ -39,8 +39,7 @@ from forcetorque.experiment.file import (
     section_fields,
 )
 from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
-from forcetorque.experiment.intervals import read_intervals, read_supports
-from forcetorque.experiment.intervals_of_files import with_intervals_of_files
+from forcetorque.experiment.intervals import read_intervals, read_supports, with_intervals_of_files
 from forcetorque.experiment.kept_experiments import keep_experiment
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount

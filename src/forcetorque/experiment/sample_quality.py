@@ -22,6 +22,7 @@ from forcetorque.recording.frozen_and_saturated_samples import (
     mask_of,
     noisy_runs,
     ranges_of,
+    repeated_readings,
     repeated_samples,
     smallest_steps,
 )
@@ -155,12 +156,19 @@ def _sample_quality(experiment: Experiment, sensor: ExperimentSensor) -> SampleQ
     values = stream.signal(sensor.quantity).values
     # what a board holds and says so is saturated, whatever it repeats
     runs = [run for run in equal_runs(stream.stamp_ns, values) if not stream.held[run[0] + 1 : run[1] + 1].all()]
-    frozen = noisy_runs(stream.stamp_ns, values, runs)
-    frozen += _moved_runs(experiment, sensor, [run for run in runs if run not in frozen])
+    keep, nowhere = experiment.processing.keep, np.zeros(len(stream), dtype=bool)
+    frozen = [] if "frozen" in keep else noisy_runs(stream.stamp_ns, values, runs)
+    if "frozen" not in keep:
+        frozen += _moved_runs(experiment, sensor, [run for run in runs if run not in frozen])
+    is_frozen = mask_of(frozen, len(stream))
+    saturated = nowhere if "saturated" in keep else _saturated(sensor, stream)
+    again = nowhere if "repeated" in keep else repeated_readings(stream.stamp_ns, values)
+    # of a run that is kept, its samples are too
+    again = again & ~(is_frozen | saturated | stream.held | mask_of(runs, len(stream)))
     return SampleQuality(
-        frozen=mask_of(frozen, len(stream)),
-        saturated=_saturated(sensor, stream),
-        repeated=repeated_samples(stream.stamp_ns),
+        frozen=is_frozen,
+        saturated=saturated,
+        repeated=repeated_samples(stream.stamp_ns) | again,
     )
 
 

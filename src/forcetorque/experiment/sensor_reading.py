@@ -15,9 +15,10 @@ from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.experiment.calibration.artefact import Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.sample_quality import usable_readings
+from forcetorque.experiment.sample_quality import sample_quality, usable_readings
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Interval
+from forcetorque.recording.stream import Stream
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -252,10 +253,15 @@ def readings_at(
         at_ns: Instants; shape (n,); ns.
 
     Returns:
-        Its readings; NaN in gaps and where samples say nothing of the load.
+        Its readings; NaN in gaps and where samples say nothing of the load; between the others where it is repeated.
     """
     stream = experiment.recording.stream(sensor.stream)
     logged = usable_readings(experiment, sensor)
+    repeated = sample_quality(experiment, sensor).repeated
+    if repeated.any():
+        logged = logged[~repeated]
+        signals = {sensor.quantity: replace(stream.signal(sensor.quantity), values=logged)}
+        stream = Stream(name=stream.name, clock=stream.clock, stamp_ns=stream.stamp_ns[~repeated], signals=signals)
     values = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in variables}
     return Readings.of(sensor, interpolate(stream, logged, at_ns), values)
 

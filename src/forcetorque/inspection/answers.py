@@ -155,20 +155,26 @@ def faults(findings: Iterable[FindingRow]) -> tuple[FindingRow, ...]:
 
 
 def causes(inspection: Inspection) -> tuple[FindingRow, ...]:
-    """Select the faults, and before them joints that jump in an interval in use, which make a measurement implausible.
+    """Select the faults, and before them joints that jump in an interval in use, which may be why.
 
     Args:
         inspection: What was found by an experiment file.
 
     Returns:
-        The jumps, where a measurement is implausible, and the faults.
+        The jumps of all joints where a measurement is implausible, else of those that a fault is about, and the faults.
     """
     wrong = faults(inspection.findings)
-    if not any(row.kind == "implausible" for row in wrong):
-        return wrong
+    is_implausible = any(row.kind == "implausible" for row in wrong)
+    about = {row.channel for row in wrong if row.kind in ("joint_offset", "joint_sign")}
     in_use = inspection.in_use_s or ((0.0, inspection.duration_s),)
-    jumps = [row for row in inspection.findings if row.kind == "joint_jump"]
-    return (*(row for row in jumps if any(_acts_s(row, *interval) > 0.0 for interval in in_use)), *wrong)
+    jumps = (
+        row
+        for row in inspection.findings
+        if row.kind == "joint_jump"
+        and (is_implausible or row.channel in about)
+        and any(_acts_s(row, *interval) > 0.0 for interval in in_use)
+    )
+    return (*jumps, *wrong)
 
 
 def has_proposal(inspection: Inspection) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.inspection.comparison import Comparison
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
+from forcetorque.recording.joint_jumps import joint_jump_findings
 
 
 def fault_size(one: Explanation) -> tuple[float | None, str | None]:
@@ -56,7 +57,8 @@ def fault_text(comparison: Comparison, one: Explanation) -> str:
     if one.kind == "joint_sign":
         return f"joint {one.about!r} turns the other way"
     if one.kind == "joint_offset":
-        return f"the zero of joint {one.about!r} is off by {_interval(one, degrees)} deg"
+        across = " in the mean over readings that jump" if _jumps(comparison, one.about) else ""
+        return f"the zero of joint {one.about!r} is off by {_interval(one, degrees)} deg{across}"
     if one.kind == "joint_unit":
         return f"positions of the joints are in {one.about}"
     if one.kind == "columns":
@@ -67,6 +69,17 @@ def fault_text(comparison: Comparison, one: Explanation) -> str:
         return _delay_text(comparison, one)
     vector = np.zeros(3) if one.vector is None else one.vector
     return f"the sensor is turned by {_interval(one, degrees)} deg about {_axis_text(vector)} against the URDF"
+
+
+def _jumps(comparison: Comparison, joint: str) -> bool:
+    """Whether compared samples lie on both sides of a jump of a joint, so that no one zero is right for all."""
+    recording, at_ns = comparison.run.experiment.recording, comparison.at_ns
+    stream, signal = recording.joint_signals("position")[joint]
+    return any(
+        len(np.unique((at_ns >= jump.start_ns) & (at_ns <= jump.end_ns))) == 2
+        for jump in joint_jump_findings(stream, signal, recording.start_ns)
+        if jump.kind == "joint_jump" and jump.channel == joint and jump.start_ns is not None and jump.end_ns is not None
+    )
 
 
 def _delay_text(comparison: Comparison, one: Explanation) -> str:
@@ -139,6 +152,8 @@ def remedy(comparison: Comparison, one: Explanation) -> str:
             f"check the mass of the links beyond {name!r} in the file that urdf of [robot] names, mass_kg of [load], "
             f"and prior of [[sensor]] {name!r}, at the amplifier gains of the recording"
         )
+    if one.kind in ("joint_offset", "joint_sign") and _jumps(comparison, one.about):
+        return "leave what is beyond the jump out by an [[interval]] that `forcetorque inspect` states"
     if one.kind == "joint_sign":
         return f"turn the sign of its column in [[recording.stream]], or <axis> of joint {one.about!r} in the URDF"
     if one.kind == "joint_offset":

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from forcetorque.formats.ros.mcap_writer import mcap_writer, typestore
+from forcetorque.formats.ros.bag import mcap_writer, typestore
 from forcetorque.formats.ros.messages import WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import encoder_of, has_time_for
 from forcetorque.live.outputs import CorrectedRow

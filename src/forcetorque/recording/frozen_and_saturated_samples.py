@@ -26,6 +26,8 @@ grid, what a simulation computes of a motion."""
 _ON_GRID, _FINEST = 0.01, 1e-7
 """Part of a step by which changes of readings on a grid differ from whole steps; and the finest step of a converter,
 relative to the range, below which the grid is that of floating point."""
+_FAR_MORE = 100.0
+"""Equal readings, in those of chance, from which on the log repeats them: of a hundred one may be a measurement."""
 _BESIDE = 2
 """Neighbours on either side of a sample, whose cubic follows a smooth motion and no noise."""
 _NEIGHBOURS = -56.0 / 36.0
@@ -58,7 +60,7 @@ class UnusableCounts:
     saturated: int = 0
     """Samples at the limit of the converter, or held by a board that flags it."""
     repeated: int = 0
-    """Messages whose stamp does not step forward."""
+    """Messages whose stamp does not step forward, or that repeat the reading before under a new stamp."""
 
     @classmethod
     def total(cls, parts: Iterable[UnusableCounts]) -> Self:
@@ -78,7 +80,7 @@ class UnusableCounts:
         return bool(self.frozen or self.saturated or self.repeated)
 
     def __str__(self) -> str:
-        counts = {"frozen": self.frozen, "saturated": self.saturated, "with a repeated stamp": self.repeated}
+        counts = {"frozen": self.frozen, "saturated": self.saturated, "repeated": self.repeated}
         return ", ".join(f"{count} {name}" for name, count in counts.items() if count) or "none"
 
 
@@ -91,7 +93,7 @@ class SampleQuality:
     saturated: BoolArray
     """Samples at the limit of the converter, or held by a board that flags it; shape (n,)."""
     repeated: BoolArray
-    """Messages whose stamp does not step forward; shape (n,)."""
+    """Messages whose stamp does not step forward, or that repeat the reading before under a new stamp; shape (n,)."""
 
     @property
     def unusable(self) -> BoolArray:
@@ -203,22 +205,65 @@ def noisy_runs(stamp_ns: IntArray, values: FloatArray, runs: Collection[Run]) ->
     changed = int(np.count_nonzero(changes[moving].any(axis=1)))
     if not changed:
         return []
-    variance = white_variance(stamps, np.where(elsewhere[:, None], samples, np.nan))
+    per_reading = _log_chance_of_equal(stamps, np.where(elsewhere[:, None], samples, np.nan), changes[moving], values)
+    held = np.count_nonzero(moving) / changed  # samples for which the log repeats a reading that the sensor gave once
+    counts = np.cumsum(np.isin(np.arange(len(stamp_ns)), usable))
+    chance = held * np.log(_BY_CHANCE)
+    return [(first, last) for first, last in runs if (counts[last] - counts[first]) * per_reading < chance]
+
+
+def _log_chance_of_equal(stamps: IntArray, samples: FloatArray, changes: FloatArray, values: FloatArray) -> float:
+    """Estimate how seldom noise gives one reading twice in a row.
+
+    Args:
+        stamps: Stamps, which increase; shape (m,); ns.
+        samples: Readings of which the noise counts; shape (m, c); NaN where none is to count.
+        changes: Changes from one of them to the next; shape (k, c).
+        values: All readings of the log, which tell resolution and range; shape (n, c).
+
+    Returns:
+        Logarithm of the chance.
+    """
+    variance = white_variance(stamps, samples)
     step = smallest_steps(values)
     noise = np.sqrt(np.maximum(variance - _ROUNDING * step**2, 0.0))
     ranges = ranges_of(values)
-    of_converter = (step > _FINEST * ranges) & _are_on_grid(changes[moving], step)
+    of_converter = (step > _FINEST * ranges) & _are_on_grid(changes, step)
     least = np.where(of_converter, _WRITTEN, _COMPUTED) * ranges
     noise[np.sqrt(variance) <= least] = 0.0
     # a reading that lies in the middle of a step stays there longest
     stays = np.ones(len(noise))
     stays[noise > 0.0] = erf(step[noise > 0.0] / (noise[noise > 0.0] * 8.0**0.5))
-    held = np.count_nonzero(moving) / changed  # samples for which the log repeats a reading that the sensor gave once
     with np.errstate(divide="ignore"):
-        per_reading = float(np.log(stays).sum())
-    counts = np.cumsum(np.isin(np.arange(len(stamp_ns)), usable))
-    chance = held * np.log(_BY_CHANCE)
-    return [(first, last) for first, last in runs if (counts[last] - counts[first]) * per_reading < chance]
+        return float(np.log(stays).sum())
+
+
+def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
+    """Find samples that repeat the reading before them in all channels under a new stamp.
+
+    They are of a sensor that is slower than its log, or of messages that were lost and replaced; at a load that moves
+    they are late. They count where noise gives far fewer of them.
+
+    Args:
+        stamp_ns: Stamps in the order of the log; shape (n,); ns.
+        values: Readings; shape (n, c); NaN in gaps.
+
+    Returns:
+        Which they are; shape (n,).
+    """
+    usable = usable_samples(stamp_ns)
+    same = (np.diff(values[usable], axis=0) == 0.0).all(axis=1)
+    marks, count = np.zeros(len(stamp_ns), dtype=bool), int(np.count_nonzero(same))
+    if not count or count == len(same):
+        return marks
+    first = np.concatenate([[True], ~same])
+    samples = values[usable][first]
+    changes = np.diff(samples, axis=0)
+    changes = changes[np.isfinite(changes).all(axis=1)]
+    chance = np.exp(_log_chance_of_equal(stamp_ns[usable][first], samples, changes, values))
+    if count > _FAR_MORE * len(same) * chance:
+        marks[usable[1:][same]] = True
+    return marks
 
 
 def smallest_steps(values: FloatArray) -> FloatArray:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,8 +15,11 @@ from forcetorque.recording.frozen_and_saturated_samples import (
     at_limit,
     equal_runs,
     exceeds_limit,
+    mask_of,
     noisy_runs,
+    repeated_readings,
 )
+from forcetorque.recording.joint_jumps import joint_jump_findings
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 
@@ -29,14 +31,9 @@ STUCK_NOISY_SECONDS = 0.2
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
-_JUMP, _JUMP_SPEED, _JUMP_STEPS, _AROUND = 0.1, 15.0, 10.0, 5
-"""Joints jump from one sample to the next by over 0.1 rad (0.1 m), faster than 15 rad/s (15 m/s), and by ten times the
-median of the five steps on either side, of a reading that is held those at which it changes."""
-_SPOILT_S = 0.6
-"""Time about a jump that its derivatives spoil: twice the windows that they are taken over."""
-_TURN = 2.0 * np.pi
-_FEW = 3
-"""Jumps of a joint by a turn whose times are named."""
+_GLITCH_SHARE, _GLITCH_REACH, _GLITCH_AT_ENDS = 0.05, 10.0, 3
+"""Values beyond ten times the distance from the median within which 95 % of them lie are glitches if they come and go
+by jumps of as much; a run at an end of the log, which only comes or only goes, if it is of at most three samples."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -51,7 +48,8 @@ def stream_findings(
     Args:
         stream: The stream.
         start_ns: Start of the recording, from which intervals are stated; ns; that of the stream if None.
-        ignored_ns: First and last instant of spans that are left out of every use; ns. Joints that jump there are none.
+        ignored_ns: First and last instant of spans that are left out of every use; ns; joints that jump there are not
+            named.
 
     Returns:
         Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels, joints that jump and
@@ -64,10 +62,10 @@ def stream_findings(
         if signal.quantity not in _SPARSE:
             findings += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
-            findings += _stuck_channels(stream, signal)
+            findings += [*_stuck_channels(stream, signal), *_repeated_readings(stream, signal)]
         if signal.quantity == "position" and stream.clock != ROW_CLOCK:
             begin_ns = int(stream.stamp_ns.min()) if start_ns is None else start_ns
-            findings += _joint_jumps(stream, signal, begin_ns, ignored_ns)
+            findings += joint_jump_findings(stream, signal, begin_ns, ignored_ns)
     return tuple(findings)
 
 
@@ -125,6 +123,30 @@ def _reported_saturation(stream: Stream) -> list[Finding]:
     ]
 
 
+def glitched_values(values: FloatArray) -> BoolArray:
+    """Find values that a quantity takes for a moment and that are nowhere near its others, such as a failed conversion.
+
+    Args:
+        values: One column in the order of the log; shape (n,); NaN where it is missing.
+
+    Returns:
+        Which they are; shape (n,).
+    """
+    seen = np.flatnonzero(np.isfinite(values))
+    glitched = np.isinf(values)
+    if len(seen) < 2 * _GLITCH_AT_ENDS:
+        return glitched
+    known = values[seen]
+    away = np.abs(known - np.median(known))
+    limit = _GLITCH_REACH * float(np.quantile(away, 1.0 - _GLITCH_SHARE, method="higher"))
+    steps = np.abs(np.diff(known))
+    for first, last in true_runs(away > limit):
+        ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
+        if min(ends) > limit and (len(ends) == 2 or last - first < _GLITCH_AT_ENDS):
+            glitched[seen[first : last + 1]] = True
+    return glitched
+
+
 def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
     """Find the runs of true values.
 
@@ -161,105 +183,6 @@ def _finding(
         size=size,
         unit=unit,
     )
-
-
-def _joint_jumps(
-    stream: Stream, signal: Signal, start_ns: int, ignored_ns: Sequence[tuple[int, int]]
-) -> Iterator[Finding]:
-    """Joints that move faster from one sample to the next than any robot does; not across gaps."""
-    rows = usable_samples(stream.stamp_ns)
-    if len(rows) <= 2 * _AROUND:
-        return
-    periods = np.diff(stream.stamp_ns[rows])
-    steps = np.abs(np.diff(signal.values[rows], axis=0))
-    seconds = np.maximum(periods, np.median(periods)) * 1e-9
-    fast = (steps > np.maximum(_JUMP, _JUMP_SPEED * seconds[:, None])) & (
-        periods <= gap_limit_ns(stream.stamp_ns[rows])
-    )[:, None]
-    for column, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
-        changes = np.flatnonzero(steps[:, column] != 0.0)
-        jumps = [
-            changes[k]
-            for k in np.flatnonzero(fast[changes, column]).tolist()
-            if steps[changes[k], column] > _JUMP_STEPS * _usual_step(steps[changes, column], k)
-        ]
-        found = []
-        for own in np.split(np.array(jumps, dtype=int), np.flatnonzero(np.diff(jumps) > _AROUND) + 1):
-            if len(own):
-                first, last = int(rows[own[0]]), int(rows[own[-1] + 1])
-                size, speed = float(steps[own, column].max()), float((steps[own, column] / seconds[own]).max())
-                found.append(_Jump(first=first, last=last, size=size, speed=speed, unit=unit))
-        stamps = stream.stamp_ns
-        kept = [
-            one for one in found if not any(a <= stamps[one.first] and stamps[one.last] <= b for a, b in ignored_ns)
-        ]
-        turns = [one for one in kept if one.is_turn]
-        if len(turns) > 1:
-            kept = [one for one in kept if not one.is_turn]
-            yield _wraps(stream, name, turns, start_ns)
-        for one in kept:
-            begin, end = ((int(stamps[row]) - start_ns) * 1e-9 for row in (one.first, one.last))
-            cause = "a lost turn: unwrap it, or" if one.is_turn else "its derivatives there are not those of the robot:"
-            begin_s, end_s = max(begin - _SPOILT_S, 0.0), end + _SPOILT_S
-            text = (
-                f"joint {name!r} jumps by {one.size:.2g} {unit} from one sample to the next ({one.speed:.3g} "
-                f"{unit}/s): {cause} put an [[interval]] with start_s = {begin_s:.2f}, end_s = {end_s:.2f}, "
-                'use = "ignore" about it'
-            )
-            yield _finding(
-                stream, "joint_jump", text, one.first, one.last, channel=name, size=one.speed, unit=f"{unit}/s"
-            )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Jump:
-    """A jump of a joint."""
-
-    first: int
-    """Last row before it."""
-    last: int
-    """First row behind it."""
-    size: float
-    """Largest step in it; rad or m."""
-    speed: float
-    """Largest speed in it; rad/s or m/s."""
-    unit: str
-    """Unit of the step."""
-
-    @property
-    def is_turn(self) -> bool:
-        """Whether it is by a turn."""
-        return self.unit == "rad" and abs(self.size - _TURN) < 0.05 * _TURN
-
-
-def _wraps(stream: Stream, name: str, turns: Sequence[_Jump], start_ns: int) -> Finding:
-    """One finding for all jumps of a joint by a turn."""
-    times = ", ".join(f"{(int(stream.stamp_ns[one.first]) - start_ns) * 1e-9:.2f}" for one in turns[:_FEW])
-    more = ", ..." if len(turns) > _FEW else ""
-    text = (
-        f"joint {name!r} jumps by a turn from one sample to the next {len(turns)} times, at {times}{more} s: its "
-        f'reading wraps; unwrap it (numpy.unwrap), or put an [[interval]] with use = "ignore" from {_SPOILT_S} s '
-        f"before to {_SPOILT_S} s behind each"
-    )
-    speed = max(one.speed for one in turns)
-    return _finding(
-        stream,
-        "joint_jump",
-        text,
-        turns[0].first,
-        turns[-1].last,
-        count=len(turns),
-        channel=name,
-        size=speed,
-        unit=f"{turns[0].unit}/s",
-    )
-
-
-def _usual_step(changes: FloatArray, k: int) -> float:
-    """Median of the changes about one of them; where a reading rests but for a few, that of rest."""
-    if len(changes) <= 2 * _AROUND:
-        return 0.0
-    return float(np.nanmedian(changes[max(k - _AROUND, 0) : k + _AROUND + 1]))
 
 
 def _gaps(stream: Stream) -> list[Finding]:
@@ -343,6 +266,19 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
             seconds = _seconds(stream, (at, last))
             findings.append(_finding(stream, "stuck", text, at, last, channel=name, size=seconds, unit="s"))
     return findings
+
+
+def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
+    """Readings that the log gives again under new stamps, beside those that are frozen."""
+    long = mask_of(equal_runs(stream.stamp_ns, signal.values), len(stream))
+    again = np.flatnonzero(repeated_readings(stream.stamp_ns, signal.values) & ~long & ~stream.held)
+    if len(again):
+        text = (
+            f"{len(again)} of {len(stream)} samples repeat the {signal.quantity} before under a new stamp: the sensor "
+            "is slower than its log, or messages were lost and replaced; fits leave them out"
+        )
+        first, last = int(again[0]), int(again[-1])
+        yield _finding(stream, "repeated_reading", text, first, last, channel=signal.quantity, count=len(again))
 
 
 def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:

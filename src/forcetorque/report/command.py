@@ -68,7 +68,6 @@ def report(
     from forcetorque.results.result import created_now
     from forcetorque.results.terminal.input import read_experiment
     from forcetorque.viewer.page import require_few_samples
-    from forcetorque.viewer.posture import sample_count
 
     log = start_logging()
     require_writable(output)
@@ -79,7 +78,7 @@ def report(
     experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in sources.experiments]
     if viewer:
         for file, experiment in experiments:
-            require_few_samples(f"--viewer of {file}", sample_count(experiment))
+            require_few_samples(f"--viewer of {file}", _shown_samples(experiment))
     groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
     if sensor:
         groups = [
@@ -108,6 +107,17 @@ def report(
         log.warning("%s", failure)
     written = written.model_copy(update={"files": tuple(map(str, files))})
     show(written, output_format, details=details, experiments=sources.experiments)
+
+
+def _shown_samples(experiment: Experiment) -> int:
+    """Samples in the viewer; 0 where there is none, for which its section gives the reason."""
+    from forcetorque.base.errors import ExperimentError, RecordingError
+    from forcetorque.viewer.posture import sample_count
+
+    try:
+        return sample_count(experiment)
+    except (ExperimentError, RecordingError):
+        return 0
 
 
 def _of_sensors(

@@ -152,26 +152,3 @@ def rgb(colour: str) -> tuple[int, int, int]:
     """
     red, green, blue = bytes.fromhex(colour[1:7])
     return red, green, blue
-
-
-def contrast(one: str, other: str) -> float:
-    """Give the contrast ratio of two colours.
-
-    Args:
-        one: Such as `#0072B2`.
-        other: The other one.
-
-    Returns:
-        From 1 to 21.
-
-    References:
-        Web Content Accessibility Guidelines 2.2, "contrast ratio" and "relative luminance".
-    """
-    lighter, darker = sorted((_luminance(one), _luminance(other)), reverse=True)
-    return (lighter + 0.05) / (darker + 0.05)
-
-
-def _luminance(colour: str) -> float:
-    parts = [part / 255.0 for part in rgb(colour)]
-    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]

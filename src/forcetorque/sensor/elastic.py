@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, require_last_axis
-from forcetorque.base.errors import SensorError
+from forcetorque.base.errors import SensorError, require_positive
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.sensor.number_checks import require_positive
 
 _TERMS = 2 * np.arange(20) + 1
 """Odd orders of the torsion series; the tail beyond them is below 1e-7 of the sum."""
@@ -105,50 +104,6 @@ class Material:
         """Contraction across per strain along, `E / (2 G) - 1`."""
         return self.young_modulus / (2.0 * self.shear_modulus) - 1.0
 
-    def normal_stress(self, strain: Any) -> FloatArray:
-        """Give the stress of a normal strain, thesis (1.7).
-
-        Args:
-            strain: Normal strains; any shape.
-
-        Returns:
-            Normal stresses, positive in tension; same shape; Pa.
-        """
-        return self.young_modulus * np.asarray(strain, dtype=np.float64)
-
-    def normal_strain(self, stress: Any) -> FloatArray:
-        """Give the strain of a normal stress, the inverse of thesis (1.7).
-
-        Args:
-            stress: Normal stresses, positive in tension; any shape; Pa.
-
-        Returns:
-            Normal strains; same shape.
-        """
-        return np.asarray(stress, dtype=np.float64) / self.young_modulus
-
-    def shear_stress(self, strain: Any) -> FloatArray:
-        """Give the stress of a shear strain, thesis (1.8).
-
-        Args:
-            strain: Shear angles; any shape; rad.
-
-        Returns:
-            Shear stresses; same shape; Pa.
-        """
-        return self.shear_modulus * np.asarray(strain, dtype=np.float64)
-
-    def shear_strain(self, stress: Any) -> FloatArray:
-        """Give the strain of a shear stress, the inverse of thesis (1.8).
-
-        Args:
-            stress: Shear stresses; any shape; Pa.
-
-        Returns:
-            Shear angles; same shape; rad.
-        """
-        return np.asarray(stress, dtype=np.float64) / self.shear_modulus
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Beam:
@@ -218,7 +173,7 @@ class Beam:
             + moment_y * z / self.section.second_moment_y
             - moment_z * y / self.section.second_moment_z
         )
-        return self.material.normal_strain(stress)
+        return stress / self.material.young_modulus
 
 
 class Bending(StrEnum):
@@ -318,120 +273,3 @@ class ElasticElement(ArrayRecord):
         """Map wrenches on the arms' inner ends to the sensor's frame; shape (arms, 6, 6)."""
         directions = np.column_stack([np.cos(self.arm_angles), np.sin(self.arm_angles), np.zeros(len(self.arm_angles))])
         return wrench_matrix(make_pose(rotation_about_z(self.arm_angles), self.hub_radius * directions))
-
-
-def y_shaped_element(*, beam: Beam, hub_radius: float, position: float) -> ElasticElement:
-    """Give three arms at 120 degrees with two gauge places each: six channels, as in the FTsense.
-
-    Args:
-        beam: Each arm.
-        hub_radius: Distance of the arms' inner ends from the axis; m.
-        position: Distance of the gauges from the hub; m. At half the arm's length a guided arm has no
-            bending, so gauges there would not see forces.
-
-    Returns:
-        The element; channels 0, 2, 4 see the arms bend in the plane, channels 1, 3, 5 out of it.
-    """
-    return _spokes(beam, hub_radius, position, np.deg2rad([0.0, 120.0, 240.0]))
-
-
-def cross_shaped_element(*, beam: Beam, hub_radius: float, position: float) -> ElasticElement:
-    """Give four arms at 90 degrees with two half-bridges each: eight channels.
-
-    Args:
-        beam: Each arm.
-        hub_radius: Distance of the arms' inner ends from the axis; m.
-        position: Distance of the gauges from the hub; m; not half the arm's length, as for the Y.
-
-    Returns:
-        The element; even channels see the arms bend in the plane, odd ones out of it.
-    """
-    return _spokes(beam, hub_radius, position, np.deg2rad([0.0, 90.0, 180.0, 270.0]))
-
-
-def _spokes(beam: Beam, hub_radius: float, position: float, angles: FloatArray) -> ElasticElement:
-    places = tuple(
-        GaugePlace(arm=arm, position=position, bending=bending)
-        for arm in range(len(angles))
-        for bending in (Bending.IN_PLANE, Bending.OUT_OF_PLANE)
-    )
-    return ElasticElement(beam=beam, hub_radius=hub_radius, arm_angles=angles, places=places)
-
-
-def strain_of_lengths(length: Any, *, initial_length: float) -> FloatArray:
-    """Give the strain of what was stretched from one length to another, thesis (1.4).
-
-    Args:
-        length: Lengths under load; any shape; m.
-        initial_length: Length without load; m.
-
-    Returns:
-        Strains, positive where it grew; same shape.
-
-    Raises:
-        SensorError: If the initial length is not a finite number above zero.
-    """
-    require_positive(initial_length, name="strain_of_lengths: initial_length", unit="m")
-    return (np.asarray(length, dtype=np.float64) - initial_length) / initial_length
-
-
-def direct_strain(force: Any, section: RectangularSection, material: Material) -> FloatArray:
-    """Give the strain along a column under a force along its axis, thesis (1.3) and (1.7).
-
-    A gauge across the axis sees this strain times minus the Poisson ratio.
-
-    Args:
-        force: Forces, positive in tension; any shape; N.
-        section: Cross-section of the column.
-        material: Material of the column.
-
-    Returns:
-        Normal strains along the axis; same shape.
-    """
-    return material.normal_strain(np.asarray(force, dtype=np.float64) / section.area)
-
-
-def bending_strain(moment: Any, section: RectangularSection, material: Material) -> FloatArray:
-    """Give the strain on the upper face of a beam that a moment bends in its x-z plane.
-
-    Plane sections stay plane, so the strain grows linearly from the middle to the faces: `M z / (E I)`.
-
-    Args:
-        moment: Bending moments, positive where they stretch the upper face (z positive); any shape; N m.
-        section: Cross-section of the beam.
-        material: Material of the beam.
-
-    Returns:
-        Normal strains along the beam at z = height / 2; the lower face has the negative; same shape.
-    """
-    stress = np.asarray(moment, dtype=np.float64) * (0.5 * section.height / section.second_moment_y)
-    return material.normal_strain(stress)
-
-
-def shear_strain(force: Any, section: RectangularSection, material: Material) -> FloatArray:
-    """Give the average shear angle of a section under a force across the beam, thesis (1.3) and (1.8).
-
-    It is the average over the section, as in the thesis; at mid-height of a rectangle the angle is
-    1.5 times larger.
-
-    Args:
-        force: Forces across the beam; any shape; N.
-        section: Cross-section of the beam.
-        material: Material of the beam.
-
-    Returns:
-        Shear angles; same shape; rad.
-    """
-    return material.shear_strain(np.asarray(force, dtype=np.float64) / section.area)
-
-
-def diagonal_strain(shear_angle: Any) -> FloatArray:
-    """Give what a gauge at +45 degrees to the neutral axis sees of a shear angle; one at -45 sees the negative.
-
-    Args:
-        shear_angle: Shear angles; any shape; rad.
-
-    Returns:
-        Principal normal strains, half the angle; same shape.
-    """
-    return 0.5 * np.asarray(shear_angle, dtype=np.float64)

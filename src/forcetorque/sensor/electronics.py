@@ -1,27 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From resistance to counts: Wheatstone bridge, amplifier, analogue-to-digital converter, saturation."""
+"""From resistance to counts: Wheatstone bridge, analogue-to-digital converter, saturation."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import (
-    ArrayRecord,
-    BoolArray,
-    FloatArray,
-    array,
-    check_arrays,
-    require_last_axis,
-    require_shape,
-)
-from forcetorque.base.errors import SensorError, ShapeError
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, require_last_axis, require_shape
+from forcetorque.base.errors import SensorError, ShapeError, require_positive
 from forcetorque.sensor.elastic import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
 from forcetorque.sensor.gauge import ResistiveGauge
-from forcetorque.sensor.number_checks import require_positive
 
 
 def bridge_ratio(resistances: Any) -> FloatArray:
@@ -48,25 +38,6 @@ def bridge_ratio(resistances: Any) -> FloatArray:
         raise SensorError(f"resistances: expected numbers above 0 ohm, got {ohms.min():g}")
     r1, r2, r3, r4 = np.moveaxis(ohms, -1, 0)
     return (r1 * r3 - r2 * r4) / ((r1 + r2) * (r3 + r4))
-
-
-def linearised_bridge_ratio(relative_changes: Any) -> FloatArray:
-    """Give the output per input voltage of four resistors that are equal without load, to first order.
-
-    `(c1 - c2 + c3 - c4) / 4`: changes of neighbours subtract, changes of opposite arms add.
-
-    Args:
-        relative_changes: `dR / R` of each arm; shape (..., 4).
-
-    Returns:
-        Output per input voltage; shape (...); wrong by terms of the square of the changes.
-
-    Raises:
-        ShapeError: If there are not four changes.
-    """
-    changes = np.asarray(relative_changes, dtype=np.float64)
-    require_last_axis(changes, name="relative_changes", length=4)
-    return 0.25 * (changes @ np.array([1.0, -1.0, 1.0, -1.0]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,92 +109,11 @@ class Bridge:
 QUARTER_BRIDGE = Bridge(strain_shares=(1.0, 0.0, 0.0, 0.0), is_gauge=(True, False, False, False))
 """One gauge and three resistors: temperature looks like strain."""
 
-QUARTER_BRIDGE_WITH_DUMMY = Bridge(strain_shares=(1.0, 0.0, 0.0, 0.0), is_gauge=(True, True, False, False))
-"""One gauge with a second, unstrained one beside it that only feels the temperature: compensated."""
-
 HALF_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 0.0, 0.0), is_gauge=(True, True, False, False))
 """Gauges on both faces of a bent beam in neighbouring arms: twice the output, compensated."""
 
-OPPOSITE_HALF_BRIDGE = Bridge(strain_shares=(1.0, 0.0, 1.0, 0.0), is_gauge=(True, False, True, False))
-"""Gauges with equal strain in opposite arms: twice the output, but twice the temperature too."""
-
-FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
-"""Two gauges on each face of a bent beam: four times the output, compensated, and linear without approximation."""
-
-
-_SAME_GAIN = 1e-6
-"""Relative difference up to which a gain is one of the allowed ones: lists print a few digits."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Amplifier(ArrayRecord):
-    """`output = amplifier_gain input + offset`, channel by channel; limits are those of what follows."""
-
-    amplifier_gain: FloatArray = field(metadata=array("c"))
-    """Gain of each channel, above zero; shape (c,)."""
-    offset: FloatArray = field(metadata=array("c"))
-    """Output without input; shape (c,); V."""
-    allowed_gains: tuple[float, ...] | None = None
-    """Gains that the electronics can be set to; any if left out."""
-
-    def __post_init__(self) -> None:
-        check_arrays(self)
-        if not (np.isfinite(self.offset).all() and np.isfinite(self.amplifier_gain).all()):
-            raise SensorError("Amplifier: expected finite gains and offsets in V")
-        for channel, gain in enumerate(self.amplifier_gain):
-            if not gain > 0.0:
-                raise SensorError(f"Amplifier: channel {channel}: expected a gain above 0, got {gain:g}")
-            if (
-                self.allowed_gains is not None
-                and not np.isclose(gain, self.allowed_gains, rtol=_SAME_GAIN, atol=0).any()
-            ):
-                known = ", ".join(f"{allowed:g}" for allowed in sorted(self.allowed_gains))
-                raise SensorError(f"Amplifier: channel {channel}: gain {gain:g} is not one of {known}")
-
-    def output(self, voltage: Any) -> FloatArray:
-        """Amplify.
-
-        Args:
-            voltage: Voltages at the input; shape (..., c); V.
-
-        Returns:
-            Voltages at the output; same shape; V.
-
-        Raises:
-            ShapeError: If there is not one voltage per channel.
-        """
-        volts = np.asarray(voltage, dtype=np.float64)
-        require_last_axis(volts, name="voltage", length=len(self.amplifier_gain))
-        return self.amplifier_gain * volts + self.offset
-
-    def input(self, output: Any) -> FloatArray:
-        """Give the input of an output.
-
-        Args:
-            output: Voltages at the output; shape (..., c); V.
-
-        Returns:
-            Voltages at the input; same shape; V.
-
-        Raises:
-            ShapeError: If there is not one voltage per channel.
-        """
-        volts = np.asarray(output, dtype=np.float64)
-        require_last_axis(volts, name="output", length=len(self.amplifier_gain))
-        return (volts - self.offset) / self.amplifier_gain
-
-
 _MOST_BITS = 32
 """More bits than any converter of a force sensor has; below the 53 of a float64, so counts stay exact."""
-
-
-class Rounding(StrEnum):
-    """What becomes of a voltage between two counts."""
-
-    NEAREST = "nearest"
-    """The nearest count: errors of up to half a step each way."""
-    DOWN = "down"
-    """The count below: errors of up to a step, always to one side."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -236,8 +126,6 @@ class Adc:
     """Reference voltage; V."""
     signed: bool
     """Whether counts run from -2^(bits-1) to 2^(bits-1) - 1 (two's complement), or from 0 to 2^bits - 1."""
-    rounding: Rounding = Rounding.NEAREST
-    """What becomes of a voltage between two counts."""
 
     def __post_init__(self) -> None:
         require_positive(self.reference, name="Adc: reference", unit="V")
@@ -258,56 +146,6 @@ class Adc:
     def step(self) -> float:
         """Voltage of one count, the range over 2^bits, thesis (3.13) as the errata correct it; V/count."""
         return (2.0 if self.signed else 1.0) * self.reference / (1 << self.bits)
-
-    def counts(self, voltage: Any) -> FloatArray:
-        """Convert to counts; beyond the range the count stays at the limit.
-
-        Args:
-            voltage: Voltages; any shape; V.
-
-        Returns:
-            Whole counts from `lowest` to `highest`; same shape.
-
-        Raises:
-            SensorError: If a voltage is not a number.
-        """
-        steps = np.asarray(voltage, dtype=np.float64) / self.step
-        if np.isnan(steps).any():
-            raise SensorError("Adc: expected voltages that are numbers, got NaN")
-        whole = np.rint(steps) if self.rounding is Rounding.NEAREST else np.floor(steps)
-        return np.clip(whole, self.lowest, self.highest)
-
-    def voltage(self, counts: Any) -> FloatArray:
-        """Give the voltage in the middle of those that convert to a count.
-
-        Args:
-            counts: Counts from `lowest` to `highest`; any shape.
-
-        Returns:
-            Voltages; same shape; V.
-
-        Raises:
-            SensorError: If a count is beyond the limits.
-        """
-        whole = np.asarray(counts, dtype=np.float64)
-        if not ((whole >= self.lowest) & (whole <= self.highest)).all():
-            raise SensorError(
-                f"Adc: expected counts from {self.lowest} to {self.highest}, got {whole.min():g} to {whole.max():g}"
-            )
-        middle = 0.5 if self.rounding is Rounding.DOWN else 0.0
-        return self.step * (whole + middle)
-
-    def at_limit(self, counts: Any) -> BoolArray:
-        """Find the counts that a voltage beyond the range gives too: they are saturated.
-
-        Args:
-            counts: Counts; any shape.
-
-        Returns:
-            Whether each is at the lowest or the highest count; same shape.
-        """
-        whole = np.asarray(counts, dtype=np.float64)
-        return (whole <= self.lowest) | (whole >= self.highest)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Full scale, resolution and range of channels and axes, and what can be measured before a channel saturates."""
+"""Resolution of axes, range of channels, and what can be measured before a channel saturates."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,87 +10,12 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.number_checks import require_finite
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FullScale:
-    """What a channel can measure, in the unit of what it measures; thesis (3.10)-(3.13)."""
-
-    lowest: float
-    """Stimulus at the lowest output, or at the highest one where the output falls."""
-    highest: float
-    """Stimulus at the other end."""
-    bits: int
-    """Bits of the converter."""
-
-    def __post_init__(self) -> None:
-        require_finite(self.lowest, name="FullScale: lowest", unit="the stimulus")
-        require_finite(self.highest, name="FullScale: highest", unit="the stimulus")
-        if not self.lowest < self.highest or self.bits < 1:
-            raise SensorError(
-                "FullScale: expected lowest below highest and at least 1 bit, "
-                f"got {self.lowest:g}, {self.highest:g} and {self.bits}"
-            )
-
-    @property
-    def span(self) -> float:
-        """Full scale, highest minus lowest stimulus, thesis (3.12)."""
-        return self.highest - self.lowest
-
-    @property
-    def resolution(self) -> float:
-        """Stimulus per count: the span over 2^bits; thesis (3.13) prints a division by the number of bits."""
-        return self.span / float(2**self.bits)
-
-    @property
-    def dynamic_range_db(self) -> float:
-        """Span over resolution, in decibels: `20 log10(2^bits)`."""
-        return 20.0 * math.log10(2.0) * self.bits
-
-
-def full_scale(inverse: Callable[[float], float], *, lowest: float, highest: float, bits: int) -> FullScale:
-    """Give what a channel can measure between the limits of its output, thesis (3.10)-(3.12).
-
-    Args:
-        inverse: Stimulus of an output, at the chosen gain; monotone.
-        lowest: Lowest output; V.
-        highest: Highest output; V.
-        bits: Bits of the converter.
-
-    Returns:
-        Lowest and highest stimulus, in the unit that `inverse` gives.
-
-    Raises:
-        SensorError: If the outputs show one stimulus only.
-    """
-    ends = sorted((float(inverse(lowest)), float(inverse(highest))))
-    return FullScale(lowest=ends[0], highest=ends[1], bits=bits)
-
-
-def all_channels_full_scale(matrix: Any, *, limit_counts: float) -> FloatArray:
-    """Give the full scale per axis as sensors state it: all channels at their limit, each with the worst sign.
-
-    No load does that: one saturated channel stops the stream (thesis 4.3.4). See `reachable_full_scale`.
-
-    Args:
-        matrix: Calibration matrix; shape (6, c); N/count, N m/count.
-        limit_counts: Largest magnitude of a reading; counts.
-
-    Returns:
-        Largest magnitude per component; shape (6,); N, N m.
-
-    Raises:
-        ShapeError: If the matrix has not six rows.
-        SensorError: If an entry is not finite.
-    """
-    return limit_counts * axis_resolution(matrix)
 
 
 def axis_resolution(matrix: Any) -> FloatArray:
     """Give the step of each axis when every channel moves by one count, each with the worst sign.
 
-    It is thesis (3.13), with the division by 2^bits, applied to `all_channels_full_scale`.
+    It is thesis (3.13), with the division by 2^bits, of a full scale with all channels at their limit.
 
     Args:
         matrix: Calibration matrix; shape (6, c); N/count, N m/count.
@@ -105,25 +28,6 @@ def axis_resolution(matrix: Any) -> FloatArray:
         SensorError: If an entry is not finite.
     """
     return np.abs(_checked(matrix)).sum(axis=1)
-
-
-def quantisation_noise(matrix: Any) -> FloatArray:
-    """Give the standard deviation per axis that rounding to the nearest count leaves.
-
-    Rounding errors are taken as uniform over one count and independent between channels, which needs
-    a signal that moves by more than a count.
-
-    Args:
-        matrix: Calibration matrix; shape (6, c); N/count, N m/count.
-
-    Returns:
-        Norm of each row over the square root of 12; shape (6,); N, N m.
-
-    Raises:
-        ShapeError: If the matrix has not six rows.
-        SensorError: If an entry is not finite.
-    """
-    return np.linalg.norm(_checked(matrix), axis=1) / math.sqrt(12.0)
 
 
 def _checked(matrix: Any) -> FloatArray:
@@ -220,46 +124,4 @@ def reachable_full_scale(limits: RawLimits) -> ReachableFullScale:
         negative=negative.max(axis=0),
         positive_channel=positive.argmin(axis=0),
         negative_channel=negative.argmax(axis=0),
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Coverage(ArrayRecord):
-    """How the loads of a motion lie within the limits of the channels."""
-
-    count: int
-    """Number of samples."""
-    share: float
-    """Part of the samples that saturate no channel."""
-    head_room_below: FloatArray = field(metadata=array(6))
-    """Distance of each channel's lowest count from its lower limit; shape (6,); counts; negative if exceeded."""
-    head_room_above: FloatArray = field(metadata=array(6))
-    """Distance of each channel's highest count from its upper limit; shape (6,); counts; negative if exceeded."""
-
-
-def coverage(limits: RawLimits, wrench: Any) -> Coverage:
-    """Compute the share of a motion's loads that a sensor can measure, and the head-room of each channel.
-
-    Args:
-        limits: Calibration and limits of the channels.
-        wrench: Expected loads of the motion; shape (n, 6), n at least 1; N, N m.
-
-    Returns:
-        Share and head-room; a count at a limit is saturated, as in `hold_on_saturation`.
-
-    Raises:
-        ShapeError: If the loads are not wrenches.
-        SensorError: If there is no load, or one is not finite.
-    """
-    loads = np.asarray(wrench, dtype=np.float64)
-    require_shape(loads, name="wrench", shape=(None, 6))
-    if not len(loads) or not np.isfinite(loads).all():
-        raise SensorError(f"wrench: expected at least one load with finite numbers, got {len(loads)} load(s)")
-    raw = limits.raw(loads)
-    within = ((raw > limits.lowest) & (raw < limits.highest)).all(axis=1)
-    return Coverage(
-        count=len(loads),
-        share=float(within.mean()),
-        head_room_below=raw.min(axis=0) - limits.lowest,
-        head_room_above=limits.highest - raw.max(axis=0),
     )

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, require_shape
-from forcetorque.base.errors import SensorError
+from forcetorque.base.errors import SensorError, require_finite, require_positive
 from forcetorque.base.units import VACUUM_PERMITTIVITY
-from forcetorque.sensor.number_checks import require_finite, require_positive
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,32 +48,6 @@ class ResistiveGauge:
         """
         strains, warming = np.asarray(strain, dtype=np.float64), np.asarray(temperature_change, dtype=np.float64)
         return self.gauge_factor * strains + self.temperature_coefficient * warming
-
-    def resistance_under(self, strain: Any, temperature_change: Any = 0.0) -> FloatArray:
-        """Give the resistance, thesis (1.10).
-
-        Args:
-            strain: Strains along the gauge; any shape.
-            temperature_change: Temperatures above the reference; broadcast against `strain`; degC.
-
-        Returns:
-            Resistances; broadcast shape; ohm.
-        """
-        return self.resistance * (1.0 + self.relative_change(strain, temperature_change))
-
-    def strain(self, resistance: Any, temperature_change: Any = 0.0) -> FloatArray:
-        """Give the strain of a resistance, thesis (3.17) with a temperature.
-
-        Args:
-            resistance: Measured resistances; any shape; ohm.
-            temperature_change: Temperatures above the reference; broadcast against `resistance`; degC.
-
-        Returns:
-            Strains; broadcast shape.
-        """
-        change = np.asarray(resistance, dtype=np.float64) / self.resistance - 1.0
-        warming = self.temperature_coefficient * np.asarray(temperature_change, dtype=np.float64)
-        return (change - warming) / self.gauge_factor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,38 +113,6 @@ class ParallelPlates:
             SensorError: If a distance is not above zero.
         """
         return self._strength() / _above_zero(gap, name="gap", unit="m")
-
-    def gap(self, capacitance: Any) -> FloatArray:
-        """Give the distance of a capacitance.
-
-        Args:
-            capacitance: Capacitances, above zero; any shape; F.
-
-        Returns:
-            Distances of the plates; same shape; m.
-
-        Raises:
-            SensorError: If a capacitance is not above zero.
-        """
-        return self._strength() / _above_zero(capacitance, name="capacitance", unit="F")
-
-    def charge(self, gap: Any, voltage: Any) -> FloatArray:
-        """Give the charge on a plate, `q = C E` [1].
-
-        Args:
-            gap: Distances of the plates, above zero; any shape; m.
-            voltage: Voltages between the plates; broadcast against `gap`; V.
-
-        Returns:
-            Charges; broadcast shape; C.
-
-        Raises:
-            SensorError: If a distance is not above zero.
-
-        References:
-            [1] Thesis (1.12). There q is called a current in A; it is a charge in C.
-        """
-        return self.capacitance(gap) * np.asarray(voltage, dtype=np.float64)
 
     def _strength(self) -> float:
         return self.relative_permittivity * VACUUM_PERMITTIVITY * self.area
@@ -242,68 +183,6 @@ class PiezoelectricGauge:
         driven = np.concatenate([[initial_charge], gain * np.diff(forces)])
         return np.asarray(lfilter([1.0], [1.0, -math.exp(-steps)], driven), dtype=np.float64)
 
-    def voltage(self, charge: Any) -> FloatArray:
-        """Give the voltage of a charge, thesis (1.12).
-
-        Args:
-            charge: Charges; any shape; C.
-
-        Returns:
-            Voltages; same shape; V.
-        """
-        return np.asarray(charge, dtype=np.float64) / self.capacitance
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class QuartzResonator:
-    """A resonator with `df = F K f0^2 n / l`, thesis (1.15)."""
-
-    fundamental_hz: float
-    """Fundamental frequency without load, f0; Hz."""
-    constant: float
-    """Constant of the cut, K; its unit follows from (1.15): m s/N."""
-    size: float
-    """Size of the crystal, l; m."""
-    overtone: int = 1
-    """Number of the overtone mode, n; 1 for the fundamental."""
-
-    def __post_init__(self) -> None:
-        require_positive(self.fundamental_hz, name="QuartzResonator: fundamental_hz", unit="Hz")
-        require_finite(self.constant, name="QuartzResonator: constant", unit="m s/N")
-        require_positive(self.size, name="QuartzResonator: size", unit="m")
-        if self.constant == 0.0 or self.overtone < 1:
-            raise SensorError(
-                "QuartzResonator: expected a constant other than 0 m s/N and an overtone of at least 1, "
-                f"got {self.constant:g} and {self.overtone}"
-            )
-
-    @property
-    def sensitivity(self) -> float:
-        """Change of frequency per force; Hz/N."""
-        return self.constant * self.fundamental_hz**2 * self.overtone / self.size
-
-    def frequency_shift(self, force: Any) -> FloatArray:
-        """Give the change of frequency, thesis (1.15).
-
-        Args:
-            force: Forces on the crystal; any shape; N.
-
-        Returns:
-            Changes of frequency; same shape; Hz.
-        """
-        return self.sensitivity * np.asarray(force, dtype=np.float64)
-
-    def force(self, frequency_shift: Any) -> FloatArray:
-        """Give the force of a change of frequency.
-
-        Args:
-            frequency_shift: Changes of frequency; any shape; Hz.
-
-        Returns:
-            Forces on the crystal; same shape; N.
-        """
-        return np.asarray(frequency_shift, dtype=np.float64) / self.sensitivity
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReflectedIntensity:
@@ -348,27 +227,6 @@ class ReflectedIntensity:
             raise SensorError(f"distance: expected at least 0 m, got {distances.min():g}")
         radius = self.core_radius + 2.0 * distances * math.tan(self.cone_angle)
         return self.contact_intensity * (self.core_radius / radius) ** 2
-
-    def distance(self, intensity: Any) -> FloatArray:
-        """Give the distance of an intensity.
-
-        Args:
-            intensity: Intensities above zero and at most `contact_intensity`; any shape.
-
-        Returns:
-            Distances of the mirror from the fibre's end; same shape; m.
-
-        Raises:
-            SensorError: If an intensity is outside that range.
-        """
-        intensities = np.asarray(intensity, dtype=np.float64)
-        if not ((intensities > 0.0) & (intensities <= self.contact_intensity)).all():
-            raise SensorError(
-                f"intensity: expected above 0 and at most contact_intensity, {self.contact_intensity:g}; "
-                f"got {intensities.min():g} to {intensities.max():g}"
-            )
-        growth = np.sqrt(self.contact_intensity / intensities) - 1.0
-        return 0.5 * self.core_radius * growth / math.tan(self.cone_angle)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -427,17 +285,3 @@ class FibreBraggGrating:
         """
         strains, warming = np.asarray(strain, dtype=np.float64), np.asarray(temperature_change, dtype=np.float64)
         return self.wavelength * (self.strain_sensitivity * strains + self.temperature_sensitivity * warming)
-
-    def strain(self, shift: Any, temperature_change: Any = 0.0) -> FloatArray:
-        """Give the strain of a shift at a known temperature.
-
-        Args:
-            shift: Shifts of the reflected wavelength; any shape; m.
-            temperature_change: Temperatures above the reference; broadcast against `shift`; degC.
-
-        Returns:
-            Strains; broadcast shape.
-        """
-        warming = np.asarray(temperature_change, dtype=np.float64)
-        relative = np.asarray(shift, dtype=np.float64) / self.wavelength
-        return (relative - self.temperature_sensitivity * warming) / self.strain_sensitivity

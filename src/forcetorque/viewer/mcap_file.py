@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.formats.ros.mcap_writer import mcap_writer, typestore
+from forcetorque.formats.ros.bag import mcap_writer, typestore
 from forcetorque.results.figures import COLOURS, REFERENCE_COLOUR
 from forcetorque.viewer.viewer_log import LoggedFrame, ViewerLog
 

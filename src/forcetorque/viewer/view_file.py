@@ -42,7 +42,7 @@ def require_writer(path: Path) -> None:
 
         imported_rerun(path)
     elif path.suffix.lower() == MCAP:
-        from forcetorque.formats.ros.mcap_writer import typestore
+        from forcetorque.formats.ros.bag import typestore
 
         typestore(path)
 

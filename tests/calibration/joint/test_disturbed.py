@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import windows
 from forcetorque.calibration.joint.nodes import Stretch
-from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of
+from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of, untouched
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
@@ -58,6 +58,15 @@ def test_three_pushes_in_twenty_seconds_are_survived() -> None:
         )
         survived += known and _errors(pushed.fit, other).mean() < 1.3 * _errors(clean.fit, other).mean()
     assert survived >= 9
+
+
+def test_seconds_that_disagree_can_be_kept() -> None:
+    """A push on a hand leaves the fit unless the experiment keeps it."""
+    stretch = swaying(71, touches={"l_hand": _pushes()["l_hand"]}, **WRONG).stretch
+    for keeps in (False, True):
+        stretch = replace(stretch, keeps_disagreeing=keeps)
+        parts = windows.part_windows(stretch, untouched_parts(stretch.tree, SENSORS, FEET), (), about=None)
+        assert all(untouched(one, None).all() for one in parts) == keeps
 
 
 def test_what_was_left_out_reaches_over_its_windows() -> None:

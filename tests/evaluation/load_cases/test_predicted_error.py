@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -27,18 +28,19 @@ STATISTICAL = 4.0 * np.sqrt(2.0 / DRAWS)
 """Relative, of a mean square: four standard errors if a single unknown makes all of it."""
 
 
-def _posterior() -> Posterior:
-    """Six coefficients, one variable, the offsets of two sessions, all correlated; rows are channels."""
+def _posterior(variables: tuple[str, ...] = ("temperature",)) -> Posterior:
+    """Six coefficients, variables, the offsets of two sessions, all correlated; rows are channels."""
     rng = np.random.default_rng(1)
-    scale = np.array([*[1e-3] * 3, *[2e-2] * 3, 0.04, 0.5, 0.2])
-    root = scale[:, None] * (np.eye(9) + 0.3 * rng.normal(size=(6, 9, 9)))
+    scale = np.array([*[1e-3] * 3, *[2e-2] * 3, *(0.04 * (k + 1) for k in range(len(variables))), 0.5, 0.2])
+    n = len(scale)
+    root = scale[:, None] * (np.eye(n) + 0.3 * rng.normal(size=(6, n, n)))
     covariance = root @ root.transpose(0, 2, 1)
     return Posterior(
         space="channel",
-        variables=("temperature",),
+        variables=variables,
         sessions=("first", "second"),
         drift=False,
-        mean=rng.normal(size=(6, 9)),
+        mean=rng.normal(size=(6, n)),
         covariance=covariance,
         mean_covariance=covariance[:, :6, :6],
         prior_covariance=None,
@@ -54,29 +56,30 @@ def _case(**fields: object) -> LoadCase:
     return LoadCase(name="push", words="", wrench=pushes_around_sensor(30.0, 0.3), **fields)  # type: ignore[arg-type]
 
 
-def _mean_squares(posterior: Posterior, case: LoadCase, *, fitted: bool, change: float) -> np.ndarray:
+def _mean_squares(posterior: Posterior, case: LoadCase, *, fitted: bool) -> np.ndarray:
     """Mean squares of all components by the covariance that the posterior itself predicts, noise included."""
     wrench = case.wrench + posterior.load_centre if fitted else case.wrench
     session = posterior.sessions[-1] if fitted else None
     squares = np.zeros(6)
-    for sense in (-change, change):  # independently of the load: the products with it cancel
-        variables = np.full((len(wrench), 1), sense)
+    changes = [case.changes.get(name, 0.0) for name in posterior.variables]
+    senses = list(product(*((-change, change) for change in changes)))
+    for sense in senses:  # independently of the load and of each other: the products cancel
+        variables = np.tile(sense, (len(wrench), 1))
         covariance = posterior.error_covariance(wrench, variables=variables, session=session)
-        squares += 0.5 * np.einsum("nii->i", covariance) / len(wrench)
+        squares += np.einsum("nii->i", covariance) / len(wrench) / len(senses)
     return squares + posterior.to_wrench**2 @ np.array([one.white**2 for one in posterior.noise])
 
 
-@pytest.mark.parametrize("change", [0.0, 8.0])
+@pytest.mark.parametrize("changes", [{}, {"temperature": 8.0}, {"current": 5.0}, {"temperature": 8.0, "current": 5.0}])
 @pytest.mark.parametrize("offset", ["fitted", "tared"])
-def test_the_mean_square_is_that_of_the_posterior(offset: str, change: float) -> None:
+def test_the_mean_square_is_that_of_the_posterior(offset: str, changes: dict[str, float]) -> None:
     """Component by component; the fitted offset is that of the last session, and acts from the fitted loads on."""
-    posterior = _posterior()
-    case = _case(offset=offset, changes={"temperature": change} if change else {})
+    posterior, case = _posterior(("temperature", "current")), _case(offset=offset, changes=changes)
     error = predict_from_posterior(posterior, case)
-    squares = _mean_squares(posterior, case, fitted=offset == "fitted", change=change)
+    squares = _mean_squares(posterior, case, fitted=offset == "fitted")
     np.testing.assert_allclose(np.concatenate([error.force.axes, error.moment.axes]) ** 2, squares, rtol=STATISTICAL)
     # negative control: the other offset is another error
-    other = _mean_squares(posterior, case, fitted=offset == "tared", change=change)
+    other = _mean_squares(posterior, case, fitted=offset == "tared")
     assert np.abs(other / squares - 1.0).max() > 2.0 * STATISTICAL
 
 
@@ -92,7 +95,7 @@ def test_every_source_adds_its_own_mean_square() -> None:
             only = np.isin(np.arange(9), own)
             covariance = np.where(only[:, None] & only, posterior.covariance, 0.0)
             alone = posterior.model_copy(update={"covariance": covariance})
-            squares = _mean_squares(alone, case, fitted=offset == "fitted", change=8.0) - white
+            squares = _mean_squares(alone, case, fitted=offset == "fitted") - white
             assert size.sources[source] ** 2 == pytest.approx(squares[:3].sum(), rel=STATISTICAL)  # type: ignore[index]
 
 
@@ -107,7 +110,7 @@ def test_errors_of_the_robot_model_are_taken_off_the_others() -> None:
     exact, wrong = (predict_from_posterior(one, case).force for one in (posterior, of_model))
     assert exact.sources["model"] == 0.0
     assert (wrong.draws**2).mean() == pytest.approx((exact.draws**2).mean(), rel=STATISTICAL)
-    squares = _mean_squares(posterior, case, fitted=True, change=8.0)[:3].sum() - exact.sources["noise"] ** 2
+    squares = _mean_squares(posterior, case, fitted=True)[:3].sum() - exact.sources["noise"] ** 2
     assert wrong.sources["model"] ** 2 == pytest.approx(squares / 3.0, rel=1e-9)
     for source in ("matrix", "offset", "variables"):
         ratio = (wrong.sources[source] / exact.sources[source]) ** 2  # type: ignore[index]

@@ -82,12 +82,16 @@ def test_with_the_model_it_is_the_regression_with_an_offset_for_each() -> None:
     forces, references = _trials(rng, parts)
     pooled = pool_trials(forces, references, weight=WEIGHT)
     belongs = np.repeat(np.eye(3), [len(part) for part in parts], axis=0)
-    solved = np.linalg.lstsq(np.hstack([np.concatenate(references), belongs]), np.concatenate(forces), rcond=None)[0]
+    columns, measured = np.hstack([np.concatenate(references), belongs]), np.concatenate(forces)
+    solved = np.linalg.lstsq(columns, measured, rcond=None)[0]
     expected = ellipsoid_of_map(solved[:3].T, centre=np.zeros(3), radius=WEIGHT)
     assert pooled.mapped is not None
     assert pooled.mapped.ellipsoid is not None
     np.testing.assert_allclose(pooled.mapped.ellipsoid.shape, expected.shape, rtol=1e-9, atol=1e-15)
     np.testing.assert_allclose(pooled.mapped_centres, solved[3:], rtol=1e-10)
+    left = measured - columns @ solved
+    assert pooled.mapped.rms == pytest.approx(np.sqrt((left**2).sum(axis=1).mean()), rel=1e-9)
+    assert pooled.free.rms < pooled.mapped.rms  # along the surface nothing is left
 
 
 def test_pooling_as_they_stand_is_wrong() -> None:

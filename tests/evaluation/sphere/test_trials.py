@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.stats import t
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.affine_fit import MappedFit, fit_mapped
-from forcetorque.evaluation.sphere.fit_results import TOLERANCE, EllipsoidFit
+from forcetorque.evaluation.sphere.fit_results import TOLERANCE, EllipsoidFit, ellipsoid_of_map
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from forcetorque.evaluation.trials.trials import drift_between, mean_of_trials
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
@@ -98,6 +101,31 @@ def test_drift_is_told_from_noise() -> None:
         assert changed.exceeds is not None
         assert [name for name in changed.exceeds if name.startswith("mass")] == ["mass y"]
         assert "index" in changed.exceeds
+
+
+def test_the_margin_of_a_change_has_the_halves_of_the_intervals_that_face_each_other() -> None:
+    """By hand: one axis grows, one shrinks, and the index grows; wider by Student's t of seven numbers at once."""
+    before, after = np.array([300.0, 310.0, 305.0]), np.array([330.0, 290.0, 305.5])
+    below, above = (np.array([1.0, 2.0, 3.0]), np.array([4.0, 6.0, 8.0])), (np.array([20.0, 30.0, 1.0]),) * 2
+    first, last = (
+        replace(
+            _analysed(np.random.default_rng(1), np.diag(lengths), np.zeros(3)).free,
+            ellipsoid=ellipsoid_of_map(np.diag(lengths), centre=np.zeros(3), radius=1.0),
+            low=lengths - down,
+            high=lengths + up,
+            index_low=np.std(lengths, ddof=1) - 0.1 * k,
+            index_high=np.std(lengths, ddof=1) + 0.7 * k,
+        )
+        for k, (lengths, down, up) in enumerate(zip((before, after), below, above, strict=True), 1)
+    )
+    wider = t.ppf(1.0 - 0.025 / 7.0, 9) / t.ppf(0.975, 9)
+    for one, other, sign in ((first, last, 1.0), (last, first, -1.0)):
+        drift = drift_between(one, other, gravity=GRAVITY)
+        assert drift is not None
+        np.testing.assert_allclose(drift.mass_kg, sign * (after - before) / GRAVITY)
+        margins = wider * np.hypot([20.0, 2.0, 1.0], [4.0, 30.0, 8.0]) / GRAVITY
+        np.testing.assert_allclose(np.array(drift.mass_margin_kg, dtype=float), margins)
+        assert drift.index_margin_kg == pytest.approx(wider * np.hypot(0.7, 0.2) / GRAVITY)
 
 
 def _mapped(rng: np.random.Generator) -> MappedFit:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.ros.mcap_writer import typestore
+from forcetorque.formats.ros.bag import typestore
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import WrenchEncoder, read_positions, read_wrench
 

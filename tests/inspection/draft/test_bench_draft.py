@@ -154,10 +154,11 @@ def test_loads_whose_heading_is_not_read_are_asked(tmp_path: Path) -> None:
     assert content["measurements"]["known"] == loads
     assert "components" not in content["sensor"]
     assert [one.question for one in draft.questions if one.key == "known_units"][0].endswith("load_My_Ncm, load_Mz_Ncm")
-    loads[3:] = [f"load_about_{axis}" for axis in "xyz"]
-    draft = draft_experiment([_write(tmp_path / "about.csv", [*channels, *loads], rows)])
-    assert tomllib.loads(draft.content)["measurements"]["known"] == "?"
-    assert "components" not in tomllib.loads(draft.content)["sensor"]
+    for form in ("load_{}", "{}_ref"):
+        loads = [form.format(name) for name in ("Fx", "Fy", "Fz", "about_x", "about_y", "about_z")]
+        draft = draft_experiment([_write(tmp_path / "about.csv", [*channels, *loads], rows)])
+        assert tomllib.loads(draft.content)["measurements"]["known"] == "?"
+        assert "components" not in tomllib.loads(draft.content)["sensor"]
 
 
 def test_lines_that_may_be_taken_up_are_toml(tmp_path: Path) -> None:

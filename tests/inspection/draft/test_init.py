@@ -23,10 +23,10 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.signals import OrientationTable
+from forcetorque.inspection.draft.column_matches import column_matches, is_estimated
 from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
 from forcetorque.inspection.draft.questions import answer_questions, resume_experiment
-from forcetorque.inspection.draft.streams import column_matches, is_estimated
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
@@ -461,6 +461,12 @@ def _axes(text: str) -> str:
         ("roll [rad/s],pitch [rad/s],yaw [rad/s]", {}),
         (f"{_axes('target_TCP_pose_r?')},{_axes('actual_TCP_pose_r?')}", {"orientation": "actual_TCP_pose_rx"}),
         (_axes("target_TCP_pose_r?"), {"orientation": "target_TCP_pose_rx"}),
+        *(
+            (f"{_axes(f'{word}_f?')},{_axes(f'{word}_t?')},{_axes('f?')},{_axes('t?')}", {"wrench": "fx"})
+            for word in ("cmd", "commanded", "Reference", "Soll", "setpoint", "other")
+        ),
+        (f"{_axes('goal_f?')},{_axes('goal_t?')},{_axes('ft_f?')},{_axes('ft_t?')}", {"wrench": "ft_fx"}),
+        (f"{_axes('goalie_f?')},{_axes('goalie_t?')},{_axes('ft_f?')},{_axes('ft_t?')}", {"wrench": "goalie_fx"}),
         (f"tempo [s],{_WRENCH}", {"wrench": "Fx [N]"}),
         ("temps [s],temp [degC]", {"temperature": "temp [degC]"}),
         (f"{_WRENCH},pressure [kPa]", {"wrench": "Fx [N]"}),
@@ -483,7 +489,7 @@ def test_columns_are_read_as_no_other_quantity(tmp_path: Path, others: str, expe
     signals = {one["quantity"]: one["columns"][0] for one in stream["signal"] if one["quantity"] != "?"}
     assert signals == expected
     (answer,) = draft.answers()
-    left_out = "right_" in others or others.count("TCP_pose") > 3
+    left_out = "right_" in others or others.count("TCP_pose") > 3 or others.count("fx") > 1
     assert any("left out; other columns are its" in text for text in answer.why) == left_out
 
 
@@ -676,6 +682,24 @@ def test_an_estimated_wrench_is_known_by_whole_words_and_by_headings(tmp_path: P
     assert stream["signal"][0]["columns"] == head
     assert draft.notes[0].startswith("b: left out, an estimated wrench")
     assert draft.notes[1].startswith("log: external_wrench.fx_N, ")
+
+
+def test_an_estimated_wrench_beside_raw_channels_leaves_these(tmp_path: Path) -> None:
+    """Only its columns are left out, of a table that has raw samples of a sensor."""
+    head = ["fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"]
+    channels = [f"ch{k}" for k in range(1, 7)]
+    rows = ["0" + ",1" * 12, "1" + ",2" * 12]
+    names = ["t_s", *channels, *(f"external_wrench_{name}" for name in head)]
+    (tmp_path / "hand.csv").write_text("\n".join([",".join(names), *rows]))
+    (tmp_path / "foot.csv").write_text("\n".join([",".join(["t_s", *head]), *(row[:13] for row in rows)]))
+    draft = draft_experiment([tmp_path / "hand.csv", tmp_path / "foot.csv"])
+    hand, foot = tomllib.loads(draft.content)["recording"]["stream"]
+    assert [one["columns"] for one in (*hand["signal"], *foot["signal"])] == [channels, head]
+    assert [one["stream"] for one in tomllib.loads(draft.content)["sensor"]] == ["hand"]
+    assert draft.left_out == (
+        "hand: external_wrench_fx_N, external_wrench_fy_N, external_wrench_fz_N and 3 more left out; an estimated "
+        "wrench by its name",
+    )
 
 
 def test_the_size_of_several_sensors_is_asked_once(two_legs: Path) -> None:

@@ -7,6 +7,8 @@ pose that is off in all 40 each; nothing is named of 140 fresh draws without a f
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -80,6 +82,21 @@ def test_the_share_that_exchanged_axes_leave_is_that_of_these_axes(first: int, s
     )
     squares = [fitted.weight @ one**2 for one in (right, listed)]
     assert row.residual_share == pytest.approx(np.sqrt(np.prod(squares[0] / squares[1]) ** 0.5), rel=1e-6)
+
+
+def test_the_forces_that_a_turned_mount_leaves_are_those_of_its_fit() -> None:
+    """Root mean squares of their norm about the mount as it is stated, and about the one that is found; N."""
+    problem, _ = _problem("turned mount", FIRST_SEED)
+    fitted = fit(problem, drift=False)
+    (row,) = axis_errors(fitted, permuted=False, drift=False)
+    before, after = (
+        np.sqrt(np.average((residual[:, :3] ** 2).sum(axis=1), weights=fitted.weight))
+        for residual in (
+            plain_fit(one, drift=False, weight=fitted.weight)[1] for one in (problem, replace(problem, mount=True))
+        )
+    )
+    assert after < 0.3 * before
+    assert f": residual {before:.2g} -> {after:.2g} N; " in row.description
 
 
 @pytest.mark.long

@@ -14,10 +14,20 @@ from scipy.stats import chi2, f
 
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
-from forcetorque.payload.identification.frame_unit_and_clock_errors import hypotheses, unexplained
+from forcetorque.payload.identification.frame_unit_and_clock_errors import _lag, hypotheses, unexplained
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
-from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
+from tests.payload.identification.payloads import (
+    CENTRE,
+    GRAVITY as GRAVITY_SIZE,
+    MASS,
+    SIZES,
+    PowerUps,
+    poses,
+    problem_of,
+    slow,
+    weight,
+)
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
 COUNT = 30
@@ -181,6 +191,43 @@ def test_sound_input_has_no_name(problem: Callable[[], LoadProblem]) -> None:
 ANGLES = np.sin(np.outer(np.arange(120.0), [0.11, 0.17, 0.07]))
 MOVING = Rotation.from_rotvec(0.8 * ANGLES)
 RESTING = Rotation.from_rotvec(0.001 * ANGLES)
+
+
+@pytest.mark.parametrize("lag", [0.3, 2.3])
+def test_a_reading_is_as_late_in_time_as_it_is_early_in_reversed_time(lag: float) -> None:
+    """Name, size and what is left are the same; also beyond the longest lag that is tried."""
+    late = _lagging(lag)
+    rows = late.rows
+    reversed_rows = replace(
+        rows, wrench=rows.wrench[::-1], proper_acceleration=rows.proper_acceleration[::-1], time_s=-rows.time_s[::-1]
+    )
+    (behind,), (ahead,) = (
+        _lag(one, plain_fit(one, drift=False)[1], drift=False) for one in (late, replace(late, rows=reversed_rows))
+    )
+    assert behind.name == ahead.name == "lag"
+    assert behind.description.replace("behind", "ahead of") == ahead.description
+    assert behind.residual_share == pytest.approx(ahead.residual_share, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("gravity", "centre_m", "name"),
+    [
+        (8.9, 0.1, "unit of gravity"),
+        (9.1, 0.1, ""),
+        (10.5, 0.1, ""),
+        (10.7, 0.1, "unit of gravity"),
+        (GRAVITY_SIZE, 1.95, ""),
+        (GRAVITY_SIZE, 2.05, "mixed units"),
+        (GRAVITY_SIZE, 1.05e-3, ""),
+        (GRAVITY_SIZE, 0.95e-3, "mixed units"),
+    ],
+)
+def test_units_are_doubted_beyond_the_limits_of_the_page(gravity: float, centre_m: float, name: str) -> None:
+    """Without noise: gravity of 9 to 10.6 m/s2, a centre of mass from 1 mm to 2 m away, in any direction."""
+    down = poses(COUNT, np.random.default_rng(5)) * gravity / GRAVITY_SIZE
+    centre = centre_m * np.array([0.6, 0.0, -0.8])
+    fitted = fit(problem_of(weight(down, centre=centre), down), drift=False)
+    assert {row.name for row in hypotheses(fitted, drift=False)} == ({name} if name else set())
 
 
 @pytest.mark.parametrize(("turned", "names"), [(MOVING, ["frozen log"]), (RESTING, [])], ids=["moving", "resting"])

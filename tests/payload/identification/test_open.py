@@ -118,3 +118,10 @@ def test_directions_are_counted_alike_for_loads_of_any_size() -> None:
     for size in (1e-9, 1.0, 1e9):
         assert spanned_directions(size * wrench, session) == 5
     assert spanned_directions(np.zeros((20, 6)), session) == 0
+
+
+@pytest.mark.parametrize(("moment_Nm", "count"), [(2e-3, 6), (0.5e-3, 3)])
+def test_a_moment_counts_as_its_force_at_a_tenth_of_a_metre(moment_Nm: float, count: int) -> None:
+    """Beside forces of 10 N along all axes: from a thousandth of them on, which is 1 mN m."""
+    wrench = np.diag([10.0, 10.0, 10.0, moment_Nm, moment_Nm, moment_Nm])
+    assert spanned_directions(np.vstack([wrench, -wrench]), np.zeros(12, dtype=np.int64)) == count

@@ -71,11 +71,6 @@ def test_fast_changes_pass_and_slow_ones_do_not() -> None:
     np.testing.assert_allclose(gains, [2 * np.pi * 0.001, np.sqrt(0.5), 1.0], rtol=2e-3)
 
 
-def test_voltage_is_charge_over_capacitance() -> None:
-    """23 pC on 100 pF are 0.23 V."""
-    assert QUARTZ.voltage(23e-12) == pytest.approx(0.23, rel=ROUNDING)
-
-
 def test_bad_arguments_are_refused() -> None:
     """A crystal without capacitance or coefficient, a force that is no series, a rate of zero."""
     with pytest.raises(SensorError, match="capacitance: expected a finite number above 0 F"):

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.sensor.transfer.compare import FITTERS, compare
 from forcetorque.sensor.transfer.parametric import (
     Exponential,
     Linear,
@@ -21,6 +20,7 @@ from forcetorque.sensor.transfer.parametric import (
     fit_polynomial,
     fit_power,
 )
+from forcetorque.sensor.transfer.static_curves import FITTERS, compare
 from forcetorque.sensor.transfer.transfer_function import TransferFunction
 from tests.cases import some_cases
 

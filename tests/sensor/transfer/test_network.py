@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError, MissingExtraError
-from forcetorque.sensor.transfer.compare import compare
 from forcetorque.sensor.transfer.parametric import fit_linear
 from forcetorque.sensor.transfer.sections_and_network import Network, fit_network
+from forcetorque.sensor.transfer.static_curves import compare
 
 STIMULUS = np.linspace(0.0, 50.0, 60)
 OUTPUT = 240.0 - 100.0 * np.sqrt(STIMULUS / 50.0 + 0.05)

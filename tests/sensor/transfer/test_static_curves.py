@@ -18,8 +18,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.sensor.bandwidth.bandwidth import response
 from forcetorque.sensor.figures import response_figure
-from forcetorque.sensor.transfer.compare import FITTERS
-from forcetorque.sensor.transfer.static_curves import channel_curve, static_curves
+from forcetorque.sensor.transfer.static_curves import FITTERS, channel_curve, static_curves
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, write_experiments
 

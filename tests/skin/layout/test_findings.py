@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.layout.check import layout_findings
-from forcetorque.skin.layout.finding import Defect, LayoutFindingRow
+from forcetorque.skin.layout.check import shape_findings
+from forcetorque.skin.layout.finding import Defect, LayoutFindingRow, shape_of
 from forcetorque.skin.layout.layout import PatchDescription
 from forcetorque.skin.layout.modules import MODULE_TAXELS, placed_pads
 from tests.scenes.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules
@@ -38,7 +38,7 @@ def _entries(patch: PatchDescription, column: int, entry: int) -> PatchDescripti
 
 
 def _only(patch: PatchDescription, defect: Defect) -> LayoutFindingRow:
-    (finding,) = layout_findings(patch)
+    (finding,) = shape_findings(shape_of(patch))
     assert finding.defect == defect
     return finding
 
@@ -55,19 +55,19 @@ def test_a_sound_layout_has_no_finding() -> None:
     """Neither curved nor flat, nor one without normals and entries."""
     assert len(SOUND) == 210
     for patch in (SOUND, WIDE, _flat(), replace(SOUND, normals=None, representatives=None)):
-        assert layout_findings(patch) == ()
+        assert shape_findings(shape_of(patch)) == ()
 
 
 def test_a_link_frame_elsewhere_changes_nothing() -> None:
     """The patch says by its shape which side is out, not by where the origin is."""
-    assert layout_findings(replace(SOUND, positions=SOUND.positions + [1.0, -2.0, 3.0])) == ()
+    assert shape_findings(shape_of(replace(SOUND, positions=SOUND.positions + [1.0, -2.0, 3.0]))) == ()
 
 
 def test_taxels_at_one_place_are_found() -> None:
     """Two taxels of one module; both are named, with their lines."""
     positions = SOUND.positions.copy()
     positions[11] = positions[10]
-    found = {finding.defect: finding for finding in layout_findings(replace(SOUND, positions=positions))}
+    found = {finding.defect: finding for finding in shape_findings(shape_of(replace(SOUND, positions=positions)))}
     # a module with a taxel elsewhere is off the template too
     assert set(found) == {Defect.DUPLICATE, Defect.TEMPLATE}
     assert list(found[Defect.DUPLICATE].taxels) == [12, 13]
@@ -86,7 +86,7 @@ def test_taxels_at_one_place_are_found_alone_where_no_template_speaks() -> None:
 
 def test_a_module_whose_taxels_are_at_its_centre_is_found() -> None:
     """As in published files: they are at one place, and no triangle."""
-    defects = [finding.defect for finding in layout_findings(collapsed(SOUND, 10))]
+    defects = [finding.defect for finding in shape_findings(shape_of(collapsed(SOUND, 10)))]
     assert set(defects) >= {Defect.DUPLICATE, Defect.TEMPLATE}
 
 
@@ -133,7 +133,7 @@ def test_a_flat_patch_that_is_inside_out_is_found() -> None:
     patch = _flat(upside_down=True)
     finding = _only(patch, Defect.INWARD)
     assert finding.remedy.startswith("reverse them all, unless its boards are mirror images")
-    assert layout_findings(replace(patch, modules=patch.modules + 100, representatives=None)) == ()
+    assert shape_findings(shape_of(replace(patch, modules=patch.modules + 100, representatives=None))) == ()
 
 
 def test_one_normal_per_module_is_found_alone() -> None:
@@ -184,7 +184,7 @@ def test_a_module_off_the_template_is_found_alone() -> None:
     flat = _flat()
     mirrored = flat.positions.copy()
     mirrored[flat.modules == 0] = placed_pads(_POSE, mirrored=True)[MODULE_TAXELS] + flat.positions[3]
-    assert layout_findings(replace(flat, positions=mirrored)) == ()
+    assert shape_findings(shape_of(replace(flat, positions=mirrored))) == ()
 
 
 _POSE = np.array([[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
@@ -244,13 +244,13 @@ def test_a_taxel_that_is_far_away_is_apart() -> None:
     """A digit too many in one position; the rest is judged all the same."""
     positions = SOUND.positions.copy()
     positions[40] = [9e6, 0.0, 0.0]
-    found = {finding.defect: finding for finding in layout_findings(replace(SOUND, positions=positions))}
+    found = {finding.defect: finding for finding in shape_findings(shape_of(replace(SOUND, positions=positions)))}
     assert list(found[Defect.GAP].taxels) == [48]
     assert Defect.TEMPLATE in found
 
 
 def test_a_patch_in_millimetres_is_found() -> None:
     """No taxel has a neighbour then."""
-    findings = layout_findings(replace(SOUND, positions=1e3 * SOUND.positions))
+    findings = shape_findings(shape_of(replace(SOUND, positions=1e3 * SOUND.positions)))
     gap = next(finding for finding in findings if finding.defect == Defect.GAP)
     assert gap.remedy.startswith("look whether positions are in m")

@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.skin.layout.layout import SkinLayout
+from forcetorque.skin.layout.modules import MODULE_PADS, MODULE_TAXELS, MODULE_THERMAL
 
 SOUND: dict[str, Any] = {
     "name": "palm",
@@ -77,3 +79,15 @@ def test_columns_that_no_message_has_are_refused(defect: str) -> None:
     damage, message = MISSHAPEN[defect]
     with pytest.raises(ShapeError, match=message):
         SkinLayout(**SOUND | damage)
+
+
+def test_pads_of_a_module_lie_alike_on_its_three_sides() -> None:
+    """A third of a turn brings taxels onto taxels, a mirror along x too, to 0.01 mm of the drawing."""
+    taxels = MODULE_PADS[MODULE_TAXELS]
+    third = Rotation.from_euler("z", 120.0, degrees=True).apply(taxels)
+    for moved in (third, taxels * [-1.0, 1.0, 1.0]):
+        apart = np.linalg.norm(moved[:, None] - taxels, axis=2)
+        assert apart.min(axis=1).max() < 1e-5
+        assert sorted(apart.argmin(axis=1)) == list(range(len(taxels)))
+    first, second = np.linalg.norm(MODULE_PADS[MODULE_THERMAL], axis=1)
+    assert first == pytest.approx(second, abs=5e-5)

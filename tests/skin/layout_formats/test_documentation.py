@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.check import shape_findings
 from forcetorque.skin.layout.defects import FACETED_DEG, NEAREST_CENTRES_M, OBLIQUE_DEG
-from forcetorque.skin.layout.finding import Defect
+from forcetorque.skin.layout.finding import Defect, shape_of
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
 from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
 from tests.page_scripts import marked, printed, unmarked
@@ -48,7 +48,7 @@ def test_a_cover_becomes_a_layout_without_findings(tmp_path: Path, monkeypatch: 
     (code,) = marked(PAGE)
     assert printed(code, "skin_layout.md").strip() in PAGE
     cover = tmp_path / "build" / "cover"
-    assert layout_findings(describe_patch(cover / "shank.csv")) == ()
+    assert shape_findings(shape_of(describe_patch(cover / "shank.csv"))) == ()
     text = (cover / "cover.urdf").read_text(encoding="utf-8")
     for one, other in (("shank_skin_3", "x"), ("shank_skin_20", "shank_skin_3"), ("x", "shank_skin_20")):
         text = text.replace(f'"{one}"', f'"{other}"')

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, SkinError
-from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.check import shape_findings
+from forcetorque.skin.layout.finding import shape_of
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
 from tests.scenes.patches import collapsed, cylinder_patch, position_text, without_modules
 
@@ -44,7 +45,7 @@ def test_a_file_is_read_as_it_is_written(file: Path) -> None:
     assert (patch.name, patch.frame, patch.columns) == ("shank_lower", "shank", 252)
     assert np.abs(patch.positions - PATCH.positions).max() <= WRITTEN_M
     assert np.abs(patch.normals - PATCH.normals).max() <= WRITTEN_M
-    assert layout_findings(patch) == ()
+    assert shape_findings(shape_of(patch)) == ()
 
 
 def test_its_layout_is_sound(file: Path) -> None:
@@ -69,7 +70,7 @@ def test_what_is_called_a_thermal_pad_is_none_of_the_taxels(file: Path) -> None:
     patch = describe_patch(file)
     assert 6 not in patch.taxels
     assert 6 in patch.thermal_pads
-    (finding,) = layout_findings(patch)
+    (finding,) = shape_findings(shape_of(patch))
     assert list(finding.taxels) == [6]
 
 

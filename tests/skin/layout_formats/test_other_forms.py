@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError, UnitError
-from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.check import shape_findings
+from forcetorque.skin.layout.finding import shape_of
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
@@ -160,7 +161,7 @@ def test_a_table_that_is_written_reads_back_bit_by_bit(tmp_path: Path) -> None:
         assert np.array_equal(getattr(again, name), getattr(layout, name)), name
     assert np.abs(again.normals - layout.normals).max() < 1e-15
     assert (again.name, again.frame, again.columns) == ("patch", "shank", 72)
-    assert layout_findings(describe_patch(path)) == ()
+    assert shape_findings(shape_of(describe_patch(path))) == ()
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,8 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RobotError, SkinError
 from forcetorque.base.pose import rotation_from_rpy
-from forcetorque.skin.layout.check import layout_findings
+from forcetorque.skin.layout.check import shape_findings
+from forcetorque.skin.layout.finding import shape_of
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.modules import MODULE_TAXELS, module_poses, placed_pads
@@ -105,7 +106,7 @@ def test_a_plan_is_bent_over_places(bent: Path) -> None:
     assert patch.normals is not None
     out = truth * [1.0, 1.0, 0.0] / np.linalg.norm(truth[:, :2], axis=1, keepdims=True)
     assert np.degrees(np.arccos((patch.normals * out).sum(axis=1))).mean() < NEAR_DEG
-    assert layout_findings(patch) == ()
+    assert shape_findings(shape_of(patch)) == ()
 
 
 def test_a_piece_that_is_drawn_from_behind_is_the_same_on_the_link(bent: Path) -> None:

@@ -142,13 +142,16 @@ def _begun(
     file = output / "experiment.toml"
     options = {"--urdf": urdf, "--matrices": matrices, "--column-names": column_names or None, "--loads": loads}
     if file.exists():
-        if not {log.resolve() for log in logs} <= logs_of(file):
+        given, named = {log.resolve() for log in logs}, logs_of(file)
+        # a log of which all is left out is not in the file; a folder is in it beside its tables, or they beside it
+        others = [one for one in named if not any(one in (log, *log.parents) or log in one.parents for log in given)]
+        if others or not given & named:
             raise ExperimentError(
                 f"{file}: was begun of another log than {', '.join(map(str, logs))}; name another folder by --output"
             )
-        if given := _given(options):
+        if stated := _given(options):
             raise ExperimentError(
-                f"{file}: was begun already, so that {', '.join(given)} would change nothing; leave it out to go on "
+                f"{file}: was begun already, so that {', '.join(stated)} would change nothing; leave it out to go on "
                 "with the file, or name another folder by --output"
             )
         start_logging().info("going on with %s", file)

@@ -47,6 +47,8 @@ class Stretch(ArrayRecord):
     """Wrenches of the sensors by their prior matrices, without offset; shape (n, 6) each; N, N m; NaN in gaps."""
     touched: tuple[str, ...] = field(metadata=names())
     """Links that touch, or may touch, the world: nothing is asked of the parts that they are of."""
+    keeps_disagreeing: bool = False
+    """Whether seconds that disagree with all others are fitted too."""
     variables: Mapping[tuple[str, str], FloatArray] = field(default_factory=dict, metadata=mapping("n", 1))
     """By sensor and name, linear variables such as the temperature less their reference values; shape (n, 1) each; in
     their units; NaN in gaps."""
@@ -242,6 +244,7 @@ class WindowNodes:
             root=RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate),
             readings={name: self._at_nodes(values) for name, values in stretch.readings.items()},
             touched=stretch.touched,
+            keeps_disagreeing=stretch.keeps_disagreeing,
             variables={name: self._at_nodes(values) for name, values in stretch.variables.items()},
         )
 

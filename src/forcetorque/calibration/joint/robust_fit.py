@@ -100,7 +100,7 @@ def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
     Returns:
         Marks; shape (w,).
     """
-    if len(windows) < FEWEST:
+    if len(windows) < FEWEST or windows.stretch.keeps_disagreeing:
         return np.ones(len(windows), dtype=bool)
     far = disagreeing(residuals(windows, fit)[:, windows.rows > 0.0], _LEAST)
     return ~minority(with_neighbours(far, _NEIGHBOURS))

@@ -333,6 +333,7 @@ def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Seque
         root=root,
         readings=readings,
         touched=touched,
+        keeps_disagreeing="disagreeing" in experiment.processing.keep,
         variables=variables,
     )
     return _LoggedPart(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bags, opened with rosbags: topics, bytes of messages, and packed parts within a limit of size.
+"""Bags, opened with rosbags: topics, bytes of messages, packed parts within a limit of size; and written, in MCAP.
 
 What rosbags unpacks by is replaced where it keeps that: for chunks of ROS 1 in each reader, for MCAP in its table of
 methods.
@@ -20,6 +20,7 @@ import numpy as np
 from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, needs_extra
 from forcetorque.base.input_file import accept_input, require_unpacked
+from forcetorque.base.output_file import replaced_file
 
 LARGEST_CHUNK = 1 << 28
 """Bytes that a packed part of a bag may unpack to."""
@@ -288,3 +289,41 @@ def bag_files() -> Sequence[str]:
         Patterns of their names.
     """
     return (_INDEX, "*.db3", "*.mcap", "*.zstd")
+
+
+def typestore(path: Path) -> Any:
+    """Give the types of messages of ROS 2.
+
+    Args:
+        path: File that they are needed for.
+
+    Returns:
+        Their store, of rosbags.
+
+    Raises:
+        MissingExtraError: If rosbags is not installed.
+    """
+    with needs_extra(f"{path}: MCAP is written by rosbags", "ros"):
+        from rosbags.typesys import Stores, get_typestore
+    return get_typestore(Stores.ROS2_HUMBLE)
+
+
+@contextmanager
+def mcap_writer(path: Path) -> Iterator[Any]:
+    """Write a bag under a temporary name, and rename it at the end; on an error there is none.
+
+    Args:
+        path: File to write or to replace.
+
+    Yields:
+        The writer of rosbags.
+    """
+    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+
+    with replaced_file(path) as temporary:
+        bag = temporary.with_suffix(".bag")
+        writer = Writer(bag, version=9, storage_plugin=StoragePlugin.MCAP)
+        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        with writer:
+            yield writer
+        next(bag.glob("*.mcap")).replace(temporary)

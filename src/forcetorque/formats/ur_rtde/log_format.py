@@ -35,8 +35,12 @@ from forcetorque.formats.logged_wrist import (
     repeats_finding,
     weight_of,
 )
-from forcetorque.formats.ur_rtde.consistency import agreeing_point, require_gravity_as_felt, turned_by
-from forcetorque.formats.ur_rtde.point_by_motion import is_about_other_point
+from forcetorque.formats.ur_rtde.consistency import (
+    agreeing_point,
+    is_about_other_point,
+    require_gravity_as_felt,
+    turned_by,
+)
 from forcetorque.formats.ur_rtde.recorded_fields import RecordedFields, heading_of, read_fields
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream

@@ -14,7 +14,8 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.bench_file import THESIS_TABLE
 from forcetorque.formats.headings import Heading, is_time_name, read_heading, without_bracket
 from forcetorque.formats.log_format import LogSketch
-from forcetorque.inspection.draft.streams import DraftedLog, column_matches, time_column
+from forcetorque.inspection.draft.column_matches import column_matches, time_column
+from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
 
 BENCH_SCHEMA: Final = "forcetorque/bench/1"
@@ -166,7 +167,7 @@ def _columns_lines(
         return
     yield line("known", list(known.values()), "columns of the load")
     taken = {names[k] for k in channels}
-    if unused := [name for name in rest if name not in taken and _KNOWN.match(name)]:
+    if unused := [name for name in rest if name not in taken and _of_load(name)]:
         yield remark(f"named like a load, and not taken: {listed(unused)}")
     units = [read_heading(name).unit for name in known.values()]
     if all(units):
@@ -198,14 +199,19 @@ def _has_time(table: LogSketch) -> bool:
     return not (numbered or _NUMBERS.match(headings[k].name))
 
 
+def _of_load(name: str) -> str | None:
+    """What a column of a known load is named beside that, without its unit; None for other columns."""
+    bare, _ = without_bracket(name)  # also of a unit that is not known: it is asked
+    named = _KNOWN.match(bare) or _KNOWN_BEHIND.match(bare)
+    return None if named is None else named["rest"]
+
+
 def _load_component(heading: Heading) -> re.Match[str] | None:
-    name, _ = without_bracket(heading.name)  # also of a unit that is not known: it is asked
-    named = _KNOWN.match(name) or _KNOWN_BEHIND.match(name)
-    return None if named is None else _COMPONENT.match(named["rest"])
+    return _COMPONENT.match(_of_load(heading.name) or "")
 
 
 def _is_unread_load(heading: Heading) -> bool:
-    return _KNOWN.match(heading.name) is not None and _load_component(heading) is None
+    return _of_load(heading.name) is not None and _load_component(heading) is None
 
 
 def _has_strange_unit(name: str) -> bool:

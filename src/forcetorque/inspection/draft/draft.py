@@ -547,7 +547,10 @@ def _about_repeated(log: DraftedLog) -> Iterator[str]:
     for stream in log.streams:
         for group in stream.repeated:
             names = [] if stream.table is None else [stream.table.columns[k].name for k in group.columns]
-            yield f"{stream.name}: {listed(names, 3)} left out; other columns are its {group.words or group.quantity}"
+            why = "an estimated wrench by its name"
+            if group.quantity in stream.quantities:
+                why = f"other columns are its {group.words or group.quantity}"
+            yield f"{stream.name}: {listed(names, 3)} left out; {why}"
         place, on_it = second_clock(stream)
         if on_it and stream.table is not None:
             yield (

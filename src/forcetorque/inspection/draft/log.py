@@ -16,14 +16,9 @@ from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch,
 from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
 from forcetorque.formats.specified_keys import description_of, specified_keys
 from forcetorque.formats.tabular.log_format import sketch_table
+from forcetorque.inspection.draft.column_matches import array_groups, column_matches, time_column
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import (
-    DraftedLog,
-    DraftedStream,
-    array_groups,
-    column_matches,
-    time_column,
-)
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.tables_and_arrays import (
     array_lines,
     array_streams,

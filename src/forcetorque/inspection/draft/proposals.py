@@ -20,7 +20,7 @@ import numpy as np
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.file import parse_experiment
-from forcetorque.experiment.intervals_of_files import with_intervals_of_files
+from forcetorque.experiment.intervals import with_intervals_of_files
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison

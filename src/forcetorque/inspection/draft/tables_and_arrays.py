@@ -16,18 +16,18 @@ from forcetorque.formats.headings import Heading, is_time_name, names_a_time, re
 from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
-from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import (
+from forcetorque.inspection.draft.column_matches import (
     FORMS_OF_THREE,
     ColumnMatch,
-    DraftedLog,
-    DraftedStream,
     array_groups,
     array_words,
     column_matches,
+    is_estimated,
     is_measured,
     time_column,
 )
+from forcetorque.inspection.draft.joints import joints_question
+from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.toml_lines import (
     RATE_LINES,
     TIME_UNITS,
@@ -161,17 +161,25 @@ def _headings(sketch: LogSketch) -> list[Heading]:
 
 
 def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[tuple[ColumnMatch, ...], tuple[ColumnMatch, ...]]:
-    """Groups of columns, each quantity once, a measured one first; and those of a quantity that comes again."""
+    """Groups of columns, each quantity once, a measured one first; and those of a load or quantity that comes again."""
     if not (sketch.has_headings or sketch.names_specified):
         return (), ()
     headings = _headings(sketch)
     time = time_column(headings, [column.step for column in sketch.columns])
     matches = column_matches(headings, joints, sketch.quaternion, time)
-    by_measurement = sorted(matches, key=lambda one: not all(is_measured(headings[k].name) for k in one.columns))
+    names = {group: [headings[k].name.lower() for k in group.columns] for group in matches}
+
+    def is_less_likely(group: ColumnMatch) -> tuple[bool, bool]:
+        """Whether it is not measured; whether another of its quantity has the same names without a prefix."""
+        bare = (names[one] for one in matches if one is not group and one.quantity == group.quantity)
+        return not all(map(is_measured, names[group])), any(_have_prefix(names[group], one) for one in bare)
+
     groups: dict[str, ColumnMatch] = {}
-    for group in by_measurement:
+    for group in sorted(matches, key=is_less_likely):
         groups.setdefault(group.quantity, group)
-    repeated = tuple(group for group in matches if groups[group.quantity] is not group)
+    if "raw" in groups and "wrench" in groups and _are_estimated(headings, groups["wrench"]):
+        del groups["wrench"]
+    repeated = tuple(group for group in matches if groups.get(group.quantity) is not group)
     if "position" in groups:  # which tell the pose
         groups = {name: group for name, group in groups.items() if group.form not in FORMS_OF_THREE}
     if "orientation" in groups:  # from which gravity follows
@@ -180,7 +188,17 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[tuple[ColumnMatch
             groups.pop("gravity", None)
         elif unclear is not None and "gravity" not in groups and _is_gravity(sketch, unclear):
             groups["gravity"] = replace(unclear, quantity="gravity", words="")
-    return tuple(groups.values()), tuple(group for group in repeated if group.quantity in groups)
+    return tuple(groups.values()), tuple(group for group in repeated if group.quantity in (*groups, "wrench"))
+
+
+def _have_prefix(names: Sequence[str], bare: Sequence[str]) -> bool:
+    return len(names) == len(bare) and all(
+        name.endswith(end) and name != end for name, end in zip(names, bare, strict=True)
+    )
+
+
+def _are_estimated(headings: Sequence[Heading], group: ColumnMatch) -> bool:
+    return any(is_estimated(headings[k].name) for k in group.columns)
 
 
 def _is_gravity(sketch: LogSketch, group: ColumnMatch) -> bool:

@@ -176,7 +176,8 @@ def strongest_jump(fitted: Fit) -> tuple[int, int] | None:
     from scipy.special import ndtri  # here because importing it takes longer than most commands
 
     rows = fitted.problem.rows
-    basis, covariance = fitted.basis, fitted.estimate.covariance
+    # what a step leaves of itself is counted in one noise, so the covariance is that of this noise too
+    basis, covariance = fitted.basis, fitted.estimate.of_best_shapes
     jump, largest, tried = (0, 0), 0.0, 0
     pairs = zip(fitted.groups, fitted.estimate.shapes, fitted.estimate.variances, strict=True)
     for number, (group, noise, variance) in enumerate(pairs):

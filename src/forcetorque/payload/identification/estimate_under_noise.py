@@ -71,6 +71,8 @@ class Estimate:
     """Mean of each pair less that of the mixture; shape (k, r)."""
     spreads: FloatArray
     """Covariance of each pair; shape (k, r, r)."""
+    of_best_shapes: FloatArray
+    """Covariance in the best shapes with these variances, as if they were known; shape (r, r)."""
 
     def half_widths(self, basis: FloatArray) -> FloatArray:
         """Give half-widths of 95 % intervals of the parameters.
@@ -137,6 +139,7 @@ def estimate(
     spread = np.linalg.inv(precision + np.array([sum(one.products for one in pair) for pair in pairs]))
     sides = expected + np.array([sum(one.sides for one in pair) for pair in pairs])
     mean = np.einsum("krs,ks->kr", spread, sides)
+    of_best_shapes = spread[0]
     spread = spread + _by_estimated_sizes(groups, tried, precision)
     centre = weight @ mean
     apart = mean - centre
@@ -148,6 +151,7 @@ def estimate(
         weights=weight,
         apart=apart,
         spreads=spread,
+        of_best_shapes=of_best_shapes,
         shapes=tuple(group[0].noise for group in tried),
         variances=tuple(group[0].variance for group in tried),
     )

@@ -189,6 +189,8 @@ class Processing:
     """
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
+    keep: frozenset[str] = frozenset()
+    """What is used although it is left out by default, as `ProcessingTable` has it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -115,7 +115,7 @@ def _bridge_channel(name: str, gauge: ResistiveGauge, bridge: Bridge, electronic
     rounding = electronics.adc.step / electronics.amplifier_gain / math.sqrt(12.0)
     zero = "equal gauges at one temperature cancel" if bridge.is_temperature_compensated else "resistance of one gauge"
     adc, gain = electronics.adc, electronics.amplifier_gain
-    lowest, highest = (float(adc.voltage(count)) / gain for count in (adc.lowest, adc.highest))
+    lowest, highest = (count * adc.step / gain for count in (adc.lowest, adc.highest))
 
     def signal(strain: Any, degC: Any) -> FloatArray:
         # the linear gauge has no term of strain times temperature, so both act by themselves

@@ -39,18 +39,6 @@ _CHECKS: tuple[Callable[[PatchShape], Iterator[LayoutFindingRow]], ...] = (
 )
 
 
-def layout_findings(patch: PatchDescription) -> tuple[LayoutFindingRow, ...]:
-    """Check a layout.
-
-    Args:
-        patch: Patch.
-
-    Returns:
-        Findings; none where it is valid.
-    """
-    return shape_findings(shape_of(patch))
-
-
 def shape_findings(shape: PatchShape) -> tuple[LayoutFindingRow, ...]:
     """Check a layout whose shape is known.
 

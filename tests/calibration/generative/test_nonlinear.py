@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,12 +15,15 @@ from forcetorque.calibration.generative.fit import fit_generative
 from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
+from tests.calibration.synthetic import OFFSET, PRIOR, anyhow, assumptions, read_by
 from tests.experiment.calibration.quadratic_sensor import ASSUMPTIONS, Specimen, calibrated, means_of
 from tests.scenes.calibrations import FACTORY
 
 CROSSTALK_COUNTS = 2000.0
 """Cross-talk of a sensor that a matrix does not tell: at a quarter of full scale some 0.5 % of it."""
 RECORDINGS = 3
+EXACT = 1e-6
+"""Relative: what noise-free recordings leave of the prior; offsets that count are some 10, a hundredth would show."""
 
 
 def _unseen(calibration: Calibration, data: DataSet) -> FloatArray:
@@ -159,6 +164,33 @@ def test_a_sensor_that_is_linear_is_not_corrected_for_loads_that_hide_its_gain()
     fit = fit_generative(means, FACTORY, ASSUMPTIONS)
     corrected = corrected_fit(fit, means, ["force", "moment"])
     assert (corrected.residual / fit.residual).min() < 0.5
+
+
+def test_errors_on_a_recording_that_was_not_fitted_are_those_of_its_readings() -> None:
+    """Others are exact, so that they find the sensor: by samples, about the mean of each session; N, N m.
+
+    Whatever the offsets are; a correction that the others do not need changes nothing.
+    """
+    rng = np.random.default_rng(0)
+    parts, squares = [], []
+    for k, (recording, session, sign) in enumerate(
+        (("a", "a", 1), ("b", "b", -2), ("c", "early", 3), ("c", "late", -1))
+    ):
+        load = anyhow(seed=k)
+        error = rng.normal(size=load.shape) * [3.0, 3.0, 3.0, 0.2, 0.2, 0.2] * (recording == "c")
+        means = read_by(load + error, noise_counts=0.0, offset=sign * OFFSET, session=session, recording=recording)
+        count = rng.integers(20, 100, size=len(load)).astype(np.float64)
+        parts.append(replace(means, reference=load, count=count, time_s=means.time_s + 100.0 * k))
+        squares.append((error - np.average(error, axis=0, weights=count)) ** 2)
+    trial = try_correction(parts, PRIOR, assumptions())
+    assert trial.recordings == ("a", "b", "c")
+    samples = [one.count.sum() for one in parts]
+    np.testing.assert_array_equal(trial.samples, [*samples[:2], sum(samples[2:])])
+    weights = np.concatenate([one.count for one in parts[2:]])
+    square = np.average(np.concatenate(squares[2:]), axis=0, weights=weights)
+    expected = np.sqrt([square[:3].sum(), square[3:].sum()])
+    np.testing.assert_allclose(trial.linear_rms[2], expected, rtol=EXACT)
+    np.testing.assert_allclose(trial.corrected_rms[2], expected, rtol=EXACT)
 
 
 def test_one_recording_is_not_enough() -> None:

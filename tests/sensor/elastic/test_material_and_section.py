@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hooke's law and the strain of simple elements, by hand and by their symmetries."""
+"""Moduli of materials, and moments of sections, by hand and by tables."""
 
 from __future__ import annotations
 
@@ -10,11 +10,6 @@ from forcetorque.base.errors import SensorError
 from forcetorque.sensor.elastic import (
     Material,
     RectangularSection,
-    bending_strain,
-    diagonal_strain,
-    direct_strain,
-    shear_strain,
-    strain_of_lengths,
 )
 
 STEEL = Material(young_modulus=200e9, shear_modulus=80e9)
@@ -22,14 +17,6 @@ SECTION = RectangularSection(width=0.02, height=0.01)
 
 ROUNDING = 1e-14
 """Relative rounding of a few products."""
-
-
-def test_hookes_law_by_hand() -> None:
-    """A thousandth of strain in steel is 200 MPa along and 80 MPa in shear, and back."""
-    assert STEEL.normal_stress(1e-3) == pytest.approx(200e6, rel=ROUNDING)
-    assert STEEL.shear_stress(1e-3) == pytest.approx(80e6, rel=ROUNDING)
-    np.testing.assert_allclose(STEEL.normal_strain([200e6, -100e6]), [1e-3, -5e-4], rtol=ROUNDING)
-    np.testing.assert_allclose(STEEL.shear_strain([80e6, -40e6]), [1e-3, -5e-4], rtol=ROUNDING)
 
 
 def test_poisson_ratio_ties_the_moduli() -> None:
@@ -56,44 +43,6 @@ def test_impossible_poisson_ratios_are_refused(ratio: float) -> None:
     """A ratio above 0.5 grows under pressure; springs are not made of what gets thicker when pulled."""
     with pytest.raises(SensorError, match="Poisson ratio"):
         Material.from_poisson_ratio(200e9, ratio)
-
-
-def test_strain_of_lengths_by_hand() -> None:
-    """0.1 mm on 100 mm is a thousandth, negative where it got shorter."""
-    np.testing.assert_allclose(strain_of_lengths([0.1001, 0.0999], initial_length=0.1), [1e-3, -1e-3], rtol=1e-12)
-    with pytest.raises(SensorError, match="initial_length: expected a finite number above 0 m"):
-        strain_of_lengths(0.1, initial_length=0.0)
-
-
-def test_direct_strain_by_hand() -> None:
-    """8 kN on 2 cm2 of steel: 40 MPa, a strain of 2e-4; pressing gives the negative."""
-    np.testing.assert_allclose(direct_strain([8e3, -8e3], SECTION, STEEL), [2e-4, -2e-4], rtol=ROUNDING)
-
-
-def test_bending_strain_by_hand() -> None:
-    """10 N m on 20 x 10 mm: W = b h2 / 6 = 3.33e-7 m3, 30 MPa, a strain of 1.5e-4."""
-    assert bending_strain(10.0, SECTION, STEEL) == pytest.approx(1.5e-4, rel=ROUNDING)
-
-
-def test_bending_across_the_width_is_another_number() -> None:
-    """Negative control: the section lying on its side is stiffer by the ratio of its edges."""
-    on_its_side = RectangularSection(width=0.01, height=0.02)
-    assert bending_strain(10.0, on_its_side, STEEL) == pytest.approx(1.5e-4 / 2.0, rel=ROUNDING)
-
-
-def test_shear_strain_by_hand() -> None:
-    """1.6 kN across 2 cm2: 8 MPa, an angle of 1e-4; a gauge at 45 degrees sees half of it."""
-    angle = shear_strain(1600.0, SECTION, STEEL)
-    assert angle == pytest.approx(1e-4, rel=ROUNDING)
-    assert diagonal_strain(angle) == pytest.approx(5e-5, rel=ROUNDING)
-
-
-def test_diagonal_strain_is_that_of_a_turned_gauge() -> None:
-    """Turning the strain tensor of pure shear by 45 degrees leaves half the angle on the axis."""
-    angle = 3e-4
-    tensor = np.array([[0.0, angle / 2], [angle / 2, 0.0]])
-    along = np.array([1.0, 1.0]) / np.sqrt(2.0)
-    assert diagonal_strain(angle) == pytest.approx(along @ tensor @ along, rel=ROUNDING)
 
 
 def test_second_moments_are_integrals_over_the_section() -> None:
