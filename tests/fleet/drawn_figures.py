@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import numpy as np
-from forcetorque.fleet.job import CalibratedSensor
 from matplotlib.figure import Figure
 
 from forcetorque.fleet.figures import fleet_report_figure, fleet_run_figure, fleet_table_figure, over_time_figure
 from forcetorque.fleet.report import FleetReport, RankedSensor
-from forcetorque.fleet.run import FleetRun
+from forcetorque.fleet.run import CalibratedSensor, FleetRun
 from forcetorque.fleet.sensor_evaluation import RecordingError
 from forcetorque.fleet.table import FleetSensor, FleetTable
 

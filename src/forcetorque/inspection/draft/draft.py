@@ -52,7 +52,13 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
-from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names, few_components, second_clock
+from forcetorque.inspection.draft.tables_and_arrays import (
+    INERTIAL,
+    example_names,
+    few_components,
+    second_clock,
+    unread_columns,
+)
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import NO_MOTION, Recording
@@ -124,6 +130,8 @@ class Draft(Result):
     """Findings about the log, and reasons for what is unknown."""
     few_components: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """Columns of a sensor of fewer than six components, which are not read; none where a sensor was found."""
+    unread: str = Field(default="", exclude=True, repr=False)
+    """Columns that nothing is read from, where no sensor was found."""
     thermometers: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """What to do with tables of a temperature alone, where no sensor was found."""
     left_out: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
@@ -153,13 +161,14 @@ class Draft(Result):
             f"{listed(self.few_components)} not read: of a load cell or a sensor of three axes, take the lines that "
             "the file has as comments, and state its [[sensor]]"
         )
+        lack = (f"{_NO_SENSOR}{self.unread}",) if self.lacks_sensor else ()
         not_read = (*((few,) if self.few_components else ()), *self.left_out[:_SHOWN_LEFT_OUT])
         count, first = len(self.questions), next(iter(self.questions), None)
         if self.lacks_sensor and "[robot]" not in self.content:
             yield Answer(
                 subject=self.file,
                 verdict="NO SENSOR AND NO ROBOT",
-                why=(_NO_SENSOR, *self.thermometers, *not_read),
+                why=(*lack, *self.thermometers, *not_read),
                 step="begin it again with a log that has the wrench, or with the robot by --urdf",
                 concern=Concern.UNCERTAIN,
             )
@@ -171,6 +180,7 @@ class Draft(Result):
             verdict=f"{count} LINE{'S' * (count != 1)} TO FILL IN" if count else "COMPLETE",
             why=(
                 *(self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",)),
+                *lack,
                 *not_read,
                 *((f"{more} more left out: --details",) if more > 0 else ()),
             ),
@@ -331,6 +341,7 @@ def draft_experiment(
         questions=_questions(text),
         notes=notes,
         few_components=() if found else tuple(column for table in tables for column in few_components(table).values()),
+        unread="" if found else _unread_text(log),
         thermometers=() if found else tuple(_about_thermometers(log)),
         left_out=left_out,
         robot_file=None if robot_file is None else str(robot_file),
@@ -513,6 +524,11 @@ def _about_others(found: Sequence[DraftedSensor], chosen: Sequence[DraftedSensor
     for sensor in found:
         if not asked and sensor not in chosen:
             yield f"{sensor.stream}: left out, an estimated wrench by its name; --sensor {sensor.name} takes it"
+
+
+def _unread_text(log: DraftedLog) -> str:
+    names = [name for stream in log.streams for name in unread_columns(stream)]
+    return f"; not read: {listed(names, 8)}" if names else ""
 
 
 def _about_thermometers(log: DraftedLog) -> Iterator[str]:

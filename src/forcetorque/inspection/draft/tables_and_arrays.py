@@ -354,11 +354,7 @@ def _signal_lines(
         ]
         signal = ["[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
         lines += [f"# {text}" for text in "\n".join(signal).splitlines() if text]
-    used = {k for group in (*stream.groups, *stream.alternatives) for k in group.columns}
-    used.add(-1 if (time := time_column(_headings(sketch), [c.step for c in sketch.columns])) is None else time)
-    if on_it:
-        used.add(own_clock)
-    rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
+    rest = unread_columns(stream)
     if not stream.groups:
         lines += ["", "[[recording.stream.signal]]"]
         names = "" if not (sketch.has_headings or sketch.names_specified) else f", by the headings {listed(rest)}"
@@ -375,6 +371,25 @@ def _signal_lines(
             *_few_component_lines(sketch, is_read=bool(stream.components) or "wrench" in stream.quantities),
         ]
     return lines
+
+
+def unread_columns(stream: DraftedStream) -> tuple[str, ...]:
+    """Name the columns of a table that nothing is read from.
+
+    Args:
+        stream: The stream of a table.
+
+    Returns:
+        Their names.
+    """
+    columns = () if stream.table is None or not stream.table.is_table else stream.table.columns
+    used = {k for group in (*stream.groups, *stream.alternatives) for k in group.columns}
+    headings = [read_heading(column.name) for column in columns]
+    used.add(-1 if (time := time_column(headings, [column.step for column in columns])) is None else time)
+    place, on_it = second_clock(stream)
+    if on_it:
+        used.add(place)
+    return tuple(column.name for k, column in enumerate(columns) if k not in used)
 
 
 def second_clock(stream: DraftedStream) -> tuple[int, tuple[ColumnMatch, ...]]:
