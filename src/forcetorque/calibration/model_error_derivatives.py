@@ -35,7 +35,7 @@ from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
-_BLOCK: Final = 1024
+_BLOCK: Final = 4096
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
 """Share of the largest effect of a term below which one is rounding, such as that of a yaw about gravity."""

@@ -167,6 +167,9 @@ def test_contacts_are_a_raster_over_time(skin_page: Page) -> None:
     assert light == none  # nothing at the hand, nothing in the first frame
     assert dark < first < none
     assert late < none
+    largest = max(float(np.linalg.norm(force)) for forces in FORCES for force in forces)
+    legend = skin_page.get_by_role("region", name="Skin").get_by_text("Time axis: darkest at")
+    assert legend.text_content() == f"Time axis: darkest at {largest:.1f} N and 0.500 of the heuristic"
 
 
 def test_the_next_contact_is_one_key_away(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
