@@ -80,7 +80,7 @@ def test_a_run_without_a_sample_has_its_account_and_no_figure(tmp_path: Path) ->
     whole = run_of(np.random.default_rng(1))
     account = drawn_to(whole.model_copy(update={"kept": None}), tmp_path / "live.png")
     assert account.figure_file is None
-    assert "live.png: not written" in account.warnings[0]
+    assert "live.png: live run: expected samples" in account.warnings[0]
     assert not (tmp_path / "live.png").exists()
     assert drawn_to(whole, tmp_path / "live.png").warnings == ()
     assert (tmp_path / "live.png").exists()

@@ -83,6 +83,27 @@ def test_the_name_of_the_file_says_what_is_drawn(tmp_path: Path, ending: str, he
     assert file.read_bytes() == first
 
 
+class Kept(Toy):
+    """A toy whose computation took long."""
+
+    outlives_figure = True
+
+
+def test_what_took_long_outlives_its_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A warning takes the place of what cannot be drawn; of other results it is an error."""
+
+    def toy_lines(*_: object) -> Figure:
+        raise OutputError("there is nothing to draw")
+
+    monkeypatch.setattr(f"{__name__}.toy_lines", toy_lines)
+    with pytest.raises(OutputError, match="nothing to draw"):
+        drawn_to(Toy(values=(1.0,)), tmp_path / "toy.png")
+    kept = drawn_to(Kept(values=(1.0,)), tmp_path / "toy.png")
+    assert (kept.figure_file, kept.values) == (None, (1.0,))
+    assert "toy.png: there is nothing to draw" in kept.warnings[0]
+    assert not (tmp_path / "toy.png").exists()
+
+
 def test_a_drawing_of_another_program_is_kept(tmp_path: Path) -> None:
     """An SVG that was drawn by hand is not replaced."""
     file = tmp_path / "sketch.svg"

@@ -301,6 +301,7 @@ class CompensatedDataset(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
+    outlives_figure = True
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the load and the biases.

@@ -152,6 +152,7 @@ class FleetRun(DrawnResult):
     """What became of a plan."""
 
     drawn_by: ClassVar[str] = "forcetorque.fleet.figures:fleet_run_figure"
+    outlives_figure = True
 
     schema_name: Literal["forcetorque/fleet_run/1"] = Field(default="forcetorque/fleet_run/1", alias="schema")
     """Form of the result."""

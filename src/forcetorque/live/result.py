@@ -5,13 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
@@ -129,6 +127,7 @@ class LiveRun(DrawnResult):
     """Account of a live run."""
 
     drawn_by: ClassVar[str] = "forcetorque.live.figure:live_figure"
+    outlives_figure = True
 
     schema_name: Literal["forcetorque/live/1"] = Field(default="forcetorque/live/1", alias="schema")
     """Form of the result."""
@@ -152,18 +151,6 @@ class LiveRun(DrawnResult):
     """The last samples; None where none were kept."""
     output_file: str | None = None
     """Parquet file or bag; null where none was written."""
-
-    def without_figure(self, file: Path, error: ForceTorqueError | OSError) -> Self:
-        """Give the account with a warning in place of the figure.
-
-        Args:
-            file: The figure.
-            error: Why it is not there.
-
-        Returns:
-            The account.
-        """
-        return self.model_copy(update={"warnings": (*self.warnings, f"--figure {file}: not written: {error}")})
 
     def answers(self) -> Iterator[Answer]:
         """Give the answer for every sensor: samples, faults and losses.

@@ -275,6 +275,8 @@ class DrawnResult(Result):
     """Function that draws it, as `module:name`; classes with a `figure` of their own have none."""
     drawn_fields: ClassVar[tuple[str, ...]] = ()
     """Fields or properties that this function takes; the result itself if there are none."""
+    outlives_figure: ClassVar[bool] = False
+    """Whether a figure that cannot be drawn is a warning: of what took long, or cannot be computed again."""
 
     figure_file: str | None = Field(default=None, alias="figure")
     """File of the figure; null where none was written."""
@@ -298,11 +300,16 @@ class DrawnResult(Result):
             file: The figure.
             error: Why it is not there.
 
+        Returns:
+            The result with a warning, where it outlives its figure.
+
         Raises:
-            ForceTorqueError: Always, in results that are nothing without their figure.
+            ForceTorqueError: In all other results.
             OSError: As above.
         """
-        raise error
+        if not self.outlives_figure:
+            raise error
+        return self.model_copy(update={"warnings": (*self.warnings, f"not drawn: {error}")})
 
     def _shown(self) -> Iterator[Table | str]:
         yield from self.blocks()
