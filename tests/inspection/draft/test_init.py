@@ -469,7 +469,7 @@ def _axes(text: str) -> str:
         (f"{_WRENCH},pressure [kPa]", {"wrench": "Fx [N]"}),
         (f"{_TAXELS},pressure [kPa]", {"taxel_counts": "left_taxel_0", "pressure": "pressure [kPa]"}),
         (",".join(f"taxel_{k} [N]" for k in range(12)), {}),
-        (",".join(f"cell_{k} [kPa]" for k in range(12)), {}),
+        (",".join(f"cell_{k}" for k in range(12)), {}),
         (",".join(f"taxel_{k} [counts]" for k in range(12)), {"taxel_counts": "taxel_0 [counts]"}),
         (f"{_TAXELS},{_TAXELS.replace('left', 'right')}", {"taxel_counts": "left_taxel_0"}),
     ],
@@ -517,7 +517,22 @@ def test_counts_of_taxels_are_a_patch(tmp_path: Path) -> None:
     (answer,) = resume_experiment(tmp_path / "skin.toml").answers()
     assert (answer.verdict, answer.command) == ("COMPLETE", f"inspect {tmp_path / 'skin.toml'}")
     assert [one.key for one in draft_of([]).questions] == ["name", "layout"]
-    assert "[[patch]]" not in draft_of([], "cell", 6).content
+    assert "[[patch]]" not in draft_of([], "taxel", 6).content
+
+
+def test_taxels_beside_a_sensor_ask_nothing(tmp_path: Path) -> None:
+    """Their patch is there to be taken up: with its lines uncommented it asks for name and layout."""
+    others = ",".join(f"taxel_{k}" for k in range(12))
+    rows = "\n".join(",".join([f"{k / 10}", *["240"] * 12, *map(str, range(k, k + 6))]) for k in range(30))
+    (tmp_path / "log.csv").write_text(f"time_s,{others},{_WRENCH}\n{rows}\n", encoding="utf-8")
+    draft = draft_experiment([tmp_path / "log.csv"])
+    assert "layout" not in [one.key for one in draft.questions]
+    content = tomllib.loads(draft.content)
+    assert [one["name"] for one in content["sensor"]] == ["ft_sensor"]
+    assert "patch" not in content
+    taken_up = re.sub(r"(?m)^# (?=\[\[patch|name = |counts = |layout = )", "", draft.content)
+    patch = tomllib.loads(taken_up)["patch"]
+    assert patch == [{"name": "?", "counts": "log", "layout": "?"}]
 
 
 def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:
