@@ -218,8 +218,22 @@ def test_times_that_come_twice_are_times(tmp_path: Path, kept: int, is_asked: bo
     draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
     asked = [one.question for one in draft.questions if one.key == "stamp"]
     assert [text[:46] for text in asked] == ["most times of time_s come twice or more, or on"] * is_asked
-    assert all('{ column = "time_s", unit = "s" } uses only rows whose time rises' in text for text in asked)
+    assert all('{ column = "time_s", unit = "s" } uses only rows that rise' in text for text in asked)
     assert "a load cell or a sensor of three axes" not in draft.content  # of a wrench nothing else is offered
+
+
+@pytest.mark.parametrize("lacking", ["nan", ""])
+def test_a_missing_time_is_named_by_its_row(tmp_path: Path, lacking: str) -> None:
+    """No stamp reads it: the row is to be deleted, and the question of the file without it is gone."""
+    first, *rows = log_text().splitlines()
+    texts = [[first, *rows[:5], lacking + rows[5][rows[5].index(",") :], *rows[6:]], [first, *rows[:5], *rows[6:]]]
+    asked = []
+    for lines in texts:
+        log = _written(tmp_path, "\n".join(lines) + "\n")
+        draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
+        asked.append([one.question for one in draft.questions if one.key == "stamp"])
+    assert [len(one) for one in asked] == [1, 0]
+    assert asked[0][0].startswith("row 6 has no time_s: delete rows without a time, then { column =")
 
 
 def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafted: str) -> None:
