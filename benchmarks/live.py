@@ -35,7 +35,7 @@ from forcetorque.live.run import LiveLoop
 from forcetorque.live.tool import Tool
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.motion import RootMotion
 from forcetorque.simulation.sensor import y_shaped_matrix
 

@@ -20,7 +20,7 @@ from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estima
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
@@ -29,8 +29,8 @@ from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.wrench.operator import DISC_POINTS, DISC_RADIUS_M
 from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.pressure_to_wrench import DISC_POINTS, DISC_RADIUS_M
 
 PITCH_M = 6.6e-3
 FEW, MANY = 380, 4000

@@ -11,7 +11,7 @@ from benchmarks.harness import arguments, interleaved, median_ratio, write_resul
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.sphere.algebraic_fit import direct_fit, gradient_weighted_fit
 from forcetorque.evaluation.sphere.cloud import QuadricMoments, Resampled, extent, resampled
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 from forcetorque.evaluation.sphere.geometric_fit import ellipsoid_distances, refine_ellipsoid
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.device.description import device_load
+from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.model import BASE, device_model
 from forcetorque.device.motion import DeviceTrajectory, twelve_steps

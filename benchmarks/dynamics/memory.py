@@ -25,7 +25,7 @@ import numpy.typing as npt
 from benchmarks.dynamics.problem import Problem, icub_problem
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 _BATCH = 65_536

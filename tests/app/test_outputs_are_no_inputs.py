@@ -65,12 +65,14 @@ WORDS = {
     "bench device": f"{PARQUET}",
     "bench plate": f"{PARQUET}",
     "dataset check": f"{PARQUET}",
-    "dataset compensate": f"{PARQUET}",
+    "dataset compensate": f"{PARQUET} -o new",
     "estimate": f"{PARQUET} -o new.csv",
     "evaluate": f"{PARQUET} -c fitted.json",
     "export": "fitted.json --to csv",
     "fleet add": f"{PARQUET}",
     "fleet report": "fitted.json -c fitted.json",
+    "fleet run": f"{PARQUET}",
+    "fleet table": f"{PARQUET}",
     "bench gains": f"{PARQUET}",
     "init": f"{PARQUET}",
     "inspect": f"{PARQUET}",
@@ -184,6 +186,7 @@ def test_an_output_that_is_an_input_is_refused(arm: Path, run: Run, command: str
         ("calibrate", "--output"),
         ("calibrate", "--write-urdf"),
         ("export", "--output"),
+        ("fleet report", "--figure"),
         ("fleet report", "--output"),
     }
     assert (IS_INPUT if read_first else IS_FOREIGN) in run(*words).error()

@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
-from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import (
     INTERVAL_MARGIN_S,

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.calibration.robot_correction import place_in_urdf, read_model_errors, robot_errors
 from forcetorque.experiment.calibration.robot_model_error import ModelError
 from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment
@@ -50,6 +50,27 @@ def test_errors_of_a_body_are_those_of_all_its_links(arm: Path) -> None:
     for name in ("mass of tool", "zero of tail"):
         with pytest.raises(RobotError, match=f"{name}: the robot has no such body or joint.*same URDF"):
             robot_errors(model, [_error(name, 0.1)])
+
+
+def test_the_line_of_an_error_in_the_urdf_is_named(tmp_path: Path) -> None:
+    """Of mass, centre and joint; none of a link without inertia, of another robot, or of a recording."""
+    file = tmp_path / "arm.urdf"
+    file.write_text(
+        '<robot name="arm">\n<link name="imu"/>\n<link\n  name="hand">\n<visual><origin xyz="0 0 9"/></visual>\n'
+        '<inertial>\n<origin xyz="0 0 1"/>\n<mass value="2"/></inertial></link>\n'
+        '<joint name="wrist" type="revolute"><parent link="base"/>\n<origin xyz="0 0 0"/></joint>\n</robot>\n',
+        encoding="utf-8",
+    )
+    places = {
+        "mass of hand": " (arm.urdf:8, <mass>)",
+        "z of centre of hand": " (arm.urdf:7, <origin>)",
+        "zero of wrist": " (arm.urdf:10, <origin>)",
+        "mass of imu": "",
+        "mass of foot": "",
+        "delay of the readings of log": "",
+    }
+    assert {name: place_in_urdf(file, name) for name in places} == places
+    assert place_in_urdf(None, "mass of hand") == ""
 
 
 def test_a_correction_takes_most_of_the_error_of_the_model_away(arm: Path, run: Run) -> None:

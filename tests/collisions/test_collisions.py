@@ -17,7 +17,8 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import cross
 from forcetorque.collisions.collisions import find_collisions
 from forcetorque.collisions.findings import with_collisions
-from forcetorque.collisions.residual import Level, signals_of
+from forcetorque.collisions.free_model import FreeChanges, matrix_errors
+from forcetorque.collisions.residual import Level, changes_of, signals_of, split_columns
 from forcetorque.collisions.result import Collisions
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -26,7 +27,7 @@ from forcetorque.inspection.residual_findings import UNEXPLAINED
 from forcetorque.recording.recording import Finding, Support
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.robot.dynamics import joints_between, link_pose
-from forcetorque.robot.mechanics.samples import robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.tree import build_tree
 from forcetorque.viewer.scene_builder import build_scene
 from forcetorque.viewer.viewer_log import viewer_log
@@ -63,12 +64,12 @@ def test_supports_share_terms_by_name(folder: Path) -> None:
     own = signals_of(run, run.read_by(None, None).bare, interval)
     names = ("mass of another", *reversed(own.of_model))
     shared = own.with_terms(names)
-    first = own.columns.shape[2] - len(own.of_model)
-    assert first == 1 + 36
     assert len(own.of_model) > 3
-    np.testing.assert_array_equal(shared.columns[:, :, :first], own.columns[:, :, :first])
-    np.testing.assert_array_equal(shared.columns[:, :, first + 1 :], own.columns[:, :, : first - 1 : -1])
-    assert not shared.columns[:, :, first].any()
+    np.testing.assert_array_equal(shared.columns[:, :12], own.columns[:, :12])
+    terms, of_model = (split_columns(one.columns)[2] for one in (shared, own))
+    np.testing.assert_array_equal(terms[:, :, 1:], of_model[:, :, ::-1])
+    assert not terms[:, :, 0].any()
+    assert of_model.any()
 
 
 def test_windows_change_against_the_mean_of_those_before_them(folder: Path) -> None:
@@ -94,6 +95,23 @@ def test_windows_change_against_the_mean_of_those_before_them(folder: Path) -> N
         count += 1
         mean = mean + max(0.01, 1.0 / count) * (columns - mean)
     assert len(signals) > 200
+
+
+def test_six_loads_give_what_the_terms_of_all_coefficients_give(folder: Path) -> None:
+    """Change and covariance are those of one column for each coefficient of the matrix, written out."""
+    run = _run(folder)
+    correction = run.read_by(None, None).bare
+    signals = signals_of(run, correction, run.experiment.recording.intervals[0])
+    of_load = matrix_errors(run, correction.model.matrix)
+    changes = changes_of([signals])
+    model = FreeChanges.of(changes, signals.unmodelled, of_load)
+    wrenches, covariances = model.wrench(changes)
+    residual, load, of_model = split_columns(changes)
+    terms = np.concatenate([np.einsum("wl,lkp->wkp", load, of_load), of_model], axis=2)
+    spread = np.einsum("wkp,pq,wnq->wkn", terms, model.free.covariance, terms, optimize=True)
+    np.testing.assert_allclose(wrenches, residual - terms @ model.free.mean, atol=ROUNDING * np.abs(residual).max())
+    np.testing.assert_allclose(covariances, model.free.noise + spread, rtol=1e-9, atol=1e-9 * np.abs(spread).max())
+    assert np.abs(terms @ model.free.mean).max() > 1e-3 * np.abs(residual).max()
 
 
 def _relative_poses(run: SensorRun, link: str) -> tuple[FloatArray, FloatArray]:

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.contests.entries import PHASES, Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, trial_by_phase
-from forcetorque.device.description import device_load
+from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import device_model
@@ -21,7 +21,7 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor, FitO
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing
 
 RATE_HZ = 10.0
 """Of all streams: the device moves slowly."""

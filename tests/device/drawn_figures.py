@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.device.demand_result import RequirementRow, Verdict
 from forcetorque.device.figures import requirement_figure
+from forcetorque.device.requirements import RequirementRow, Verdict
 
 
 def draw_requirement(rng: np.random.Generator) -> Figure:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import device_load
+from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import device_model

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError
-from forcetorque.device.demand_result import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.demands import DeviceDemands, device_demands
+from forcetorque.device.description import device_load
 from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
 from forcetorque.device.mechanical_demands import average_torque
+from forcetorque.device.requirements import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.tolerances import Tolerance
 
 DEVICE = read_device()
@@ -96,6 +97,21 @@ def test_every_load_reaches_its_lock(demands: DeviceDemands) -> None:
     assert [row.load for row in demands.locks] == ["empty carrier", *(f"{5 * k} kg" for k in range(1, 8))]
     assert all(row.reaches for row in demands.locks)
     assert [row.step for row in demands.hinge if row.hinge == "free"] == [11]
+
+
+def test_moments_about_the_hinge_are_those_of_a_pendulum(demands: DeviceDemands) -> None:
+    """Weight times lever, times the sine of a degree to close the lock; no way has more, and a level one has it all."""
+    largest = 0.0
+    for row, load_kg in zip(demands.locks, DEVICE.loads_kg, strict=True):
+        load = device_load(DEVICE, load_kg)
+        lever = np.hypot(*(np.array(load.inertia.first_moment)[[0, 2]] / load.inertia.mass))
+        largest = DEVICE.gravity * load.inertia.mass * float(lever)
+        assert row.closing_Nm == pytest.approx(largest * np.sin(np.pi / 180.0))
+        assert row.holding_Nm <= largest + NOTHING
+    locked = [row for row in demands.hinge if row.hinge == "locked"]
+    assert all(row.from_deg == pytest.approx(row.to_deg) and row.from_deg in DEVICE.hinge.locks_deg for row in locked)
+    assert max(max(-row.least_Nm, row.most_Nm) for row in locked) == pytest.approx(largest, rel=1e-3)
+    assert {row.to_deg for row in demands.hinge if row.hinge == "free"} <= {*DEVICE.hinge.locks_deg}
 
 
 def test_budgets_are_by_joint_and_sensor(demands: DeviceDemands) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.device.description import AttachedLoad, Device, device_load
+from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import BASE, device_model, device_root

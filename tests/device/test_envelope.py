@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.device.description import device_load
+from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.mechanical_demands import ARM_RADIUS_M, EnvelopeRow, envelope
 from forcetorque.device.motion import Sequence, twelve_steps

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import AttachedLoad, device_load
+from forcetorque.device.components import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.error_budget import (
     DATA_SHEETS,

@@ -28,7 +28,7 @@ from forcetorque.device.excitation_options import (
 )
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory, joint_ranges
-from forcetorque.device.motion_design import Designer
+from forcetorque.device.optimised_motion import Designer
 from forcetorque.device.spanned_directions import device_span, direction_rows, optimised_motion, sensor_span_row
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.workbench.bench import Placement

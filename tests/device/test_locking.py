@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from forcetorque.base.errors import RobotError, SensorError
-from forcetorque.device.description import AttachedLoad, device_load
+from forcetorque.device.components import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.mechanical_demands import HingePath, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.device.description import AttachedLoad, Device, Turn, device_load
+from forcetorque.device.components import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.model import hanging
 from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps

@@ -272,6 +272,35 @@ def test_the_summary_shows_itself(arm: Path, fitted: Calibration) -> None:
     assert f"{written.samples} rows written to" in written.text()
 
 
+def test_rows_of_the_summary_are_statistics_of_the_samples(arm: Path, fitted: Calibration) -> None:
+    """By hand from what was estimated: norms of forces and moments of contacts, and what sub-models leave."""
+    experiment = load_experiment(add(arm / TWO, '\n[[contact]]\nframe = "hand"\ntype = "force"\n'))
+    corrections = corrections_of(experiment, {"fitted": fitted})
+    spans = estimate_experiment(experiment, corrections)
+    summary = summarise_estimates(experiment, corrections, spans)
+    rows, parts = iter(summary.contacts), iter(summary.sub_models)
+    for span in spans:
+        estimates = span.estimates
+        for name in estimates.layout.contacts:
+            row, wrench = next(rows), estimates.contact(name)
+            force, moment = (np.linalg.norm(wrench[:, part], axis=1) for part in (slice(3), slice(3, 6)))
+            assert (row.interval, row.contact, row.samples) == (span.interval.label, name, len(force))
+            shown = (row.force_mean_N, row.force_deviation_N, row.force_smallest_N, row.force_largest_N)
+            by_hand = (force.mean(), force.std(ddof=1), force.min(), force.max())
+            assert (*shown, row.moment_mean_Nm) == pytest.approx((*by_hand, moment.mean()))
+            if row.force_half_width_95_N is not None:
+                assert row.force_half_width_95_N > 1.95 * (row.force_standard_error_N or np.inf)
+        for k, name in enumerate(estimates.layout.parts):
+            part, left = next(parts), estimates.residual[:, k]
+            assert (part.sub_model, part.rank) == (name, estimates.rank[:, k].min())
+            largest = np.fmax.reduce(estimates.condition[:, k])
+            assert part.condition_largest == (pytest.approx(largest) if np.isfinite(largest) else None)
+            by_hand = [np.linalg.norm(left[:, half], axis=1).mean() for half in (slice(3), slice(3, 6))]
+            assert [part.residual_force_mean_N, part.residual_moment_mean_Nm] == pytest.approx(by_hand)
+    assert any((row.residual_moment_mean_Nm or 0.0) > 1e-6 for row in summary.sub_models)
+    assert next(rows, None) is next(parts, None) is None
+
+
 def test_what_cannot_be_estimated_is_a_warning_of_the_summary(arm: Path) -> None:
     """Who asks from Python is told, as who asks from a terminal is."""
     joints = read_recording(arm / "recording").stream("joints")

@@ -25,7 +25,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import smooth
-from forcetorque.robot.mechanics.samples import SensorSamples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import SensorSamples
 from tests.cases import some_cases
 from tests.page_scripts import printed
 

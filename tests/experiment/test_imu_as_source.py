@@ -17,7 +17,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Use
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Signal
-from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.file import ScenarioFile
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario

@@ -16,7 +16,7 @@ from forcetorque.recording.recording import Interval, MovingSupport, Recording, 
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.dynamics import joints_between, motion_of_link
-from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.robot.motion import RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

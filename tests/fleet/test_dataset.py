@@ -392,6 +392,10 @@ def test_commands(added: Path, recorded: Path, tmp_path: Path, run: Run, monkeyp
     evaluated = run("evaluate", str(added), "-c", "c.json", "--format", "json").result()
     assert evaluated["schema"] == "forcetorque/evaluate_dataset/1"
     assert evaluated["load_cases"]
+    drawn = run("evaluate", str(added), "-c", "c.json", "--figure", "e.png", "--format", "json").result()
+    assert drawn["figure"] == "e.png"
+    assert (tmp_path / "e.png").read_bytes().startswith(b"\x89PNG")
+    assert "expected a name that ends in" in run("evaluate", str(added), "-c", "c.json", "--figure", "e.txt").error()
     shown = run("evaluate", str(added), "-c", "c.json")
     assert len(shown.out.splitlines()) <= 12
     assert "need the log" in run("evaluate", str(added), "-c", "c.json", "--details").out

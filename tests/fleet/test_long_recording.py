@@ -30,8 +30,8 @@ from forcetorque.experiment.long_recording import joined_findings, recorded_segm
 from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
-from forcetorque.fleet.evaluation_blocks import evaluated_variables
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
+from forcetorque.fleet.stored_validation_data import evaluated_variables
 from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment
 from tests.scenes.segments import SEGMENT_S, short_segments

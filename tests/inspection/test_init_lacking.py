@@ -5,16 +5,19 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.draft.proposals import Proposal, proposals
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
@@ -52,10 +55,14 @@ def _keys(text: str) -> list[str]:
 
 def _loaded(text: str, folder: Path, **more: str) -> Experiment:
     """The experiment with answers in place of the lines that ask; any other question would stop it."""
+    (folder / "experiment.toml").write_text(_answered(text, **more), encoding="utf-8")
+    return load_experiment(folder / "experiment.toml")
+
+
+def _answered(text: str, **more: str) -> str:
     for key, answer in {**ANSWERS, **more}.items():
         text = re.sub(rf'^{key} = "\?".*$', answer, text, flags=re.MULTILINE)
-    (folder / "experiment.toml").write_text(text, encoding="utf-8")
-    return load_experiment(folder / "experiment.toml")
+    return text
 
 
 def test_rows_without_a_time_may_have_a_rate(tmp_path: Path) -> None:
@@ -192,3 +199,144 @@ def test_no_row_is_taken_for_a_title(tmp_path: Path, text: str) -> None:
     (tmp_path / "log.csv").write_text(text, encoding="utf-8")
     with pytest.raises(FormatError):
         inspect_log(tmp_path / "log.csv")
+
+
+def _thermometer(folder: Path) -> Path:
+    rows = (f"{k:.1f},{25.0 + 0.01 * k:.2f}\n" for k in range(300))
+    return _csv(folder / "thermometer.csv", "time_s,temperature_C\n", rows)
+
+
+def _csv(file: Path, headings: str, rows: Iterable[str]) -> Path:
+    file.write_text(headings + "".join(rows), encoding="utf-8")
+    return file
+
+
+def test_a_thermometer_alone_names_the_file_that_it_belongs_to(tmp_path: Path) -> None:
+    """No answer makes it an experiment; together with the table of its sensor it is a variable of that."""
+    table = _thermometer(tmp_path)
+    draft = draft_experiment([table])
+    (answer,) = draft.answers()
+    assert (answer.verdict, _keys(draft.content)) == ("NO SENSOR AND NO ROBOT", ["units"])
+    assert f"forcetorque init LOG {table}" in answer.why[1]
+    assert '[[sensor.variable]] name = "temperature", stream = "thermometer"' in answer.why[1]
+    sensor = _csv(
+        tmp_path / "sensor.csv", "time_s,fx,fy,fz,tx,ty,tz\n", (f"{k:.1f},0,0,{k % 7},0,0,0\n" for k in range(300))
+    )
+    both = draft_experiment([table, sensor], tmp_path / "both.toml").content
+    both = both.replace('units = "?"', 'units = ["degC"]', 1)
+    both = both.replace('units = "?"', 'units = ["N", "N", "N", "N m", "N m", "N m"]', 1)
+    (loaded,) = _loaded(both, tmp_path).sensors
+    assert [one.source.stream for one in loaded.variables] == ["thermometer"]
+
+
+def test_a_second_column_of_times_has_its_clock_as_comments(tmp_path: Path) -> None:
+    """As they stand nothing is moved; without the comment signs the pose is brought from its clock to the first."""
+    log = _csv(
+        tmp_path / "log.csv",
+        "time_s,fx [N],fy [N],fz [N],tx [N m],ty [N m],tz [N m],t_pose [ms],qx,qy,qz,qw\n",
+        (
+            f"{0.1 * k:.1f},0,0,{k % 7},0,0,0,{100 * k + 90_000},{np.sin(0.01 * k):.7f},0,0,{np.cos(0.01 * k):.7f}\n"
+            for k in range(300)
+        ),
+    )
+    draft = draft_experiment([log])
+    (answer,) = draft.answers()
+    assert "t_pose [ms] rises as a second time" in " ".join(answer.why)
+    assert _drafted_streams(draft.content) == ["log"]
+    taken = re.sub(r"^# (?=\[\[|\w+ = )", "", draft.content, flags=re.MULTILINE).replace("# full_scale", "full_scale")
+    assert _drafted_streams(taken) == ["log", "log_t_pose"]
+    content = tomllib.loads(taken)
+    assert [one["signal"][0]["quantity"] for one in content["recording"]["stream"]] == ["wrench", "orientation"]
+    (clock,) = content["clock"]
+    assert (clock["delay_s"], clock["around_s"]) == ("estimate", 90.0)
+
+
+def _drafted_streams(text: str) -> list[str]:
+    return [one["name"] for one in tomllib.loads(text)["recording"]["stream"]]
+
+
+@pytest.mark.parametrize("pose", ["joints", "orientation"])
+@pytest.mark.parametrize("late", [0, 3])
+def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pose: str, late: int) -> None:
+    """Of an arm and a wrist with the wrench three samples late; what is proposed leaves none, no delay gets it."""
+    text = _late_arm(tmp_path, late) if pose == "joints" else _late_wrist(tmp_path, late)
+    file = tmp_path / "experiment.toml"
+    file.write_text(text, encoding="utf-8")
+    delays = [one for one in proposals(file) if one.kind == "delay"]
+    assert len(delays) == (late > 0)
+    if not late:
+        return
+    (proposal,) = delays
+    assert proposal.edit is not None
+    changed = proposal.edit.applied(text)
+    assert _drafted_streams(changed) == ["log", "log_motion"]
+    content = tomllib.loads(changed)
+    (clock,) = content["clock"]
+    assert (clock["stream"], clock["to"]) == ("log", "log_motion")
+    assert clock["delay_s"] == pytest.approx(0.04 * late, abs=0.005)
+    if pose == "orientation":
+        assert content["load"]["motion"] == ["log_motion"]
+    comments = [line for line in text.splitlines() if "#" in line]
+    assert comments
+    assert set(comments) <= set(changed.splitlines())
+    file.write_text(changed, encoding="utf-8")
+    assert not [one for one in proposals(file) if one.kind == "delay"]
+
+
+def _late_arm(folder: Path, late: int) -> str:
+    rows = [line.split(",") for line in (FOLDER / "log.csv").read_text(encoding="utf-8").splitlines()]
+    body = [[*row[:6], *rows[max(k - late, 1)][6:]] for k, row in enumerate(rows[1:], start=1)]
+    _csv(folder / "log.csv", ",".join(rows[0]) + "\n", (",".join(row) + "\n" for row in body))
+    return _answered(_drafted(folder / "log.csv"))
+
+
+@pytest.mark.long
+def test_delays_of_wrists_are_found_and_none_where_there_is_none(tmp_path: Path) -> None:
+    """In all of 40 draws of motion and noise with 120 ms, within 10 ms; in none of the same 40 without it."""
+    sizes = {
+        late: [
+            [_clock_delay(one) for one in _wrist_proposals(tmp_path, late, seed) if one.kind == "delay"]
+            for seed in range(100, 140)
+        ]
+        for late in (3, 0)
+    }
+    assert sizes[0] == [[]] * 40
+    np.testing.assert_allclose(sizes[3], 0.12, atol=0.01)
+
+
+def _clock_delay(proposal: Proposal) -> float:
+    assert proposal.edit is not None
+    return next(float(line.split("=")[1]) for line in proposal.edit.new if line.startswith("delay_s"))
+
+
+def _wrist_proposals(folder: Path, late: int, seed: int) -> tuple[Proposal, ...]:
+    file = folder / "experiment.toml"
+    file.write_text(_late_wrist(folder, late, seed), encoding="utf-8")
+    return proposals(file)
+
+
+def _late_wrist(folder: Path, late: int, seed: int = 40) -> str:
+    rng = np.random.default_rng(seed)
+    at_s = 0.04 * np.arange(1000)
+    speeds, phases = rng.uniform(0.4, 1.4, 3), rng.uniform(0.0, 6.0, 3)
+    angles = np.array([0.9, 1.2, 0.4]) * np.sin(at_s[:, None] * speeds + phases)
+    angles = np.stack([angles[:, 0], angles[:, 1] + angles[:, 2]], axis=-1)
+    world_R_sensor = np.stack([_turn(*pair) for pair in angles])
+    force = -9.80665 * 1.2 * world_R_sensor[:, 2]
+    wrench = np.hstack([force, np.cross([0.01, 0.0, 0.06], force)])
+    wrench = wrench[np.maximum(np.arange(len(at_s)) - late, 0)]
+    wrench += rng.normal(size=wrench.shape) * np.repeat([0.05, 0.002], 3)
+    values = np.column_stack([at_s, wrench, world_R_sensor.reshape(-1, 9)])
+    entries = ",".join(f"r{row}{column}" for row in "123" for column in "123")
+    headings = f"time_s,fx [N],fy [N],fz [N],tx [N m],ty [N m],tz [N m],{entries}\n"
+    _csv(folder / "log.csv", headings, (",".join(f"{value:.6f}" for value in row) + "\n" for row in values))
+    text = draft_experiment(folder / "log.csv", folder / "experiment.toml", force=True).content
+    answers = {"sense": "sensor_to_world", "frame": "ft_sensor", "measure_direction": "child_to_parent", "serial": "A"}
+    for key, answer in answers.items():
+        text = text.replace(f'{key} = "?"', f'{key} = "{answer}"')
+    return text
+
+
+def _turn(pitch: float, roll: float) -> FloatArray:
+    (c, s), (k, n) = (np.cos(pitch), np.sin(pitch)), (np.cos(roll), np.sin(roll))
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]) @ np.array([[1.0, 0, 0], [0, k, -n], [0, n, k]])

@@ -73,6 +73,16 @@ def test_the_bar_shows_the_time_without_events() -> None:
     assert any(line.startswith("1 remark(s) on the whole log: this is not_estimated") for line in answer.why)
 
 
+def test_turns_of_a_joint_take_nothing_of_the_time() -> None:
+    """All of them are one finding from the first to the last, and cost the samples within them alone."""
+    turns = _row("joint_spike", 5.0, 50.0, stream="joints").model_copy(update={"count": 12})
+    answer = inspection_answer(_inspection(_row("contact", 20.0, 40.0), turns))
+    assert answer.verdict == "1 EVENT"
+    assert any(line.startswith("1 remark(s) on the whole log: this is joint_spike") for line in answer.why)
+    alone = inspection_answer(_inspection(_row("joint_spike", 5.0, 5.1, stream="joints")))
+    assert alone.step.startswith("no interval uses a sample of these events")
+
+
 @pytest.mark.parametrize("kind", [*get_args(FaultKind), "implausible"])
 def test_a_fault_comes_first(kind: str) -> None:
     """Before contacts, with the command that tries its correction, or shows it again; quoted for a shell."""

@@ -21,8 +21,10 @@ from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.formats.ros.wrench_message import read_wrench
+from forcetorque.results.terminal.output import drawn_to
 from tests.app.outcome import Run
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
+from tests.live.drawn_figures import run_of
 from tests.scenes.calibrations import make_calibration
 from tests.scenes.experiments import PARQUET, edit
 
@@ -63,10 +65,25 @@ def test_lines_and_account_may_be_json(fitted: Path, run: Run, monkeypatch: pyte
     """With a rate, losses are countable."""
     monkeypatch.chdir(fitted)
     outcome = run(
-        "live", "arm.json", "--replay", PARQUET, "--speed", 0, "--lines", "json", "--format", "json", "--rate", 50
-    )
+        "live", "arm.json", "--replay", PARQUET, "--speed", 0, "--lines", "json", "--format", "json", "--rate", 50,
+        "--figure", "live.png",
+    )  # fmt: skip
     assert json.loads(outcome.out.splitlines()[0])["sensor"] == "arm_ft"
-    assert json.loads(outcome.err)["packets"]["lost"] == 0
+    account = json.loads(outcome.err)
+    assert (account["packets"]["lost"], account["figure"]) == (0, "live.png")
+    assert Path("live.png").read_bytes().startswith(b"\x89PNG")
+    assert "kept" not in account
+
+
+def test_a_run_without_a_sample_has_its_account_and_no_figure(tmp_path: Path) -> None:
+    """The reason is a warning, and no file is there; the run with samples has its figure."""
+    whole = run_of(np.random.default_rng(1))
+    account = drawn_to(whole.model_copy(update={"kept": None}), tmp_path / "live.png")
+    assert account.figure_file is None
+    assert "live.png: not written" in account.warnings[0]
+    assert not (tmp_path / "live.png").exists()
+    assert drawn_to(whole, tmp_path / "live.png").warnings == ()
+    assert (tmp_path / "live.png").exists()
 
 
 def test_a_recording_becomes_a_bag(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -183,6 +183,35 @@ def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path
     assert answer.command == typed("inspect", FIRST_EXPERIMENT)
 
 
+def test_errors_on_poses_that_were_not_fitted_are_those_of_the_load_about_their_median(tmp_path: Path) -> None:
+    """By hand from the table: readings less the weight of the estimated load; the bias of these poses is not known."""
+    weighed = _weighed(_write(tmp_path))
+    table = np.genfromtxt(tmp_path / "poses.csv", delimiter=",", skip_header=1)[40:]
+    reading, force = (
+        table[:, :6] * np.repeat([1.0, 1e-3], 3),
+        9.80665 * (weighed.loads[0].mass_kg or 0.0) * table[:, 6:],
+    )
+    left = reading - np.hstack([force, np.cross(np.array(weighed.loads[0].centre_of_mass_m, dtype=float), force)])
+    left -= np.median(left, axis=0)
+    (row,) = weighed.validation
+    assert (row.interval, row.observations, row.contact) == ("judge", 20, False)
+    size_N, size_Nm = (np.linalg.norm(left[:, part], axis=1) for part in (slice(3), slice(3, 6)))
+    assert row.force_error_N == pytest.approx(np.sqrt((size_N**2).mean()), rel=1e-6)
+    assert row.moment_error_Nm == pytest.approx(np.sqrt((size_Nm**2).mean()), rel=1e-6)
+    assert row.largest_force_N == pytest.approx(size_N.max(), rel=1e-6)
+    assert weighed.mount_rad is None
+
+
+def test_an_unknown_mount_is_the_rotation_from_the_axes_of_the_motion_to_those_of_the_sensor(tmp_path: Path) -> None:
+    """A sensor that is turned by a known vector: each component within 1.5 of its half-widths, each below 1 degree."""
+    turn = np.array([0.2, -0.3, 0.5])
+    matrix = np.kron(np.eye(2), Rotation.from_rotvec(-turn).as_matrix())  # what `_write` inverts
+    weighed = _weighed(_write(tmp_path, text=TEXT.replace("[load]\n", '[load]\nmount = "unknown"\n'), matrix=matrix))
+    halves = np.array(weighed.mount_half_width_rad, dtype=float)
+    assert (np.abs(np.array(weighed.mount_rad) - turn) < 1.5 * halves).all()
+    assert (halves < np.deg2rad(1.0)).all()
+
+
 def test_each_of_several_recordings_weighs_the_load_by_itself_too(tmp_path: Path) -> None:
     """With the numbers of that recording alone; all together know the mass better than any. A single one has no row."""
     runs = []

@@ -21,7 +21,7 @@ from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.planning.proposal import Proposal
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
-from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, Scenario
 from forcetorque.simulation.sensor_family import Specimen

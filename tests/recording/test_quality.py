@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -146,10 +148,42 @@ def test_a_joint_that_jumps_from_row_to_row_is_named() -> None:
     away[400:460] -= 0.7
     other, slipped = found(away)
     assert (other.message, slipped.kind, slipped.count) == (spike.message, "joint_jump", 61)
-    assert "is back 0.61 s later" in slipped.message
+    assert "next, back 0.61 s later" in slipped.message
     assert "start_s = 3.99, end_s = 4.60" in slipped.message
     angle[850:] -= 0.7
-    assert "never is back, for 1.50 s: where" in found(angle)[1].message
+    assert "next, not back for 1.50 s: where" in found(angle)[1].message
+
+
+def test_joints_that_wrap_are_one_finding_and_jumps_that_are_ignored_are_none() -> None:
+    """With the number of turns and of wrong rows; what is not ignored is left."""
+    turns = np.arange(COUNT) * 0.05
+    wrapped = turns % (2.0 * np.pi)
+    wraps = np.flatnonzero(np.diff(wrapped) < 0.0)
+    wrapped[300] += 0.8
+    assert len(wraps) > 5
+    assert not set(wraps.tolist()) & set(range(290, 310))
+
+    def found(ignored_ns: Sequence[tuple[int, int]] = (), values: np.ndarray = wrapped) -> list[tuple[int, str]]:
+        joints = Signal(quantity="position", values=values[:, None], columns=("knee",), units=("rad",))
+        stream = Stream(name="leg", clock="c", stamp_ns=np.arange(COUNT) * PERIOD_NS, signals={"position": joints})
+        return [(one.count, one.message) for one in stream_findings(stream, ignored_ns=ignored_ns)]
+
+    ((count, words),) = found()
+    assert count == len(wraps) + 1
+    assert f"jumps and comes back, or by whole turns, {count} times" in words
+    about = [((int(row) - 60) * PERIOD_NS, (int(row) + 60) * PERIOD_NS) for row in (*wraps[:-1], 300)]
+    ((count, words),) = found(about)
+    assert (count, "jumps by a whole turn once" in words) == (1, True)
+    assert found([(0, COUNT * PERIOD_NS)]) == []
+    # a posture that lasts, ignored as the finding says; an interval that ends in it leaves it
+    slipped = turns + 0.8 * (np.abs(np.arange(COUNT) - 320) <= 20)
+    ((_, words),) = found(values=slipped)
+    assert "start_s = 2.99, end_s = 3.41" in words
+    assert found([(2_990_000_000, 3_410_000_000)], slipped) == []
+    assert len(found([(2_990_000_000, 3_300_000_000)], slipped)) == 1
+    shifted = turns + 0.8 * (np.arange(COUNT) >= 300)
+    assert found([(0, 2_990_000_000)], shifted) == found([(2_990_000_000, COUNT * PERIOD_NS)], shifted) == []
+    assert len(found([(0, 2_900_000_000)], shifted)) == 1
 
 
 @pytest.mark.parametrize("held", [10, 50])

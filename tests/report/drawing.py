@@ -27,9 +27,9 @@ from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.summary import InformationGain
 from forcetorque.contests.figure import contest_figure
 from forcetorque.contests.ranking import ContestLoadRow
-from forcetorque.device.demand_result import GradeRow
 from forcetorque.device.figures import device_figure, envelope_figure, predicted_error_figure, reference_error_figure
 from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
+from forcetorque.device.requirements import GradeRow
 from forcetorque.device.spanned_directions import DirectionRow
 from forcetorque.estimation.figures import contact_figure, torque_figure
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure

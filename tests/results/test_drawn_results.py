@@ -24,7 +24,7 @@ from forcetorque.results.result import DrawnResult, result_classes
 from forcetorque.results.terminal.output import drawn_to, refuse_figure
 from tests.app.commands import question_of
 
-OTHER_RESULTS = {"payload_by_torques": "payload", "plan_jointly": "plan"}
+OTHER_RESULTS = {"evaluate_dataset": "evaluate", "payload_by_torques": "payload", "plan_jointly": "plan"}
 """Results that a command has for other input, and the command."""
 
 
@@ -107,7 +107,7 @@ def test_every_command_with_a_figure_gives_a_result_with_one() -> None:
     offered = {question_of(words) for words in _drawing_commands(program)}
     assert offered == drawn - OTHER_RESULTS.keys()
     assert offered >= set(OTHER_RESULTS.values())
-    assert len(drawn) == 35
+    assert len(drawn) == 42
     for name in drawn:
         kind = results[name]
         assert issubclass(kind, DrawnResult)

@@ -16,8 +16,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.artefact import Calibration, write_calibration
 from forcetorque.fleet.dataset import Dataset
-from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord
+from forcetorque.fleet.stored_validation_data import StoredEvaluation
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.simulation.scenario.scenario import trace_recordings
 from tests.scenes.studies import SENSOR, SERIAL, scenario, write_days

@@ -28,8 +28,8 @@ from forcetorque.skin.taxels.curve import CurveKind, fit_curve
 from forcetorque.skin.taxels.fit import calibrated_taxel
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.taxels.recording import REST_SHARE, pressure_cycle
-from forcetorque.skin.wrench.operator import WrenchMethod
 from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 
 TUNED_SEED: Final = 1
 JUDGED_SEED: Final = 2

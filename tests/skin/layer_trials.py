@@ -22,7 +22,7 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.contact import ContactTruth, FlatWeight, SkinContact, Sphere
 from forcetorque.skin.simulation.surface import TrueSurface
 from forcetorque.skin.wrench.known_weight import agreement_of
-from forcetorque.skin.wrench.operator import WrenchMethod
+from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from tests.skin.contact_trials import (
     JUDGED_SEED,
     OFF_EDGE,

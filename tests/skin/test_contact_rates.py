@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.skin.simulation.contact import GRID_M
-from forcetorque.skin.wrench.operator import WrenchMethod
+from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from tests.skin.contact_trials import CHAINS, CONTACTS, JUDGED_SEED, ContactTrial, Leg, by_active, errors, within
 
 pytestmark = [pytest.mark.real_data, pytest.mark.long]

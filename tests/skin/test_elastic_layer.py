@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.simulation.contact import Sphere
-from forcetorque.skin.wrench.operator import WrenchMethod
+from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from tests.skin.contact_trials import ContactTrial, PatchTrials, errors
 from tests.skin.elastic_layer import STIFFNESS_PA_PER_M, ElasticLayer, LayerMaterial, Pressing
 from tests.skin.layer_trials import CASES, LEAST_PA, TAXEL_AREA_M2, held, lattice_patch, layer_truths

@@ -10,6 +10,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingExtraError
+from forcetorque.base.inertia import Inertia
+from forcetorque.payload.load_on_wrist_sensor import load_model
+from forcetorque.payload.toml_tables import Load
+from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import Block, read_array
 from forcetorque.viewer.geometry import GREY, Geometry, read_visuals, robot_geometry
@@ -195,6 +199,35 @@ def test_a_robot_without_shapes_is_drawn_as_sticks(tmp_path: Path) -> None:
     geometry, _ = _geometry(file)
     assert [shape.link for shape in geometry.shapes] == ["arm", "bob"]
     assert geometry.notes == ("the robot has no shapes to draw: sticks join its joints",)
+
+
+@pytest.mark.parametrize("centre", [(0.0, 0.0, 0.05), (0.3, -0.4, 0.0)])
+def test_a_load_without_a_robot_is_its_centre_of_mass_at_scale(centre: tuple[float, float, float]) -> None:
+    """A stick from the frame of the sensor to a ball at the centre, which is smaller than the distance."""
+    load = Inertia.about_centre_of_mass(mass=0.5, centre_of_mass=centre, second_moment=np.zeros((3, 3)))
+    geometry = robot_geometry(_load(load), None, Block())
+    stick, ball = geometry.shapes
+    distance = float(np.linalg.norm(centre))
+    assert (stick.link, stick.kind, ball.link, ball.kind) == ("load", "cylinder", "load", "sphere")
+    assert stick.size[1] == pytest.approx(distance)
+    np.testing.assert_allclose(np.reshape(stick.link_H_shape, (4, 4))[:3, 3], 0.5 * np.array(centre))
+    np.testing.assert_allclose(np.reshape(ball.link_H_shape, (4, 4))[:3, 3], centre)
+    assert stick.size[0] < ball.size[0] < 0.1 * distance
+    assert geometry.notes == (
+        "no robot: a ball marks the stated centre of mass of the load, at scale from the sensor's frame",
+    )
+
+
+def test_of_a_load_that_nothing_is_stated_of_no_centre_is_drawn() -> None:
+    """Only the sensor's frame is left, and the note says so."""
+    geometry = robot_geometry(_load(Inertia.zero()), None, Block())
+    assert geometry.shapes == ()
+    assert geometry.notes == ("no robot and no stated centre of mass of a load: the sensor's frame is drawn alone",)
+
+
+def _load(inertia: Inertia) -> RobotModel:
+    table = Load.model_validate({"frame": "ft", "motion": ["log"], "measure_direction": "child_to_parent"})
+    return load_model(table, "wrist", inertia)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,14 @@ from scipy.stats import binomtest
 
 from forcetorque.base.errors import SensorError
 from forcetorque.workbench.faults import FALSE_ALARMS, Fault, detect_faults, log_upper_tail, signatures
-from forcetorque.workbench.fit import ResidualSpace, Scatter, residual_scatter, scatter_of_sensors, specified_scatter
 from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.matrix_fit import (
+    ResidualSpace,
+    Scatter,
+    residual_scatter,
+    scatter_of_sensors,
+    specified_scatter,
+)
 from forcetorque.workbench.simulated_benches import BenchFaults, simulate_bench
 from tests.cases import some_cases
 from tests.scenes.benches import PLACEMENT, thesis_loads

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.workbench.faults import DetectedFault, Fault, FaultSearch, detect_faults, search_faults
-from forcetorque.workbench.fit import specified_scatter
+from forcetorque.workbench.matrix_fit import specified_scatter
 from forcetorque.workbench.simulated_benches import BenchFaults, SimulatedBench, simulate_bench
 from tests.scenes.benches import PLACEMENT, thesis_loads
 

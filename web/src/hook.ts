@@ -31,6 +31,8 @@ export interface Hook {
   cloudSamples(): number[];
   /** Rectangles of the names and letters at the robot; CSS pixels of its canvas. */
   labels(): { left: number; top: number; right: number; bottom: number }[];
+  /** The same of the names and numbers at the axes of the force or moment space. */
+  spaceLabels(): { left: number; top: number; right: number; bottom: number }[];
   /** What is drawn of skin: pressed taxels of each patch, and arrows of contacts, tip by tip in the world. */
   skin(): SkinShown;
   /** What is known of the stream, of a page that follows one: samples that are shown, and their time; s. */
@@ -76,6 +78,7 @@ export function openHook(
     plots: () => plots.flatMap((plot) => plot.range() ?? []),
     cloudSamples: () => [...space.samples()],
     labels: () => stage.robot.labels(),
+    spaceLabels: () => space.labels(),
     skin: () => stage.robot.skin.shown(),
     video: async (options = {}) => base64(await makeVideo(stage, options, () => undefined)),
   };

@@ -2,7 +2,7 @@
 // Keys that work wherever nothing else takes them.
 
 import { expectedOf } from "./columns";
-import { nextEvent, worstSample } from "./points_of_interest";
+import { nextContact, nextEvent, worstSample } from "./points_of_interest";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
 import { moved, zoomed } from "./time_window";
@@ -18,6 +18,7 @@ const KEYS: readonly (readonly [key: string, does: string])[] = [
   ["Space", "play, pause"],
   ["w", "worst sample of the validation data in view"],
   ["n, Shift+n", "next, previous event: interval, finding, saved sample"],
+  ["c, Shift+c", "next, previous contact on skin"],
   ["+ − 0", "stretch, shrink the time in view, all of it; wheel likewise"],
   ["[ ]", "move the time in view; drag likewise, Shift+drag chooses it"],
   ["Esc", "forget what was encircled in a plane"],
@@ -29,8 +30,9 @@ const KEYS: readonly (readonly [key: string, does: string])[] = [
 
 /** Whether a page has what a key acts on; a stream has no expected wrenches, intervals or samples to save. */
 function acts(data: SceneData, key: string): boolean {
-  const { live, sensors } = data.scene;
+  const { live, sensors, skin, skin_events: events } = data.scene;
   if (key === "w") return !live && sensors.some(expectedOf);
+  if (key === "c") return !live && skin.length + events.length > 0;
   if (["n", "p", "b", "e", "s"].includes(key)) return !live;
   return sensors.length > 0 || !["f", "t", "Esc"].includes(key);
 }
@@ -49,6 +51,8 @@ export function listen(data: SceneData, store: Store, say: (text: string) => voi
     w: () => goToWorst(data, store),
     n: () => goToEvent(data, store, 1),
     N: () => goToEvent(data, store, -1),
+    c: () => goToContact(data, store, 1),
+    C: () => goToContact(data, store, -1),
     "+": () => stretch(data, store, 1 / STRETCH),
     "-": () => stretch(data, store, STRETCH),
     "0": () => store.set({ window: data.span }),
@@ -80,7 +84,15 @@ export function goToWorst(data: SceneData, store: Store): void {
 
 /** Show where the next event begins, or the one before; the window follows. */
 export function goToEvent(data: SceneData, store: Store, direction: 1 | -1): void {
-  const sample = nextEvent(data, store.state, direction);
+  goTo(data, store, nextEvent(data, store.state, direction));
+}
+
+/** Show where the next contact on skin begins, or the one before; the window follows. */
+export function goToContact(data: SceneData, store: Store, direction: 1 | -1): void {
+  goTo(data, store, nextContact(data, store.state, direction));
+}
+
+function goTo(data: SceneData, store: Store, sample: number | null): void {
   if (sample === null) return;
   const { window } = store.state;
   const now = data.time[sample] ?? 0;

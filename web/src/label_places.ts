@@ -38,8 +38,37 @@ export function spread(texts: readonly Sprite[], camera: PerspectiveCamera): voi
   heightsUp(seen).forEach((step, k) => seen[k]?.text.center.set(0.5, 0.5 - step));
 }
 
+/** Hide the texts that would lie on one before them.
+ *
+ * Matrices of the world are up to date.
+ */
+export function thinOut(texts: readonly Sprite[], camera: PerspectiveCamera): void {
+  for (const text of texts) text.visible = true;
+  const placed: Box[] = [];
+  const boxes = new Map(seenBy(texts, camera).map((box) => [box.text, box]));
+  for (const text of texts) {
+    const box = boxes.get(text);
+    text.visible = box !== undefined && placed.every((other) => !meet(box, other));
+    if (box && text.visible) placed.push(box);
+  }
+}
+
+/** Give rectangles of the texts that are drawn; CSS pixels of a canvas. */
+export function drawnRectangles(
+  texts: readonly Sprite[],
+  camera: PerspectiveCamera,
+  { clientWidth: wide, clientHeight: high }: HTMLCanvasElement,
+): { left: number; top: number; right: number; bottom: number }[] {
+  return drawnBoxes(texts, camera).map(({ x, y, width, height }) => ({
+    left: 0.5 * wide * (1 + x - 0.5 * width),
+    right: 0.5 * wide * (1 + x + 0.5 * width),
+    top: 0.5 * high * (1 - y - 0.5 * height),
+    bottom: 0.5 * high * (1 - y + 0.5 * height),
+  }));
+}
+
 /** Give boxes of the texts that are drawn, where they are after `spread`; the picture reaches from -1 to 1. */
-export function drawnBoxes(texts: readonly Sprite[], camera: PerspectiveCamera): Box[] {
+function drawnBoxes(texts: readonly Sprite[], camera: PerspectiveCamera): Box[] {
   return seenBy(texts, camera).map(({ text, x, y, width, height }) => {
     return { x, y: y + (0.5 - text.center.y) * height, width, height };
   });

@@ -3,7 +3,7 @@
 
 import { button, choice, el } from "./dom";
 import { COMPONENTS, expectedOf } from "./columns";
-import { goToEvent, goToWorst, keysOf } from "./keyboard";
+import { goToContact, goToEvent, goToWorst, keysOf } from "./keyboard";
 import type { Shown } from "./plots";
 import type { Quantity, SceneData } from "./scene_data";
 import type { Large, Store } from "./store";
@@ -24,6 +24,8 @@ export interface Panels {
   readonly planes: readonly HTMLElement[];
   /** Strips of intervals above the plots. */
   readonly strips: readonly HTMLElement[];
+  /** Contacts on skin under the strips; none where the scene has no skin. */
+  readonly rasters: readonly HTMLElement[];
   readonly plots: readonly Plot[];
   readonly side: HTMLElement;
   /** Text over the robot that says how long arrows are. */
@@ -72,8 +74,8 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
     const heading = app.querySelector(".space h2");
     if (heading) heading.textContent = store.state.quantity === "force" ? "Force space" : "Torque space";
   });
-  const { strips, plots } = times;
-  return { robot, space, planes, strips, plots, side, scale, robotTitle, spaceTitle, status, app };
+  const { strips, rasters, plots } = times;
+  return { robot, space, planes, strips, rasters, plots, side, scale, robotTitle, spaceTitle, status, app };
 }
 
 function header(data: SceneData, store: Store): HTMLElement {
@@ -109,11 +111,12 @@ function keysList(data: SceneData): HTMLElement {
 
 /** Errors on the left, wrenches on the right: a row for each component, those of moments shown when enlarged too. Where
  *  no wrench is expected, as of a stream, forces on the left and moments on the right; without sensors the time alone. */
-function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<Panels, "strips" | "plots"> {
+function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<Panels, "strips" | "rasters" | "plots"> {
   // both show the same: one is enough for who listens
   const { live, sensors } = data.scene;
   const kinds = sensors.length > 0 ? KINDS : KINDS.slice(0, 1);
   const strips = kinds.map((kind) => el("div", { class: "strip", "aria-hidden": kind === "error" ? null : "true" }));
+  const rasters = hasSkin(data) ? strips.map((_, k) => el("div", { class: "raster", "aria-hidden": k === 0 ? null : "true" })) : [];
   const plots: Plot[] = [];
   const quantities = ["force", "moment"] as const;
   const groups = quantities.map((quantity) => ({ name: `rows ${quantity}`, columns: KINDS.map((kind) => ({ kind, quantity })) }));
@@ -142,12 +145,16 @@ function timePlots(data: SceneData, store: Store): { root: HTMLElement } & Pick<
     ...headings.map((text, k) => el("h2", {}, text, ...(k === 0 ? [" ", when] : []))),
     timeTools(data, store),
   );
-  const above = live ? [head] : [head, el("div", { class: "strips" }, ...strips)];
+  const above = live ? [head] : [head, el("div", { class: "strips" }, ...strips, ...rasters)];
   const root = el("section", { class: live ? "times live" : bare ? "times bare" : "times", "aria-label": "Time plots" }, ...above, ...rows);
   store.on(["quantity"], () => {
     root.dataset["quantity"] = store.state.quantity;
   });
-  return { root, strips: live ? [] : strips, plots };
+  return { root, strips: live ? [] : strips, rasters, plots };
+}
+
+function hasSkin({ scene }: SceneData): boolean {
+  return !scene.live && scene.skin.length + scene.skin_events.length > 0;
 }
 
 function timeTools(data: SceneData, store: Store): HTMLElement {
@@ -162,6 +169,8 @@ function timeTools(data: SceneData, store: Store): HTMLElement {
       tools.append(button("Worst sample", () => goToWorst(data, store), { title: "Largest error of the validation data in view (w)" }));
     tools.append(button("Next event", () => goToEvent(data, store, 1), { title: "Next interval, finding or saved sample (n)" }));
   }
+  if (hasSkin(data))
+    tools.append(button("Next contact", () => goToContact(data, store, 1), { title: "Next contact on skin (c)" }));
   if (data.scene.sensors.length > 0) tools.append(largerButton(store, "time plots", "times"));
   return tools;
 }

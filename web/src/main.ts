@@ -26,6 +26,7 @@ import { SceneData, UNIT } from "./scene_data";
 import { seriesPanel, switchPanel } from "./series_panel";
 import { largestContact } from "./skin_frames";
 import { skinPanel } from "./skin_panel";
+import { SkinRaster } from "./skin_raster";
 import { SpaceView } from "./space_view";
 import { StatisticsPanel } from "./statistics_panel";
 import { Store } from "./store";
@@ -143,6 +144,10 @@ function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: Clo
     const strip = new TimeStrip(panel, frames, data, store);
     store.on(["window", "marks", "selected"], () => strip.update());
   }
+  for (const panel of panels.rasters) {
+    const raster = new SkinRaster(panel, frames, data, store);
+    store.on(["window", "sample"], () => raster.update());
+  }
   return panels.planes.map((panel, k) => {
     const plane = new PlaneView(
       panel,
@@ -196,7 +201,7 @@ function fillSide(
     section("Shown", switchPanel(data, store)),
     ...skinPanel(data, store, frames, stage.robot.skin.metresPer),
     section("Saved samples", marksPanel(data, store, say), panels.status),
-    joints.root,
+    ...(data.scene.coordinates.length > 0 ? [joints.root] : []),
     findingsPanel(data, store),
     intervalsPanel(data, store),
     videoPanel(stage, say),

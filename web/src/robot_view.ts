@@ -9,7 +9,7 @@ import { empty } from "./dispose";
 import { ErrorOnRobot } from "./error_on_robot";
 import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
-import { drawnBoxes, spread } from "./label_places";
+import { drawnRectangles, spread } from "./label_places";
 import { origin, RobotModel } from "./robot_model";
 import type { SceneData } from "./scene_data";
 import { SkinView } from "./skin_view";
@@ -18,6 +18,8 @@ import { View3D } from "./view3d";
 import { WrenchArrows } from "./wrench_arrows";
 
 const POSTURES = 24;
+/** Size of a picture of a sensor's frame alone; m. */
+const FRAME_ALONE = 0.1;
 
 /** The view of the robot. */
 export class RobotView extends View3D {
@@ -50,10 +52,13 @@ export class RobotView extends View3D {
   /** Look at the robot from where its postures are seen whole; gives its size; m. */
   aim(): number {
     const room = this.reach();
-    const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
+    const reach = room.getSize(new Vector3()).length();
+    const size = reach > 1e-3 ? reach : FRAME_ALONE;
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
-    const away = this.data.scene.sensors.length === 0 ? 1.25 * size : size; // skin alone fills its room, a robot does not
+    const { sensors, coordinates } = this.data.scene;
+    // skin alone and a load without a robot fill their room, a robot does not
+    const away = (sensors.length === 0 ? 1.25 : coordinates.length === 0 ? 1.6 : 1) * size;
     this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(away)), middle);
     return size;
   }
@@ -75,14 +80,8 @@ export class RobotView extends View3D {
   }
 
   /** Rectangles of names and letters that are drawn; CSS pixels of the canvas. */
-  labels(): { left: number; top: number; right: number; bottom: number }[] {
-    const { clientWidth: wide, clientHeight: high } = this.canvas;
-    return drawnBoxes(this.wrenches.texts, this.camera).map(({ x, y, width, height }) => ({
-      left: 0.5 * wide * (1 + x - 0.5 * width),
-      right: 0.5 * wide * (1 + x + 0.5 * width),
-      top: 0.5 * high * (1 - y - 0.5 * height),
-      bottom: 0.5 * high * (1 - y + 0.5 * height),
-    }));
+  labels(): ReturnType<typeof drawnRectangles> {
+    return drawnRectangles(this.wrenches.texts, this.camera, this.canvas);
   }
 
   /** Room of the robot over postures of the whole recording. */

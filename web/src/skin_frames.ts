@@ -63,6 +63,35 @@ export function largestForce(data: SceneData, frames: SkinContactFrames): number
   return largest(data, frames)[1];
 }
 
+/** Largest force of the contacts of every frame; 0 where it has none. */
+export function frameForces(data: SceneData, frames: SkinContactFrames): Float32Array {
+  const [first, forces] = [data.integers(frames.first), data.floats(frames.force)];
+  const largestOf = new Float32Array(Math.max(0, first.length - 1));
+  largestOf.forEach((_, frame) => {
+    for (let k = first[frame] ?? 0; k < (first[frame + 1] ?? 0); k++) {
+      const norm = Math.hypot(forces[3 * k] ?? 0, forces[3 * k + 1] ?? 0, forces[3 * k + 2] ?? 0);
+      largestOf[frame] = Math.max(largestOf[frame] ?? 0, norm);
+    }
+  });
+  return largestOf;
+}
+
+/** Instants at which contacts begin, of patches and of what a skinManager saw; s. */
+export function contactStarts(data: SceneData): number[] {
+  return [...data.scene.skin, ...data.scene.skin_events].flatMap(({ contacts }) => {
+    const [times, first, identities] = [data.doubles(contacts.time_s), data.integers(contacts.first), data.integers(contacts.identity)];
+    let known = new Set<number>();
+    return [...times].filter((time, frame) => {
+      const before = times[frame - 1];
+      if (before !== undefined && time > before + contacts.hold_s) known = new Set();
+      const now = new Set(identities.subarray(first[frame] ?? 0, first[frame + 1] ?? 0));
+      const begins = [...now].some((identity) => !known.has(identity));
+      known = now;
+      return begins;
+    });
+  });
+}
+
 /** First sample of the frame with the largest contact, of patches before what a skinManager saw; null if none. */
 export function largestContact(data: SceneData): number | null {
   for (const all of [data.scene.skin, data.scene.skin_events]) {

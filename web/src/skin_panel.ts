@@ -7,7 +7,7 @@ import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import type { SceneData } from "./scene_data";
 import type { SkinContactFrames } from "./scene_types";
-import { contactsOf, deviation, frameAt } from "./skin_frames";
+import { contactsOf, deviation, frameAt, largestForce } from "./skin_frames";
 import type { Store } from "./store";
 
 /** Section on skin; none where the scene has no skin. */
@@ -21,8 +21,19 @@ export function skinPanel(data: SceneData, store: Store, frames: Frames, metresP
   });
   const scale = Number((0.1 / metresPer).toPrecision(2));
   const arrows = skin.length ? [el("p", {}, `0.1 m of arrow on skin: ${scale} N, ellipsoid: one standard deviation`)] : [];
+  const largest = [
+    ...darkest(data, skin, "N"),
+    ...darkest(data, events, "of the heuristic"),
+  ];
+  const raster = largest.length ? [el("p", {}, `Time axis: darkest at ${largest.join(" and ")}`)] : [];
   const values = new ContactsTable(data, store, frames);
-  return [el("section", { "aria-label": "Skin" }, el("h2", {}, "Skin"), ...legend, ...arrows, values.root)];
+  return [el("section", { "aria-label": "Skin" }, el("h2", {}, "Skin"), ...legend, ...arrows, ...raster, values.root)];
+}
+
+/** Largest force of a contact, which the raster over time shows as the darkest; none without any. */
+function darkest(data: SceneData, all: readonly { readonly contacts: SkinContactFrames }[], unit: string): string[] {
+  const largest = Math.max(0, ...all.map(({ contacts }) => largestForce(data, contacts)));
+  return largest > 0 ? [`${largest.toPrecision(3)} ${unit}`] : [];
 }
 
 /** Table of the contacts of the current sample. */

@@ -226,7 +226,7 @@ export class SkinView extends Group {
 }
 
 /** Colour of a pressure from 0 to 1. */
-function pressureColour(share: number): Color {
+export function pressureColour(share: number): Color {
   const place = Math.min(1, Math.max(0, share)) * (STOPS.length - 1);
   const below = Math.min(Math.floor(place), STOPS.length - 2);
   return new Color().lerpColors(STOPS[below] ?? new Color(), STOPS[below + 1] ?? new Color(), place - below);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The space of forces or moments: clouds of all samples, and where the current one lies.
 
-import { BufferAttribute, BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Group, Points, PointsMaterial, Vector3, type Sprite } from "three";
 
 import type { Cloud, CloudMaker, Clouds } from "./clouds";
 import { EXPECTED, PAPER } from "./colours";
 import { empty } from "./dispose";
 import { dotTexture } from "./dot_texture";
 import type { Frames } from "./frames";
+import { drawnRectangles, thinOut } from "./label_places";
 import type { SceneData } from "./scene_data";
 import { cube, toCube } from "./space_axes";
 import type { State, Store } from "./store";
@@ -24,6 +25,7 @@ export class SpaceView extends View3D {
   private readonly markers = new Group();
   private clouds: Clouds | null = null;
   private drawn = "";
+  private texts: readonly Sprite[] = [];
 
   constructor(
     panel: HTMLElement,
@@ -49,6 +51,17 @@ export class SpaceView extends View3D {
     this.frames.later(this);
   }
 
+  override draw(): void {
+    this.scene.updateMatrixWorld();
+    thinOut(this.texts, this.camera);
+    super.draw();
+  }
+
+  /** Rectangles of names and numbers of the axes that are drawn; CSS pixels of the canvas. */
+  labels(): ReturnType<typeof drawnRectangles> {
+    return drawnRectangles(this.texts, this.camera, this.canvas);
+  }
+
   /** Where a sample of a series is on the canvas. */
   sampleOnCanvas(series: number, sample: number): { x: number; y: number } | null {
     const cloud = this.clouds?.clouds[series];
@@ -63,7 +76,9 @@ export class SpaceView extends View3D {
 
   private rebuild(clouds: Clouds, state: State): void {
     empty(this.fixedParts);
-    this.fixedParts.add(cube(clouds, state.quantity));
+    const { group, texts } = cube(clouds, state.quantity);
+    this.texts = texts;
+    this.fixedParts.add(group);
     for (const cloud of this.visible(clouds, state)) {
       this.fixedParts.add(points(clouds, cloud));
       if (!state.wireframes) continue;

@@ -8,6 +8,7 @@ import { markedIntervals } from "./marks";
 import { LEFT, RIGHT } from "./plots";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
+import { penOf, TimeAxis } from "./time_axis";
 
 const INTERVALS = { top: 1, height: 14 };
 const FINDINGS = { top: 17, height: 9 };
@@ -15,6 +16,7 @@ const FINDINGS = { top: 17, height: 9 };
 /** The strip of what happened when. */
 export class TimeStrip implements Drawable {
   private readonly canvas: HTMLCanvasElement;
+  private readonly axis: TimeAxis;
 
   constructor(
     private readonly panel: HTMLElement,
@@ -23,14 +25,15 @@ export class TimeStrip implements Drawable {
     private readonly store: Store,
   ) {
     this.canvas = el("canvas", { role: "img" });
+    this.axis = new TimeAxis(panel, store);
     panel.append(this.canvas);
     new ResizeObserver(() => frames.later(this)).observe(panel);
     this.canvas.addEventListener("click", (event) => {
-      const at = this.instant(event.clientX - this.canvas.getBoundingClientRect().left);
+      const at = this.axis.instant(event.clientX - this.canvas.getBoundingClientRect().left);
       store.set({ sample: data.nearestSample(at), playing: false });
     });
     this.canvas.addEventListener("mousemove", (event) => {
-      this.canvas.title = this.describe(this.instant(event.clientX - this.canvas.getBoundingClientRect().left));
+      this.canvas.title = this.describe(this.axis.instant(event.clientX - this.canvas.getBoundingClientRect().left));
     });
   }
 
@@ -42,12 +45,8 @@ export class TimeStrip implements Drawable {
   /** Draw now. */
   draw(): void {
     const [width, height] = [this.panel.clientWidth, this.panel.clientHeight];
-    const pen = this.canvas.getContext("2d");
-    if (!pen || width <= LEFT + RIGHT) return;
-    this.canvas.width = Math.round(width * devicePixelRatio);
-    this.canvas.height = Math.round(height * devicePixelRatio);
-    pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-    pen.font = "10px system-ui, 'DejaVu Sans', sans-serif";
+    const pen = penOf(this.canvas, width, height);
+    if (!pen) return;
     const intervals = [...this.data.scene.intervals, ...markedIntervals(this.data, this.store.state.marks)];
     const findings = this.data.scene.findings;
     this.canvas.setAttribute(
@@ -57,7 +56,7 @@ export class TimeStrip implements Drawable {
     for (const { label, start_s, end_s, use } of intervals) this.bar(pen, start_s, end_s, use, label);
     for (const { start_s, end_s } of findings) this.finding(pen, start_s, end_s);
     for (const { start_s, end_s } of this.store.state.selected) {
-      const [from, to] = [Math.max(LEFT, this.pixel(start_s)), Math.min(width - RIGHT, this.pixel(end_s))];
+      const [from, to] = [Math.max(LEFT, this.axis.pixel(start_s)), Math.min(width - RIGHT, this.axis.pixel(end_s))];
       pen.fillStyle = faded(INK, 0.45);
       if (to >= from) pen.fillRect(from, 0, Math.max(1, to - from), height);
     }
@@ -69,8 +68,8 @@ export class TimeStrip implements Drawable {
   }
 
   private bar(pen: CanvasRenderingContext2D, start: number, end: number, use: keyof typeof USES, label: string): void {
-    const from = Math.max(LEFT, this.pixel(start));
-    const to = Math.min(this.panel.clientWidth - RIGHT, this.pixel(end));
+    const from = Math.max(LEFT, this.axis.pixel(start));
+    const to = Math.min(this.panel.clientWidth - RIGHT, this.axis.pixel(end));
     if (to <= from) return;
     pen.fillStyle = faded(USES[use], 0.4);
     pen.fillRect(from, INTERVALS.top, to - from, INTERVALS.height);
@@ -85,7 +84,7 @@ export class TimeStrip implements Drawable {
   private finding(pen: CanvasRenderingContext2D, start: number | null, end: number | null): void {
     if (start === null) return;
     const right = this.panel.clientWidth - RIGHT;
-    const [from, to] = [this.pixel(start), this.pixel(end ?? start)];
+    const [from, to] = [this.axis.pixel(start), this.axis.pixel(end ?? start)];
     if (to < LEFT || from > right) return;
     pen.fillStyle = faded(ALARM, 0.25);
     pen.fillRect(Math.max(LEFT, from), FINDINGS.top, Math.min(right, to) - Math.max(LEFT, from), FINDINGS.height);
@@ -96,7 +95,7 @@ export class TimeStrip implements Drawable {
   }
 
   private flag(pen: CanvasRenderingContext2D, time: number, mark: "begin" | "end" | "point"): void {
-    const x = this.pixel(time);
+    const x = this.axis.pixel(time);
     if (x < LEFT || x > this.panel.clientWidth - RIGHT) return;
     const tip = mark === "begin" ? 6 : mark === "end" ? -6 : 0;
     pen.fillStyle = ACCENT;
@@ -113,18 +112,8 @@ export class TimeStrip implements Drawable {
     pen.fill();
   }
 
-  private pixel(time: number): number {
-    const [start, end] = this.store.state.window;
-    return LEFT + ((time - start) / (end - start || 1)) * (this.panel.clientWidth - LEFT - RIGHT);
-  }
-
-  private instant(pixel: number): number {
-    const [start, end] = this.store.state.window;
-    return start + ((pixel - LEFT) / (this.panel.clientWidth - LEFT - RIGHT)) * (end - start);
-  }
-
   private describe(time: number): string {
-    const near = 3 * Math.abs(this.instant(1) - this.instant(0));
+    const near = 3 * Math.abs(this.axis.instant(1) - this.axis.instant(0));
     const { intervals, findings } = this.data.scene;
     return [
       ...intervals.filter((i) => i.start_s <= time && time < i.end_s).map((i) => `${i.label} (${i.use})`),

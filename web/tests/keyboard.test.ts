@@ -11,7 +11,8 @@ const WRENCHES = { expected: { role: "expected" }, measured: { role: "measured" 
 
 function absent(live: boolean, ...sensors: (keyof typeof WRENCHES)[][]): string[] {
   const page = (streamed: boolean, rows: (keyof typeof WRENCHES)[][]): string[] => {
-    const scene = { live: streamed ? {} : null, sensors: rows.map((row) => ({ wrenches: row.map((one) => WRENCHES[one]) })) };
+    const sensors = rows.map((row) => ({ wrenches: row.map((one) => WRENCHES[one]) }));
+    const scene = { live: streamed ? {} : null, sensors, skin: [], skin_events: [] };
     return keysOf({ scene } as unknown as SceneData).map(([key]) => key);
   };
   const here = page(live, sensors);

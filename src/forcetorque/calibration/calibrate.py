@@ -12,6 +12,7 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.corrected_urdf import urdf_of
 from forcetorque.calibration.generative.artefact import generative_calibration
 from forcetorque.calibration.interval_and_mount_doubts import (
     SegmentedDoubts,
@@ -34,6 +35,7 @@ from forcetorque.calibration.thesis.calibrate import thesis_calibration
 from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
+from forcetorque.experiment.calibration.robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
@@ -159,12 +161,13 @@ def _estimator(experiment: Experiment) -> tuple[object, ...]:
     return options.generative, options.with_variables, None if options.generative else of_thesis
 
 
-def fit_doubts(calibration: Calibration, *, said: Collection[str] = ()) -> Iterator[str]:
+def fit_doubts(calibration: Calibration, *, said: Collection[str] = (), urdf: Path | None = None) -> Iterator[str]:
     """Say what makes a calibration doubtful.
 
     Args:
         calibration: The calibration.
         said: Doubts about its data that were said already.
+        urdf: File of the robot model, whose lines are named; None where there is none.
 
     Yields:
         A sentence per doubt, with the name of the sensor.
@@ -175,7 +178,7 @@ def fit_doubts(calibration: Calibration, *, said: Collection[str] = ()) -> Itera
         *_unmoved(calibration),
         *_left_prior(calibration),
         *_refused(calibration),
-        *_wrong_model(calibration),
+        *_wrong_model(calibration, urdf),
     )
     for sentence in (*(doubt for doubt in calibration.warnings if doubt not in said), *own):
         yield f"{sensor}: {sentence}"
@@ -227,14 +230,14 @@ _MOST_ERRORS = 3
 """Errors of the robot model that a warning lists."""
 
 
-def _wrong_model(calibration: Calibration) -> Iterator[str]:
+def _wrong_model(calibration: Calibration, urdf: Path | None) -> Iterator[str]:
     """Numbers of the robot model beyond their tolerances."""
     errors = sorted(
         (error for error in calibration.model_errors if error.is_suspicious),
         key=lambda error: -abs(error.value) / error.tolerance,
     )
     if errors:
-        listed = "; ".join(error.message for error in errors[:_MOST_ERRORS])
+        listed = "; ".join(error.message + place_in_urdf(urdf, error.name) for error in errors[:_MOST_ERRORS])
         rest = f"; and {len(errors) - _MOST_ERRORS} more" if len(errors) > _MOST_ERRORS else ""
         yield (
             f"the robot model does not fit the data within its tolerances: {listed}{rest}. One sensor does not "
@@ -405,13 +408,14 @@ def calibrate_for_file(
         channels=() if campaign is None else channel_names(campaign),
     )
     left_out = () if campaign is None else campaign.left_out
+    urdf = None if campaign is None else urdf_of(campaign.runs[0].experiment)
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
     doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
         has_validation=campaign is None or any(run.has(Use.VALIDATION) for run in campaign.runs),
-        warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts)),
+        warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts, urdf=urdf)),
     )
 
 

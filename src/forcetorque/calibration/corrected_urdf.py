@@ -15,6 +15,16 @@ from forcetorque.robot.model_text import corrected_urdf_text
 from forcetorque.robot.urdf import read_urdf
 
 
+def urdf_of(experiment: Experiment) -> Path | None:
+    """Find the URDF file of an experiment.
+
+    Returns:
+        The file; None without a robot, or where the experiment is none of a file.
+    """
+    table = parse_experiment(experiment.file).robot if experiment.file.is_file() else None
+    return None if table is None else urdf_file(table.urdf, experiment.file.parent)
+
+
 def write_corrected_urdf(
     experiment: Experiment, calibration: Path | str, file: Path | str, *, force: bool = False
 ) -> None:
@@ -35,10 +45,9 @@ def write_corrected_urdf(
         RobotError: If they are of another robot.
         OutputError: If the file is an input, or a file that `force` is needed for.
     """
-    table = parse_experiment(experiment.file).robot
-    if table is None:
+    table, urdf = parse_experiment(experiment.file).robot, urdf_of(experiment)
+    if table is None or urdf is None:
         raise ExperimentError(f"{experiment.file}: expected [robot] with a URDF to correct, got none")
-    urdf = urdf_file(table.urdf, experiment.file.parent)
     found = [read_model_errors(calibration)]
     if table.tolerance != "exact" and table.tolerance.found_by is not None:
         found.insert(0, read_model_errors(experiment.file.parent / table.tolerance.found_by))

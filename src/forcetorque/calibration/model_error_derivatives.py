@@ -26,8 +26,8 @@ from forcetorque.experiment.calibration.robot_model_error import (
 )
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.root_motion import imu_frame
-from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -35,7 +35,7 @@ from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
-_BLOCK: Final = 1024
+_BLOCK: Final = 4096
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
 """Share of the largest effect of a term below which one is rounding, such as that of a yaw about gravity."""

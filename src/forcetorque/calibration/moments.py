@@ -127,7 +127,8 @@ def agreeing_moments(
     return kept, [
         f"interval {span.label!r}: {span.start_s - start_s:.2f} to {span.end_s - start_s:.2f} s is left out: the "
         f"readings disagree there with all others, by up to {span.force_N:.2g} N and {span.moment_Nm:.2g} N m, as if "
-        "something touched the distal links; `inspect` shows contacts, keep of [processing] uses them all the same"
+        'something touched the distal links; `inspect` shows contacts; keep = ["disagreeing"] in [processing] fits '
+        "them too"
         for span in spans
     ]
 

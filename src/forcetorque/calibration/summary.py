@@ -13,7 +13,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import measured_components
-from forcetorque.results.answer import EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.capability import named
 from forcetorque.results.number_text import counted, number, with_error
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table
@@ -62,14 +62,16 @@ def calibration_answer(
     residual = f"residual {', '.join(norms)} (RMS of the norm)"
     if source.means is not None and source.means <= unknowns:
         residual = f"too few to leave a residual, with {unknowns} unknowns per component: record longer"
+    step, command = "evaluate it on data that were not fitted", typed("evaluate", EXPERIMENT, "-c", file)
+    if not has_validation:
+        step = 'add an [[interval]] with use = "validation", or evaluate it on another recording that has one'
+        command = typed("init", "--resume", FIRST_EXPERIMENT) if len(labels) == 1 else ""  # it divides the only one
     return Answer(
         subject=f"{sensor.name} ({sensor.serial}), {file}",
         verdict=("FITTED, WITH WARNINGS" if doubtful else "FITTED") if saved else "FITTED, NOT WRITTEN YET",
         why=(f"{fitted} of {intervals}: {residual}", *((learnt_words(learnt),) if learnt else ())),
-        step="evaluate it on data that were not fitted"
-        if has_validation
-        else 'add an [[interval]] with use = "validation", or evaluate it on another recording that has one',
-        command=typed("evaluate", EXPERIMENT, "-c", file) if has_validation else "",
+        step=step,
+        command=command,
         concern=Concern.UNCERTAIN if doubtful else Concern.NONE,
     )
 

@@ -19,8 +19,9 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import means_over
 from forcetorque.base.units import NORMAL_95
 from forcetorque.collisions.detection import Release, Threshold, threshold_of
+from forcetorque.collisions.free_model import FreeModel
 from forcetorque.collisions.momentum import CUT_OFF_HZ, ArmMotion, external_torque, low_passed
-from forcetorque.collisions.residual import PAUSE_S, WARM_UP_S, WINDOW_S, FreeModel
+from forcetorque.collisions.residual import PAUSE_S, WARM_UP_S, WINDOW_S
 from forcetorque.collisions.result import JointCollisions, JointRow, TorqueContactRow, TorqueCurve
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.input_files import stated_in

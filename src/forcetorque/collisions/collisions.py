@@ -21,8 +21,9 @@ from forcetorque.collisions.detection import (
     statistics_of,
     threshold_of,
 )
+from forcetorque.collisions.free_model import FreeChanges, matrix_errors
 from forcetorque.collisions.location import locate, noticed_on_links
-from forcetorque.collisions.residual import WARM_UP_S, WINDOW_S, FreeModel, Signals, changes_of, signals_of
+from forcetorque.collisions.residual import WARM_UP_S, WINDOW_S, Signals, changes_of, signals_of
 from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, LinkSensitivityRow, SensitivityRow
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction
@@ -51,9 +52,33 @@ class _Looked:
 
     interval: Interval
     signals: Signals
-    model: FreeModel
+    model: FreeChanges
     """What changes of the residual are without a contact, under the load of the interval."""
     detected: Detected
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Search:
+    """A search for contacts beyond a sensor."""
+
+    run: SensorRun
+    threshold: Threshold
+    free: tuple[str, ...]
+    """Labels of the intervals from which noise was learnt."""
+    looked: tuple[_Looked, ...]
+    """Intervals that were looked at, at least one."""
+    short: tuple[str, ...]
+    """Labels of those that are too short."""
+
+    def rows(self) -> list[CollisionRow]:
+        """Give the contacts in the order of time."""
+        rows = [
+            _row(self.run, one, contact, self.threshold)
+            for one in self.looked
+            for contact in one.detected.contacts
+            if contact.windows
+        ]
+        return sorted(rows, key=lambda row: row.start_s)
 
 
 def find_collisions(
@@ -76,6 +101,38 @@ def find_collisions(
         ExperimentError: If there is no interval to look at, too little time without contact, or the rate is not above
             0.
     """
+    search = _searched(run, correction, intervals, free, alarms_per_hour)
+    rows = search.rows()
+    return Collisions(
+        experiment=run.experiment.name,
+        collisions=tuple(rows),
+        sensitivity=(_sensitivity(run, search.looked, search.threshold),),
+        by_link=tuple(_by_link(run, search.looked, search.threshold)),
+        curves=(_curve(run, search.looked),),
+        warnings=tuple(_warnings(search, rows)),
+    )
+
+
+def collision_rows(run: SensorRun, correction: Correction, alarms_per_hour: float) -> Sequence[CollisionRow]:
+    """Give the contacts of `find_collisions` in all intervals, without what can be noticed, which takes longer.
+
+    Args:
+        run: The sensor.
+        correction: As of `find_collisions`.
+        alarms_per_hour: As of `find_collisions`.
+
+    Returns:
+        Contacts in the order of time.
+
+    Raises:
+        ExperimentError: As of `find_collisions`.
+    """
+    return _searched(run, correction, (), (), alarms_per_hour).rows()
+
+
+def _searched(
+    run: SensorRun, correction: Correction, intervals: Collection[str], free: Collection[str], alarms_per_hour: float
+) -> _Search:
     if not _RATES[0] <= alarms_per_hour <= _RATES[1]:
         raise ExperimentError(
             f"alarms per hour: expected a number from {_RATES[0]:g} to {_RATES[1]:g}, got {alarms_per_hour:g}"
@@ -96,7 +153,7 @@ def find_collisions(
     signals = {label: signals_of(run, correction, one) for label, one in needed.items()}
     names = tuple(dict.fromkeys(name for one in signals.values() for name in one.of_model))
     signals = {label: one.with_terms(names) for label, one in signals.items()}
-    model, threshold = _learnt(run, [signals[one.label] for one in learnt], alarms_per_hour)
+    model, threshold = _learnt(run, correction, [signals[one.label] for one in learnt], alarms_per_hour)
     every = [_looked(one, signals[one.label], model, threshold) for one in watched]
     looked = [one for one in every if len(one.detected.covariances)]
     short = [one.interval.label for one in every if not len(one.detected.covariances)]
@@ -106,20 +163,12 @@ def find_collisions(
             f"sensor {run.sensor.name!r}: expected an interval with more than {WARM_UP_S:g} s of readings in a "
             f"row, in which the level is found first, got {lengths}; name another by --interval, from Python intervals"
         )
-    rows = [
-        _row(run, one, contact, threshold) for one in looked for contact in one.detected.contacts if contact.windows
-    ]
-    return Collisions(
-        experiment=run.experiment.name,
-        collisions=tuple(sorted(rows, key=lambda row: row.start_s)),
-        sensitivity=(_sensitivity(run, looked, threshold),),
-        by_link=tuple(_by_link(run, looked, threshold)),
-        curves=(_curve(run, looked),),
-        warnings=tuple(_warnings(run, rows, threshold, [one.label for one in learnt], short)),
+    return _Search(
+        run=run, threshold=threshold, free=tuple(one.label for one in learnt), looked=tuple(looked), short=tuple(short)
     )
 
 
-def _looked(interval: Interval, signals: Signals, model: FreeModel, threshold: Threshold) -> _Looked:
+def _looked(interval: Interval, signals: Signals, model: FreeChanges, threshold: Threshold) -> _Looked:
     loaded = model.under_load(signals.unmodelled)
     detected = detect(signals, loaded, threshold.value)
     return _Looked(interval=interval, signals=signals, model=loaded, detected=detected)
@@ -135,7 +184,9 @@ def _require_rate(run: SensorRun) -> None:
         )
 
 
-def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> tuple[FreeModel, Threshold]:
+def _learnt(
+    run: SensorRun, correction: Correction, free: Sequence[Signals], alarms_per_hour: float
+) -> tuple[FreeChanges, Threshold]:
     """What is learnt from windows without contact."""
     changes = changes_of(_untouched(run, free))
     free_s = len(changes) * WINDOW_S
@@ -145,9 +196,9 @@ def _learnt(run: SensorRun, free: Sequence[Signals], alarms_per_hour: float) -> 
             f"beyond it, got {free_s:.2g} s; name longer intervals by --free, from Python free"
         )
     unmodelled = np.max([one.unmodelled for one in free], axis=0)
-    model = FreeModel.of(changes[:, :, 0], changes[:, :, 1:], unmodelled)
+    model = FreeChanges.of(changes, unmodelled, matrix_errors(run, correction.model.matrix))
     statistic = statistics_of(changes, model)
-    return model, threshold_of(statistic, model.correlation_s, alarms_per_hour=alarms_per_hour)
+    return model, threshold_of(statistic, model.free.correlation_s, alarms_per_hour=alarms_per_hour)
 
 
 def _untouched(run: SensorRun, free: Sequence[Signals]) -> Sequence[Signals]:
@@ -188,7 +239,7 @@ def _row(run: SensorRun, looked: _Looked, contact: Contact, threshold: Threshold
         run,
         looked.interval,
         start_ns + round(float(at_s[contact.windows[strongest]]) * 1e9),
-        *looked.model.contact(contact.wrenches[strongest], contact.covariances[strongest], looked.signals.of_load),
+        *looked.model.contact(contact.wrenches[strongest], contact.covariances[strongest]),
     )
     force = float(np.linalg.norm(location.wrench[:3]))
     first, last = float(at_s[contact.windows[0]]), float(at_s[contact.windows[-1]])
@@ -256,24 +307,22 @@ def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:
     return CollisionCurve(sensor=run.sensor.name, time_s=known[:, 0], force_N=known[:, 1])
 
 
-def _warnings(
-    run: SensorRun, rows: Sequence[CollisionRow], threshold: Threshold, free: Sequence[str], short: Sequence[str]
-) -> list[str]:
-    warnings = []
-    if short:
+def _warnings(search: _Search, rows: Sequence[CollisionRow]) -> list[str]:
+    name, threshold, warnings = search.run.sensor.name, search.threshold, []
+    if search.short:
         warnings.append(
-            f"{run.sensor.name}: not looked at: {', '.join(short)}, with at most {WARM_UP_S:g} s of readings in a "
+            f"{name}: not looked at: {', '.join(search.short)}, with at most {WARM_UP_S:g} s of readings in a "
             "row, in which the level is found first"
         )
-    touched = [label for label in free if any(row.interval == label for row in rows)]
+    touched = [label for label in search.free if any(row.interval == label for row in rows)]
     if touched:
         warnings.append(
-            f"{run.sensor.name}: contacts in {', '.join(touched)}, from which noise is learnt: what touches there is "
+            f"{name}: contacts in {', '.join(touched)}, from which noise is learnt: what touches there is "
             "noticed less; name intervals without contact by --free"
         )
     if threshold.free_s < _ENOUGH_FREE_S:
         warnings.append(
-            f"{run.sensor.name}: more false alarms may come: {threshold.free_s:.3g} s without contact do not show the "
+            f"{name}: more false alarms may come: {threshold.free_s:.3g} s without contact do not show the "
             f"tail of the noise; name at least {_ENOUGH_FREE_S:g} s by --free"
         )
     return warnings

@@ -16,7 +16,8 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.collisions.residual import TOGETHER, WINDOW_S, FreeModel, Level, Signals
+from forcetorque.collisions.free_model import FreeChanges
+from forcetorque.collisions.residual import TOGETHER, WINDOW_S, Level, Signals
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 
 RELEASE: Final = 0.25
@@ -143,7 +144,7 @@ class Detected:
     """Its covariance without a contact, of the k windows with a level; shape (k, 6, 6)."""
 
 
-def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
+def detect(signals: Signals, model: FreeChanges, threshold: float) -> Detected:
     """Look for contacts.
 
     Args:
@@ -203,7 +204,7 @@ def detect(signals: Signals, model: FreeModel, threshold: float) -> Detected:
 
 
 def _compared(
-    level: Level, windows: range, model: FreeModel, *, held: bool
+    level: Level, windows: range, model: FreeChanges, *, held: bool
 ) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
     """The k windows that have a level; what each reads too much, shape (k, 6), its covariance, and its statistic."""
     changes, known = level.changes(windows.start, windows.stop, held=held)
@@ -216,11 +217,11 @@ def _squared(wrenches: FloatArray, covariances: FloatArray) -> FloatArray:
     return np.einsum("wi,wi->w", wrenches, np.linalg.solve(covariances, wrenches[..., None])[..., 0])
 
 
-def statistics_of(changes: FloatArray, model: FreeModel) -> FloatArray:
+def statistics_of(changes: FloatArray, model: FreeChanges) -> FloatArray:
     """Give the statistic of windows.
 
     Args:
-        changes: Changes of their columns; shape (w, 6, 1 + p).
+        changes: Changes of their columns; shape (w, 12 + 6 q).
         model: What these are without a contact.
 
     Returns:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import get_args
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.collisions.collisions import find_collisions
+from forcetorque.collisions.collisions import collision_rows
 from forcetorque.collisions.residual import WINDOW_S
 from forcetorque.collisions.result import CollisionRow
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -166,7 +166,7 @@ def _collisions(experiment: Experiment, calibrations: Mapping[str, Calibration])
 def _on_links(run: SensorRun, calibration: Calibration | None) -> Iterator[Finding]:
     start_ns, sensor = run.experiment.recording.start_ns, run.sensor
     try:
-        rows = find_collisions(run, run.read_by(None, calibration).bare, (), (), ALARMS_PER_HOUR).collisions
+        rows = collision_rows(run, run.read_by(None, calibration).bare, ALARMS_PER_HOUR)
     except ForceTorqueError as error:
         text = f"no look for collisions: {error}"
         yield Finding(stream=sensor.stream, kind="not_compared", message=text, count=0, sensor=sensor.name)

@@ -18,7 +18,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
-from forcetorque.robot.mechanics.samples import robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.sub_model_equations import PartEquation, joints_of_part, part_equations
 from forcetorque.robot.tree import BodyTree, build_tree, sub_models
 

@@ -23,8 +23,8 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 from forcetorque.recording.recording import Interval, Support
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
 from forcetorque.robot.mechanics.question import Question, moving_joints, required_joints_of
-from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree
 

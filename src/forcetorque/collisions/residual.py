@@ -23,12 +23,9 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.noise.means import means_over
-from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.model_error_derivatives import derivatives_at
-from forcetorque.calibration.moments import assumptions_of
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, SENSOR, sensor_root
-from forcetorque.experiment.campaign_intervals import CampaignRecording
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
@@ -46,10 +43,8 @@ TOGETHER: Final = 64
 UNMODELLED: Final = 0.02
 """Slow errors that no term explains, as a share of the load of the limb. A few seconds without contact do not show
 them; on the yoga log of an iCub they are 2 to 4 N of 40 N at most."""
-_FAR: Final = 5.0
-"""Robust standard deviations from which a free window does not count for noise and errors."""
-_ROUNDS: Final = 4
-_TINY: Final = 1e-12
+_FILTERED: Final = 16
+"""Windows whose levels are one product of matrices; its size grows with their square."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -59,12 +54,10 @@ class Signals:
     time_s: FloatArray
     """Middle of each window on the clock of the recording; shape (w,); s."""
     columns: FloatArray
-    """Measured less expected wrench, then what errors of one standard deviation add to it, of the matrix and of the
-    robot model; shape (w, 6, 1 + p); N, N m."""
+    """Measured less expected wrench, expected wrench, then what errors of one standard deviation of the robot model add
+    to the first, q for each component; shape (w, 6 + 6 + 6 q); N, N m."""
     of_model: tuple[str, ...]
-    """Names of the terms of the robot model, which are the last ones."""
-    of_load: FloatArray
-    """What the first 36 terms are per unit of every component of a load; shape (6, 6, 36)."""
+    """Names of the q terms of the robot model."""
     unmodelled: FloatArray
     """Standard deviation of slow errors that no term explains, such as friction in cables; shape (6,); N, N m."""
 
@@ -93,15 +86,28 @@ class Signals:
         """
         if tuple(names) == self.of_model:
             return self
-        first = self.columns.shape[2] - len(self.of_model)
-        columns = np.zeros((len(self), LOADS, first + len(names)))
-        columns[:, :, :first] = self.columns[:, :, :first]
-        columns[:, :, [first + names.index(name) for name in self.of_model]] = self.columns[:, :, first:]
+        wrenches, own = split_columns(self.columns)[:2], split_columns(self.columns)[2]
+        terms = np.zeros((len(self), LOADS, len(names)))
+        terms[:, :, [names.index(name) for name in self.of_model]] = own
+        columns = np.hstack([*wrenches, terms.reshape(len(self), -1)])
         return replace(self, columns=columns, of_model=tuple(names))
 
     def starts(self) -> BoolArray:
         """Windows before which there is a pause, the first among them; shape (w,)."""
         return np.diff(self.time_s, prepend=-np.inf) > PAUSE_S
+
+
+def split_columns(columns: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Split columns of `Signals`, or their changes.
+
+    Args:
+        columns: The columns; shape (w, 12 + 6 q).
+
+    Returns:
+        Of the residual and of the expected wrench, shape (w, 6), and of the terms of the robot model, shape (w, 6, q).
+    """
+    residual, load, of_model = np.split(columns, [LOADS, 2 * LOADS], axis=1)
+    return residual, load, of_model.reshape(len(columns), LOADS, of_model.shape[1] // LOADS)
 
 
 def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Signals:
@@ -114,9 +120,6 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
 
     Returns:
         Means over windows.
-
-    Raises:
-        ExperimentError: If the full scale of the sensor is not known.
     """
     part = run.interval_samples(interval, variables=correction.variables, smoothed=False, with_flattening=False)
     stamps = part.samples.stamp_ns
@@ -131,19 +134,15 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
     rates = np.gradient(load, time_s, axis=0) if len(time_s) > 1 else np.zeros_like(load)
     terms, derivatives = derivatives_at(run, interval, "", at_ns, rates)
     known = np.isfinite(derivatives).all(axis=(1, 2))
-    derivatives = derivatives if known.all() else derivatives[known]
-    of_load = _of_load(run, correction.model.matrix)
-    columns = np.empty((int(np.count_nonzero(known)), LOADS, 1 + of_load.shape[2] + len(terms)))
-    columns[:, :, 0] = means[known, :LOADS]
-    of_matrix, of_model = np.split(columns[:, :, 1:], [of_load.shape[2]], axis=2)
-    of_matrix[:] = (load[known] @ of_load.reshape(LOADS, -1)).reshape(of_matrix.shape)
+    columns = np.empty((int(np.count_nonzero(known)), 2 * LOADS + LOADS * len(terms)))
+    columns[:, : 2 * LOADS] = means[known]
     # a residual falls by what the expected wrench rises
-    np.multiply(derivatives, [-term.deviation for term in terms], out=of_model)
+    of_model = split_columns(columns)[2]
+    np.multiply(derivatives if known.all() else derivatives[known], [-term.deviation for term in terms], out=of_model)
     return Signals(
         time_s=time_s[known],
         columns=columns,
         of_model=tuple(term.name for term in terms),
-        of_load=of_load,
         unmodelled=np.repeat([UNMODELLED * _large(load[:, part]) for part in FORCE_AND_MOMENT], 3),
     )
 
@@ -151,16 +150,6 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
 def _large(vectors: FloatArray) -> float:
     """Size that 95 % of vectors stay below."""
     return float(np.percentile(np.linalg.norm(vectors, axis=1), 95)) if len(vectors) else 0.0
-
-
-def _of_load(run: SensorRun, matrix: FloatArray) -> FloatArray:
-    """What an error of one standard deviation of every coefficient of the matrix adds per load; shape (6, 6, 36)."""
-    run.sensor.require_six_components("a search for collisions")
-    assumptions = assumptions_of(CampaignRecording.of(run))
-    scaled = matrix * assumptions.full_scale
-    size = SENSOR.expected * np.sqrt((scaled**2).mean(axis=1))
-    root = sensor_root(np.asarray(np.linalg.pinv(scaled), dtype=np.float64))
-    return np.einsum("k,km,lj->lkmj", size, np.eye(LOADS), root).reshape(LOADS, LOADS, LOADS * LOADS)
 
 
 class Level:
@@ -172,8 +161,7 @@ class Level:
         Args:
             signals: The windows, of which `changes` is asked in turn.
         """
-        self._values, self._starts = signals.columns.reshape(len(signals), -1), signals.starts()
-        self._shape = signals.columns.shape[1:]
+        self._values, self._starts = signals.columns, signals.starts()
         self._level = np.zeros(self._values.shape[1])
         self._count = 0
 
@@ -186,7 +174,7 @@ class Level:
             held: Whether the level stays as it is once it is known, because something touches the robot.
 
         Returns:
-            Columns of the windows less their level, shape (w, 6, 1 + p), and whether the level is known; shape (w,).
+            Columns of the windows less their level, shape (w, 12 + 6 q), and whether the level is known; shape (w,).
         """
         known, gains = np.zeros(end - first, dtype=np.bool_), []
         for k, starts in enumerate(self._starts[first:end].tolist()):
@@ -199,10 +187,14 @@ class Level:
                 gain = max(WINDOW_S / LEVEL_S, 1.0 / self._count)
             gains.append(gain)
         values = self._values[first:end]
-        levels = _weights(tuple(gains)) @ np.vstack([self._level, values])
-        # a new array: a copy of this object keeps the level that it was made with
-        self._level = levels[-1].copy()
-        return (values - levels[:-1]).reshape(-1, *self._shape), known
+        changes = np.empty_like(values)
+        for k in range(0, len(values), _FILTERED):
+            block = slice(k, k + _FILTERED)
+            levels = _weights(tuple(gains[block])) @ np.vstack([self._level, values[block]])
+            np.subtract(values[block], levels[:-1], out=changes[block])
+            # a new array: a copy of this object keeps the level that it was made with
+            self._level = levels[-1].copy()
+        return changes, known
 
     def restart(self) -> None:
         """Take the level anew from the next windows on."""
@@ -227,9 +219,9 @@ def changes_of(intervals: Sequence[Signals]) -> FloatArray:
         intervals: Windows of at least one interval, with the same terms.
 
     Returns:
-        Changes of their columns, without the windows that have no level yet; shape (w, 6, 1 + p).
+        Changes of their columns, without the windows that have no level yet; shape (w, 12 + 6 q).
     """
-    changes = np.empty((sum(map(len, intervals)), *intervals[0].columns.shape[1:]))
+    changes = np.empty((sum(map(len, intervals)), intervals[0].columns.shape[1]))
     count = 0
     for signals in intervals:
         level = Level(signals)
@@ -238,123 +230,3 @@ def changes_of(intervals: Sequence[Signals]) -> FloatArray:
             before, count = count, count + int(np.count_nonzero(known))
             changes[before:count] = columns[known]
     return changes[:count]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class FreeModel:
-    """What changes of the residual are while nothing touches the robot."""
-
-    mean: FloatArray
-    """Errors of the matrix and of the robot model, over their prior deviations; shape (p,)."""
-    covariance: FloatArray
-    """Their covariance; shape (p, p)."""
-    noise: FloatArray
-    """Covariance of the noise of a window; shape (6, 6); N, N m."""
-    unmodelled: FloatArray
-    """Standard deviation of slow errors that no term explains, of which `noise` has the square; shape (k,); N, N m."""
-    correlation_s: float
-    """Time over which noise goes on; s."""
-
-    def under_load(self, unmodelled: FloatArray) -> FreeModel:
-        """Give the model where errors that no term explains are larger, for the load is.
-
-        Args:
-            unmodelled: As of `Signals`; shape (k,); N, N m.
-
-        Returns:
-            The model with the larger of both.
-        """
-        larger = np.maximum(unmodelled, self.unmodelled)
-        return replace(self, noise=self.noise + np.diag(larger**2 - self.unmodelled**2), unmodelled=larger)
-
-    def wrench(self, change: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give what changes cannot be explained by.
-
-        Args:
-            change: Columns of windows, less their level; shape (w, 6, 1 + p).
-
-        Returns:
-            Unexplained wrenches, shape (w, 6), and their covariances if nothing touches the robot; shape (w, 6, 6);
-            N, N m.
-        """
-        terms = change[:, :, 1:]
-        # one product of two matrices for all windows, in place of one for each
-        spread = (change.reshape(-1, change.shape[2])[:, 1:] @ self.covariance).reshape(terms.shape)
-        return change[:, :, 0] - terms @ self.mean, self.noise + spread @ terms.transpose(0, 2, 1)
-
-    def contact(self, excess: FloatArray, covariance: FloatArray, of_load: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Correct the reading of a contact by the errors of the matrix.
-
-        Args:
-            excess: What the sensor reads too much; shape (6,); N, N m.
-            covariance: Its covariance without a contact; shape (6, 6).
-            of_load: As of `Signals`; shape (6, 6, 36).
-
-        Returns:
-            What the contact adds to the true wrench, and its covariance, in the frame and direction of the sensor.
-        """
-        of_matrix = slice(of_load.shape[2])
-        reading = np.eye(LOADS) + np.einsum("lkp,p->kl", of_load, self.mean[of_matrix])
-        wrench = np.asarray(np.linalg.solve(reading, excess))
-        terms = np.einsum("l,lkp->kp", wrench, of_load)
-        spread = covariance + terms @ self.covariance[of_matrix, of_matrix] @ terms.T
-        inverse = np.linalg.inv(reading)
-        return wrench, inverse @ spread @ inverse.T
-
-    @classmethod
-    def of(cls, residual: FloatArray, terms: FloatArray, unmodelled: FloatArray) -> FreeModel:
-        """Learn from windows in which nothing touches the robot.
-
-        Args:
-            residual: Changes of the residual; shape (w, k), six of a sensor; N, N m.
-            terms: Changes of the terms; shape (w, k, p).
-            unmodelled: As of `Signals`; shape (k,); N, N m.
-
-        Returns:
-            The model; windows that are far from all others do not count.
-        """
-        p = terms.shape[2]
-        squares, products = _normal_equations(residual, terms)
-        mean, left = np.zeros(p), residual
-        covariance: FloatArray = np.eye(p)
-        correlation = 1.0
-        noise = np.zeros((residual.shape[1], residual.shape[1]))
-        for _ in range(_ROUNDS):
-            scale: FloatArray = np.maximum(MAD_TO_DEVIATION * np.median(np.abs(left), axis=0), _TINY)
-            kept = np.asarray(np.sqrt(((left / scale) ** 2).mean(axis=1)) < _FAR)
-            correlation = _correlated(left[kept])
-            noise = left[kept].T @ left[kept] / max(int(np.count_nonzero(kept)), 1) + np.diag(scale**2) * _TINY
-            far_squares, far_products = _normal_equations(residual[~kept], terms[~kept])
-            weights = 1.0 / (correlation * np.diag(noise))
-            covariance = np.asarray(np.linalg.inv(np.eye(p) + np.tensordot(weights, squares - far_squares, axes=1)))
-            mean = covariance @ (weights @ (products - far_products))
-            left = residual - terms @ mean
-        return cls(
-            mean=mean,
-            covariance=covariance,
-            noise=noise + np.diag(unmodelled**2),
-            unmodelled=unmodelled,
-            correlation_s=correlation * WINDOW_S,
-        )
-
-
-def _normal_equations(residual: FloatArray, terms: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Squares of the terms, shape (k, p, p), and their products with the residual, shape (k, p), of k components."""
-    of_components = terms.transpose(1, 2, 0)  # (k, p, w)
-    squares = np.array([one @ one.T for one in of_components])
-    return squares, (of_components @ residual.T[:, :, None])[:, :, 0]
-
-
-def _correlated(left: FloatArray) -> float:
-    """Number of windows that count as one, of the component whose noise goes on longest."""
-    most = 1.0
-    for column in (left - left.mean(axis=0)).T:
-        spectrum = np.abs(np.fft.rfft(column, 2 * len(column))) ** 2
-        correlation = np.fft.irfft(spectrum)[: len(column)]
-        if correlation[0] <= 0.0:
-            continue
-        correlation = correlation / correlation[0]
-        negative = np.flatnonzero(correlation < 0.0)
-        end = int(negative[0]) if len(negative) else len(correlation)
-        most = max(most, 2.0 * float(correlation[:end].sum()) - 1.0)
-    return most

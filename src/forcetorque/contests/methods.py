@@ -23,7 +23,7 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import OFFSET_S, Offset, mean_offset
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.workbench.fit import fit_bench
+from forcetorque.workbench.matrix_fit import fit_bench
 from forcetorque.workbench.sensor_fit import bench_calibration
 
 _FITTED = (Method.IN_SITU, Method.IN_SITU_WITHOUT_PRIOR, Method.KNOWN_MASSES, Method.REFERENCE_SENSOR)

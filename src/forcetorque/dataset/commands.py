@@ -27,7 +27,7 @@ def _require_positive(flag: str, value: float | None) -> None:
 
 
 @command(
-    None,
+    "the findings over episodes, and the weight along gravity in each",
     Saved(flags=("--html",), help="HTML page of the result.", function="forcetorque.dataset.check:write_page"),
 )
 def check_dataset(
@@ -106,7 +106,7 @@ def _refuse_contradiction(calibration: "Calibration", direction: str, unit: str 
         )
 
 
-@command(None)
+@command("mass and centre of mass of the tool that was taken off")
 def compensate_dataset(
     folder: Annotated["Path | str", Option("Folder of a LeRobot dataset, v2.1 or v3.0.")],
     output: Annotated[

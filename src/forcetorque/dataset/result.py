@@ -13,7 +13,7 @@ from forcetorque.payload.identification.load_estimates import BiasRow, Three
 from forcetorque.payload.result import LoadRow, load_words
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
 _MOST_SHOWN = 40
@@ -109,7 +109,7 @@ class EpisodeFieldRow(Row):
         return wrong, self.noise_over_usual or 0.0
 
 
-class DatasetCheck(Result):
+class DatasetCheck(DrawnResult):
     """What is wrong with the forces of a dataset."""
 
     schema_name: Literal["forcetorque/check_dataset/1"] = Field(default="forcetorque/check_dataset/1", alias="schema")
@@ -134,6 +134,8 @@ class DatasetCheck(Result):
     """A record for each episode and field."""
 
     answered_by: ClassVar[str | None] = "forcetorque.dataset.result:check_answer"
+
+    drawn_by: ClassVar[str] = "forcetorque.dataset.figure:episodes_figure"
 
     @property
     def passed(self) -> bool:
@@ -237,7 +239,7 @@ _CONTACTS = 0.2
 """Share of windows that disagree with the tool from which on the identification is doubtful (heuristic)."""
 
 
-class CompensatedDataset(Result):
+class CompensatedDataset(DrawnResult):
     """A dataset with the wrench that the tool's weight and bias were taken off."""
 
     schema_name: Literal["forcetorque/compensate_dataset/1"] = Field(
@@ -296,6 +298,9 @@ class CompensatedDataset(Result):
     """Files of frames that an earlier run had written."""
 
     answered_by: ClassVar[str | None] = "forcetorque.dataset.result:compensation_answer"
+
+    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the load and the biases.

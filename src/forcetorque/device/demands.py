@@ -9,17 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
-from forcetorque.device.demand_result import (
-    MOST_SENSORS,
-    BudgetRow,
-    GradeRow,
-    HingeRow,
-    LockRow,
-    RequirementRow,
-    UnwindingRow,
-    requirement_rows,
-)
-from forcetorque.device.description import Device, device_load
+from forcetorque.device.components import Device, device_load
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.error_budget import (
     DATA_SHEETS,
@@ -43,6 +33,16 @@ from forcetorque.device.mechanical_demands import (
     pendulum_Nm,
 )
 from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
+from forcetorque.device.requirements import (
+    MOST_SENSORS,
+    BudgetRow,
+    GradeRow,
+    HingeRow,
+    LockRow,
+    RequirementRow,
+    UnwindingRow,
+    requirement_rows,
+)
 from forcetorque.device.tolerances import Tolerance
 from forcetorque.results.table import Row, Table, table_of
 from forcetorque.robot.motion import JointMotion

@@ -11,12 +11,12 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.device.demand_result import Verdict
+from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
-from forcetorque.device.description import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
+from forcetorque.device.requirements import Verdict
 from forcetorque.device.spanned_directions import DeviceSpan, device_span
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult
@@ -24,7 +24,7 @@ from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:
-    from forcetorque.device.demand_result import RequirementRow
+    from forcetorque.device.requirements import RequirementRow
 
 
 class DeviceLoadRow(Row):

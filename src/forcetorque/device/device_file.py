@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, read_toml
-from forcetorque.device.description import Device
+from forcetorque.device.components import Device
 from forcetorque.device.motion import Sequence, YawReturn, twelve_steps
 from forcetorque.simulation.scenario.file import Imu, Sensors
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, names
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import Device, device_load
+from forcetorque.device.components import Device, device_load
 from forcetorque.device.expected_wrench import ENCODERS, IMU, ExpectedWrench
 from forcetorque.device.motion import Sequence
 from forcetorque.device.tolerances import Tolerance

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.device.description import AttachedLoad, Device, Turn, device_load
+from forcetorque.device.components import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 from forcetorque.device.tolerances import Poses, Tolerances
 from forcetorque.experiment.bench_file import THESIS_TABLE

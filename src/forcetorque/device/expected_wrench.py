@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError, known_names, require_known
 from forcetorque.base.pose import split_pose
-from forcetorque.device.description import AttachedLoad, Device
+from forcetorque.device.components import AttachedLoad, Device
 from forcetorque.device.model import BASE, device_model, device_root
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import expected_wrenches, link_pose

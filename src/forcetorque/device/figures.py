@@ -14,10 +14,10 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.output_file import new_folder
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import space_figure
-from forcetorque.device.demand_result import GradeRow, RequirementRow, Verdict
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
 from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
+from forcetorque.device.requirements import GradeRow, RequirementRow, Verdict
 from forcetorque.device.spanned_directions import DirectionRow
 from forcetorque.results.figures import (
     LIMIT_LINE,

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, ArrayRecord, BoolArray, FloatArray, array, read_only
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import AttachedLoad, Device
+from forcetorque.device.components import AttachedLoad, Device
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.model import BASE, device_model
 from forcetorque.device.motion import Sequence, with_free_hinge

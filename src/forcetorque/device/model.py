@@ -10,7 +10,7 @@ from forcetorque.base.errors import RobotError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import cross, make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.device.description import AttachedLoad, Axis, Device, part_inertia
+from forcetorque.device.components import AttachedLoad, Axis, Device, part_inertia
 from forcetorque.robot.dynamics import motion_of_link
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion

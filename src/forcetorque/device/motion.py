@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.device.description import AttachedLoad, Device
+from forcetorque.device.components import AttachedLoad, Device
 from forcetorque.device.model import hanging
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.trajectories import Waypoints

@@ -13,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.output_file import new_folder
-from forcetorque.device.description import AttachedLoad, device_load
+from forcetorque.device.components import AttachedLoad, device_load
 from forcetorque.device.design import DeviceDesign, DeviceRecordingRow
 from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.model import BASE, device_model

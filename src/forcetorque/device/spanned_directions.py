@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.device.description import Device
+from forcetorque.device.components import Device
 from forcetorque.device.excitation_options import (
     HELD_OUT_FORCE_N,
     HELD_OUT_MOMENT_NM,
@@ -31,7 +31,7 @@ from forcetorque.device.excitation_options import (
 )
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory
-from forcetorque.device.motion_design import Designer
+from forcetorque.device.optimised_motion import Designer
 from forcetorque.device.tolerances import Tolerances
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.workbench.bench import Placement

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import SensorError
-from forcetorque.device.description import AttachedLoad, Device
+from forcetorque.device.components import AttachedLoad, Device
 from forcetorque.device.expected_wrench import BRACKET_LENGTH, HINGE, LOAD_LENGTH, MASS, ExpectedWrench
 from forcetorque.robot.motion import JointMotion
 from forcetorque.workbench.excitation import UncertainLoads

@@ -32,9 +32,9 @@ from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples, robot_motion_at
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
-from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, outboard_bodies
 from forcetorque.skin.experiment import force_patches

@@ -21,7 +21,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.skin.contact.contacts import SkinContacts
 from forcetorque.skin.experiment import PATCHES, force_patches
 from forcetorque.skin.wrench.wrench import PatchFrames, patch_frames

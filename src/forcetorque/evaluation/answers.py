@@ -112,6 +112,11 @@ def _states_loads(use: LoadCaseVerdict) -> bool:
     return use.beyond_range is not None and use.decision == "not enough data"
 
 
+def _is_offset_predicted(use: LoadCaseVerdict) -> bool:
+    """Whether taring is next since an offset makes most of the predicted error, not one that data show."""
+    return use.tared_load_case is not None and use.limited_by == "offset"
+
+
 def next_lines(use: LoadCaseVerdict) -> tuple[str, ...]:
     """Give the lines of a file that the next step is about.
 
@@ -120,9 +125,11 @@ def next_lines(use: LoadCaseVerdict) -> tuple[str, ...]:
 
     Returns:
         A load case that the sensor can read, where the default one is beyond its range; that with a tared offset, where
-        data show a constant error.
+        data show a constant error. Where it is predicted, the step names its keys.
     """
-    stated = use.readable_load_case if _states_loads(use) else use.tared_load_case
+    stated = (
+        use.readable_load_case if _states_loads(use) else None if _is_offset_predicted(use) else use.tared_load_case
+    )
     return tuple((stated or "").splitlines())
 
 
@@ -165,6 +172,11 @@ def next_step(use: LoadCaseVerdict) -> tuple[str, str]:
     if is_for_inspect(use):
         return remedy, typed("inspect", FIRST_EXPERIMENT)
     if use.tared_load_case is not None:
+        if _is_offset_predicted(use):
+            header, *keys = use.tared_load_case.splitlines()
+            remedy = (
+                f"tare it before use and state it (most of the error comes from the offset): {header} {', '.join(keys)}"
+            )
         return remedy, to_evaluate(use.calibration)[1]
     records = any(ADVICE_BY_SOURCE[source] in remedy for source in ("matrix", "model"))
     return remedy, to_plan(use.calibration) if records else ""

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import ExperimentError, ShapeError
+from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.means import joined_times
 from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
@@ -23,7 +23,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     static_loads_text,
     validation_excitation,
 )
-from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts, with_predicted_errors
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice
 from forcetorque.experiment.calibrations_under_test import (
@@ -215,14 +215,9 @@ class Evaluation(DrawnResult):
         """Verdicts with a predicted error, which the figure shows.
 
         Raises:
-            ShapeError: If there is none, or if sensors measure different quantities, which have no panels in common.
+            ShapeError: As `with_predicted_errors`.
         """
-        verdicts = tuple(use for use in self.load_cases if use.errors)
-        if not verdicts:
-            raise ShapeError("figure: expected a load case with a predicted error, there is none to draw")
-        if len({tuple(error.quantity for error in use.errors) for use in verdicts}) > 1:
-            raise ShapeError("figure: expected sensors of the same quantities, got some of force alone; name one")
-        return verdicts
+        return with_predicted_errors(self.load_cases)
 
     @property
     def shown_names(self) -> dict[str, str]:

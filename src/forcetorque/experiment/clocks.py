@@ -22,8 +22,8 @@ from forcetorque.recording.smoothing import smooth_columns
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import joints_between, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree

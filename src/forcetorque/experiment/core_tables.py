@@ -27,7 +27,7 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES,
 from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY
 from forcetorque.experiment.experiment import FitOptions
 from forcetorque.recording.smoothing import SavitzkyGolay
-from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing
 from forcetorque.robot.model import SensorFrame
 
 _AXES = 6

@@ -23,7 +23,7 @@ from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.contacts import Contact
-from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing
 from forcetorque.robot.model import RobotModel
 
 Content = TypeVar("Content")

@@ -47,7 +47,7 @@ from forcetorque.experiment.sensors import full_scale_of, prior_deviation_of, re
 from forcetorque.experiment.streams import read_robot, read_streams
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.recording import Recording, Support, Use
-from forcetorque.robot.mechanics.samples import Processing
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing
 from forcetorque.robot.model import RobotModel
 
 

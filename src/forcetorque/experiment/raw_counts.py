@@ -28,7 +28,7 @@ from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import stream_findings
 from forcetorque.results.table import Row
-from forcetorque.robot.mechanics.samples import pick_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import pick_samples
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

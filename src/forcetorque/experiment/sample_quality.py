@@ -29,7 +29,7 @@ from forcetorque.recording.frozen_and_saturated_samples import (
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.recording.stream import Stream
 from forcetorque.results.result import UnusableSamples
-from forcetorque.robot.mechanics.samples import expected_wrench, pick_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import expected_wrench, pick_samples
 
 if TYPE_CHECKING:
     from forcetorque.experiment.experiment import ExperimentSensor

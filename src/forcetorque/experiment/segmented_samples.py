@@ -24,7 +24,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.robot.mechanics.samples import SensorSamples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import SensorSamples
 
 _WINDOW_NS, _ROUNDING_NS = round(WINDOW_S * 1e9), round(WINDOW_S * WINDOW_ROUNDING * 1e9)
 """Length of a window of means, and how far before its start a sample may be; ns."""

@@ -25,7 +25,7 @@ from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over
 from forcetorque.experiment.validation_offset import EvaluatedInstants, mean_offset
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
-from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, path_to_root

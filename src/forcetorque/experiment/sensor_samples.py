@@ -19,7 +19,7 @@ from forcetorque.experiment.sensor_reading import Readings
 from forcetorque.recording.fingerprint import fingerprint, kept_hashes, window_hashes
 from forcetorque.recording.recording import Interval, Recording, Use
 from forcetorque.robot.mechanics.estimate import evaluator_of_samples
-from forcetorque.robot.mechanics.samples import SensorSamples, padded_samples, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import SensorSamples, padded_samples, sensor_samples
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 
 

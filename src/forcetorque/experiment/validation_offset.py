@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError, ShapeError, known_names
 from forcetorque.base.noise.means import mean_error
 from forcetorque.recording.recording import Interval
-from forcetorque.robot.mechanics.samples import PaddedSamples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples
 
 
 class Offset(StrEnum):

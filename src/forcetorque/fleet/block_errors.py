@@ -15,8 +15,8 @@ from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.noise.paired_comparison import SquaredErrors
 from forcetorque.evaluation.load_cases.validation_evidence import SecondMeans
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
+from forcetorque.fleet.stored_validation_data import StoredEvaluation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

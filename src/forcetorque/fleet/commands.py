@@ -52,7 +52,7 @@ def fleet_add(
     )
 
 
-@command()
+@command("the errors of the priors beside each other, and their median")
 def fleet_table(
     dataset: Annotated["Path | str", Option("Folder of a dataset; see docs/fleet.md.")],
 ) -> "FleetTable":
@@ -74,7 +74,7 @@ def fleet_table(
 
 
 @command(
-    None,
+    "error and offset of the worst sensors over time",
     Saved(flags=("--output", "-o"), help="HTML page to write."),
 )
 def fleet_report(
@@ -109,7 +109,7 @@ def fleet_report(
     return fleet_report_of(Path(dataset), [Path(file) for file in calibrations], progress)
 
 
-@command()
+@command("the errors of all calibrations and of their priors on validation data")
 def fleet_run(
     plan: Annotated["Path | str", Option("Plan (TOML); see docs/fleet.md.")],
     *,

@@ -10,13 +10,13 @@ from typing import ClassVar, Final, Literal
 from pydantic import Field
 
 from forcetorque.evaluation.load_cases.validation_evidence import static_loads_text
-from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts
+from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts, with_predicted_errors
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.sensor_evaluation import SensorEvaluation, StoredErrors
 from forcetorque.fleet.sensor_record import SensorRecord
-from forcetorque.results.result import Result
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.result import DrawnResult
+from forcetorque.results.table import Table, short_names, table_of
 
 WITHOUT_SAMPLES: Final = (
     "of blocks, not of samples: largest errors, mean norms, the number of independent samples and readings outside the "
@@ -25,10 +25,13 @@ WITHOUT_SAMPLES: Final = (
 """What an evaluation by a dataset lacks."""
 
 
-class DatasetEvaluation(Result):
+class DatasetEvaluation(DrawnResult):
     """Errors of calibrations, and of their priors, by the blocks of a dataset."""
 
     answered_by: ClassVar[str | None] = "forcetorque.fleet.answers:evaluation_answers"
+
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.load_cases:use_figure"
+    drawn_fields: ClassVar[tuple[str, ...]] = ("predicted", "shown_names")
 
     schema_name: Literal["forcetorque/evaluate_dataset/1"] = Field(
         default="forcetorque/evaluate_dataset/1", alias="schema"
@@ -44,6 +47,20 @@ class DatasetEvaluation(Result):
     """Experiment files of the recordings."""
     left_out: tuple[str, ...] = ()
     """A message for every recording that has readings of a longer one, and therefore does not count."""
+
+    @property
+    def predicted(self) -> tuple[LoadCaseVerdict, ...]:
+        """Verdicts with a predicted error, which the figure shows.
+
+        Raises:
+            ShapeError: As `with_predicted_errors`.
+        """
+        return with_predicted_errors(self.load_cases)
+
+    @property
+    def shown_names(self) -> dict[str, str]:
+        """Calibrations by file, as short as they can be told apart."""
+        return short_names([row.calibration for row in self.errors])
 
     def blocks(self) -> Iterator[Table | str]:
         """List errors and verdicts.

@@ -20,7 +20,14 @@ from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.results.result import created_now
 from forcetorque.results.terminal.input import read_calibrations
-from forcetorque.results.terminal.output import end_with, refuse_figure, refuse_standard_output, show, start_logging
+from forcetorque.results.terminal.output import (
+    drawn_to,
+    end_with,
+    refuse_figure,
+    refuse_standard_output,
+    show,
+    start_logging,
+)
 
 _MOST_LOGS: Final = 3
 """Logs that a refusal names."""
@@ -106,8 +113,6 @@ def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:
     if results:
         result = SensorCalibrations.together(results).save(force=given["force"])
         if given["figure"] is not None:
-            from forcetorque.results.terminal.output import drawn_to
-
             result = drawn_to(result, given["figure"])
         show(result, given["output_format"], details=given["details"], experiments=[dataset.folder])
     end_with(refusals)
@@ -116,7 +121,10 @@ def _calibrate(dataset: Dataset, given: Mapping[str, Any]) -> None:
 def _evaluate(dataset: Dataset, given: Mapping[str, Any]) -> None:
     """The command `evaluate` with a dataset in place of experiment files."""
     start_logging()
+    refuse_figure(given["figure"])
     result = evaluate_dataset(dataset, read_calibrations(given["calibration"], given["sensor"]))
+    if given["figure"] is not None:
+        result = drawn_to(result, given["figure"])
     show(result, given["output_format"], details=given["details"], experiments=[dataset.folder])
 
 

@@ -26,7 +26,7 @@ from forcetorque.fleet.table import FleetSensor, fleet_sensors
 from forcetorque.results.answer import typed
 from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
 from forcetorque.results.terminal.input import read_calibrations
 
@@ -143,10 +143,12 @@ class FailedRecording(Row):
     """The error in one line."""
 
 
-class FleetReport(Result):
+class FleetReport(DrawnResult):
     """The sensors of a fleet, the worst first."""
 
     answered_by: ClassVar[str | None] = "forcetorque.fleet.answers:report_answers"
+
+    drawn_by: ClassVar[str] = "forcetorque.fleet.figures:fleet_report_figure"
 
     schema_name: Literal["forcetorque/fleet_report/1"] = Field(default="forcetorque/fleet_report/1", alias="schema")
     """Form of the result."""

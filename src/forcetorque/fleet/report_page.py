@@ -11,8 +11,8 @@ from typing import Final
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.evaluation.load_cases.verdict import TONES
+from forcetorque.fleet.figures import MOST_OVER_TIME, errors_over_time, over_time_figure
 from forcetorque.fleet.report import DECISIONS, FleetReport, RankedSensor
-from forcetorque.fleet.report_figure import over_time_figure
 from forcetorque.fleet.sensor_evaluation import RecordingError
 from forcetorque.results.document.content import (
     Block,
@@ -32,8 +32,6 @@ from forcetorque.results.table import Table, table_of, with_first_column
 
 _NAMED: Final = 10
 """Sensors that a verdict names."""
-_DRAWN: Final = 12
-"""Sensors of one picture."""
 _HEADINGS: Final = ("rank", "sensor", "verdict", "last error (95 %)", "allowed", "times allowed", "findings", "why")
 
 
@@ -151,12 +149,9 @@ def _row(row: RankedSensor) -> tuple[str, ...]:
 
 
 def _figures(report: FleetReport) -> Iterator[Figure]:
-    errors: dict[str, list[RecordingError]] = {}
-    for one in report.over_time:
-        errors.setdefault(one.serial, []).append(one)
-    for start in range(0, len(report.ranked), _DRAWN):
-        rows = report.ranked[start : start + _DRAWN]
-        drawn = [(f"{row.rank}. {row.subject}", errors[row.serial], (row.allowed_N, row.allowed_Nm)) for row in rows]
+    for start in range(0, len(report.ranked), MOST_OVER_TIME):
+        rows = report.ranked[start : start + MOST_OVER_TIME]
+        drawn = errors_over_time(report, rows)
         yield Figure(
             picture=Picture(lambda drawn=drawn: over_time_figure(drawn)),  # type: ignore[misc]
             caption=f"Sensors {rows[0].rank} to {rows[-1].rank}. Solid: root mean square of the error in a recording "

@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -26,7 +26,7 @@ from forcetorque.fleet.pool import Pool
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, Concern, typed
-from forcetorque.results.result import Result, created_now
+from forcetorque.results.result import DrawnResult, created_now
 from forcetorque.results.table import Row, Shown, Table, table_of
 
 
@@ -148,8 +148,10 @@ class FailedJob(Row):
     """Whether it failed in an earlier run and was not tried again."""
 
 
-class FleetRun(Result):
+class FleetRun(DrawnResult):
     """What became of a plan."""
+
+    drawn_by: ClassVar[str] = "forcetorque.fleet.figures:fleet_run_figure"
 
     schema_name: Literal["forcetorque/fleet_run/1"] = Field(default="forcetorque/fleet_run/1", alias="schema")
     """Form of the result."""

@@ -45,8 +45,8 @@ from forcetorque.fleet.block_errors import (
     second_means,
 )
 from forcetorque.fleet.dataset import RecordingNames
-from forcetorque.fleet.evaluation_blocks import StoredEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
+from forcetorque.fleet.stored_validation_data import StoredEvaluation
 from forcetorque.recording.fingerprint import kept_hashes
 from forcetorque.results.number_text import amount, finite_or_none
 from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues

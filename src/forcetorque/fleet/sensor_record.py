@@ -31,8 +31,8 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
 from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.fleet.evaluation_blocks import StoredEvaluation, evaluated_variables
 from forcetorque.fleet.source import is_address
+from forcetorque.fleet.stored_validation_data import StoredEvaluation, evaluated_variables
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import FindingRow, finding_rows
 from forcetorque.recording.recording import Finding, Use

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field
@@ -14,11 +14,11 @@ from pydantic import Field
 from forcetorque.fleet.dataset import Dataset, RecordFile
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount, counted
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
 
 _COLUMNS: Final = ("identity", "start_ns", "end_ns", "findings", "prior_error", "file")
-_FAR: Final = 2.0
+FAR: Final = 2.0
 """Times the median of all sensors from which an error is worth a look (heuristic)."""
 _MOST: Final = 4
 """Sensors that the answer lists."""
@@ -63,8 +63,10 @@ class FleetSensor(Row):
         return f"{self.robot} {self.sensor} ({self.serial})"
 
 
-class FleetTable(Result):
+class FleetTable(DrawnResult):
     """Sensors of a dataset, those with the largest errors first."""
+
+    drawn_by: ClassVar[str] = "forcetorque.fleet.figures:fleet_table_figure"
 
     schema_name: Literal["forcetorque/fleet_table/1"] = Field(default="forcetorque/fleet_table/1", alias="schema")
     """Form of the result."""
@@ -82,7 +84,7 @@ class FleetTable(Result):
             One answer each, at most four.
         """
         for row in self.sensors[:_MOST]:
-            far = row.times_median is not None and row.times_median >= _FAR
+            far = row.times_median is not None and row.times_median >= FAR
             yield Answer(
                 subject=row.subject,
                 verdict=_error_text(row),
@@ -140,12 +142,25 @@ def fleet_sensors(dataset: Dataset) -> list[FleetSensor]:
     for file in dataset.files:
         groups.setdefault((file.robot, file.serial), []).append(file)
     rows = [_sensor(files, dataset.rows(files, _COLUMNS)) for files in groups.values()]
-    medians = [
-        float(np.median([value for row in rows if (value := getattr(row, name)) is not None] or [0.0]))
-        for name in ("prior_force_error_N", "prior_moment_error_Nm")
-    ]
+    medians = prior_medians(rows)
     ranked = [row.model_copy(update={"times_median": _times(row, medians)}) for row in rows]
     return sorted(ranked, key=lambda row: (-(row.times_median or 0.0), -row.findings, row.robot, row.serial))
+
+
+def prior_medians(sensors: Sequence[FleetSensor]) -> tuple[float, float]:
+    """Compute the medians of the priors' errors.
+
+    Args:
+        sensors: Sensors, those without a prior do not count.
+
+    Returns:
+        Median of the force errors and of the moment errors; N, N m; 0 without a prior.
+    """
+    force, moment = (
+        float(np.median([value for row in sensors if (value := getattr(row, name)) is not None] or [0.0]))
+        for name in ("prior_force_error_N", "prior_moment_error_Nm")
+    )
+    return force, moment
 
 
 def _times(row: FleetSensor, medians: Sequence[float]) -> float | None:

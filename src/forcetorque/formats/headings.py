@@ -23,7 +23,18 @@ _SPELLINGS = {
     "n mm": "N mm",
     "n-mm": "N mm",
     "lbf": "lbf",
+    "lbfin": "lbf in",
+    "lbf in": "lbf in",
+    "lbf-in": "lbf in",
+    "lbfft": "lbf ft",
+    "lbf ft": "lbf ft",
+    "lbf-ft": "lbf ft",
     "kgf": "kgf",
+    "gf": "gf",
+    "kgfcm": "kgf cm",
+    "kgf cm": "kgf cm",
+    "kgf-cm": "kgf cm",
+    "kgf*cm": "kgf cm",
     "rad": "rad",
     "deg": "deg",
     "°": "deg",
@@ -61,8 +72,15 @@ _SPELLINGS = {
 _BEHIND_LOW_LINE = {
     "n",
     "mn",
+    "kn",
     "nm",
     "nmm",
+    "kgf",
+    "gf",
+    "kgfcm",
+    "lbf",
+    "lbfin",
+    "lbfft",
     "rad",
     "deg",
     "radps",
@@ -192,3 +210,15 @@ def is_time_name(name: str) -> bool:
         Whether it is.
     """
     return name.lower().strip(" #%") in _TIME_NAMES
+
+
+def names_a_time(name: str) -> bool:
+    """Check whether a word of a name is one for a time, as in `t_pose` or `imu.stamp`.
+
+    Args:
+        name: Its name, without the unit.
+
+    Returns:
+        Whether it is.
+    """
+    return not _TIME_NAMES.isdisjoint(re.split(r"[^a-z]+", name.lower()))

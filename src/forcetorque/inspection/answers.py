@@ -106,7 +106,9 @@ class Event:
         return lead.kind in _LEADING and lasts and of_stream
 
 
-_LEFT_OUT: Final = frozenset({"gap", "frozen", "stuck", "saturation", "lost_messages", "missing", "backward_stamp"})
+_LEFT_OUT: Final = frozenset(
+    {"gap", "frozen", "stuck", "saturation", "lost_messages", "missing", "backward_stamp", "joint_spike"}
+)
 """Kinds whose samples no fit has, or measures no force by."""
 _TOUCHED: Final = 0.1
 """Share of the time in use above which a contact may explain that a measurement is implausible."""
@@ -223,8 +225,10 @@ def is_about_all(row: FindingRow, duration_s: float) -> bool:
         duration_s: Duration of the recording; s.
 
     Returns:
-        Whether it has no time, or takes nearly all of it.
+        Whether it has no time, takes nearly all of it, or counts jumps of a joint that cost no more than their samples.
     """
+    if row.kind == "joint_spike" and row.count > 1:
+        return True
     return row.start_s is None or row.end_s is None or row.end_s - row.start_s > _WHOLE * duration_s
 
 

@@ -18,8 +18,8 @@ from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.inspection.plausibility.fault_hypotheses import Changes, Robot
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.model import JointType
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
@@ -30,6 +30,8 @@ _FEWEST = 20
 """Fewest means that are compared."""
 _LONGEST_DELAY_S, _EDGE_INTERVAL_S = 0.5, 5.0
 """Largest delay that is looked for, and length of an interval whose ends are left out for it."""
+_FEWEST_PERIODS = 1.5
+"""Sampling periods from which on a delay is not that of the logging itself: those that round to two."""
 _GRID_S = 0.01
 """Step at which the motion of joints is sampled for delays of their streams; s."""
 
@@ -147,11 +149,35 @@ def robot_of(comparison: Comparison) -> Robot | None:
         comparison: The compared samples.
 
     Returns:
-        The robot; None where known wrenches or a load stand in for it.
+        The robot; of a load on a wrist, whose pose is logged, only what a delay changes; None where known wrenches
+        stand in for it.
     """
     run, loads = comparison.run, comparison.run.experiment.loads
-    if loads is not None and (loads.applied is not None or loads.in_place_of_robot):
+    if loads is not None and loads.applied is not None:
         return None
+    periods = [
+        float(np.median(np.diff(part.samples.stamp_ns))) * 1e-9 for part in comparison.parts if len(part.samples) > 1
+    ]
+    shortest_delay_s = _FEWEST_PERIODS * max(periods, default=0.0)
+
+    def of_sensor(delays_s: Sequence[float]) -> FloatArray:
+        on_time = _shift(comparison, 0.0)
+        return np.stack([comparison.expected + _shift(comparison, delay) - on_time for delay in delays_s])
+
+    def unmoved(changes: Sequence[object] | FloatArray) -> FloatArray:
+        return np.repeat(comparison.expected[None], len(changes), axis=0)
+
+    if loads is not None and loads.in_place_of_robot:
+        return Robot(
+            joints=(),
+            with_joints=unmoved,
+            gravity_direction=None,
+            with_gravity=unmoved,
+            joint_streams=(),
+            with_delay=lambda _, delays_s: of_sensor(delays_s),
+            longest_delay_s=_LONGEST_DELAY_S if comparison.is_timed else 0.0,
+            shortest_delay_s=shortest_delay_s,
+        )
     limbs = _limbs(comparison)
     model, holders = run.experiment.model, run.experiment.recording.joint_signals("position")
     needed = tuple(dict.fromkeys(joint for limb in limbs for joint in limb.joints.names if joint in holders))
@@ -173,13 +199,9 @@ def robot_of(comparison: Comparison) -> Robot | None:
 
     def with_delay(stream: str | None, delays_s: Sequence[float]) -> FloatArray:
         if stream is None:
-            on_time = _shift(comparison, 0.0)
-            return np.stack([comparison.expected + _shift(comparison, delay) - on_time for delay in delays_s])
+            return of_sensor(delays_s)
         return relative(_of_limbs(comparison, limbs, len(delays_s), lambda limb: limb.with_delays(stream, delays_s)))
 
-    periods = [
-        float(np.median(np.diff(part.samples.stamp_ns))) * 1e-9 for part in comparison.parts if len(part.samples) > 1
-    ]
     return Robot(
         joints=turning,
         with_joints=with_joints,
@@ -188,7 +210,7 @@ def robot_of(comparison: Comparison) -> Robot | None:
         joint_streams=tuple(dict.fromkeys(holders[joint][0].name for joint in needed)),
         with_delay=with_delay,
         longest_delay_s=_LONGEST_DELAY_S if comparison.is_timed else 0.0,
-        shortest_delay_s=2.0 * max(periods, default=0.0),
+        shortest_delay_s=shortest_delay_s,
     )
 
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
@@ -85,7 +87,30 @@ def _delay_text(comparison: Comparison, one: Explanation) -> str:
     amount = f"{_interval(one, 1e3 if later else -1e3, '.0f')} ms {'later' if later else 'earlier'}"
     if one.about:
         return f"stream {one.about!r} of joints comes {amount} than the others"
-    return f"stream {comparison.run.sensor.stream!r} comes {amount} than the joints"
+    recording = comparison.run.experiment.recording
+    what = "the joints" if recording.joint_signals("position") else "its pose"
+    wrench = "the wrench of " if len(set(late_and_kept(comparison, one))) == 1 else ""
+    return f"{wrench}stream {comparison.run.sensor.stream!r} comes {amount} than {what}"
+
+
+def late_and_kept(comparison: Comparison, one: Explanation) -> tuple[str, str]:
+    """Name the streams of a delay.
+
+    Args:
+        comparison: The compared samples.
+        one: The delay.
+
+    Returns:
+        The stream that is late, and that whose clock is kept; the same where one stream has wrench and motion.
+    """
+    run = comparison.run
+    if one.about:
+        return one.about, run.sensor.stream
+    holders = run.experiment.recording.joint_signals("position")
+    support = comparison.parts[0].interval.support
+    poses: Sequence[str] = getattr(support, "motion_streams", ())
+    motion = dict.fromkeys([*(stream.name for stream, _ in holders.values()), *poses])
+    return run.sensor.stream, next(iter(motion), run.sensor.stream)
 
 
 def _axis_text(vector: FloatArray) -> str:
@@ -150,8 +175,18 @@ def remedy(comparison: Comparison, one: Explanation) -> str:
             f"{name!r}"
         )
     if one.kind == "delay":
-        holders = run.experiment.recording.joint_signals("position")
-        joints = dict.fromkeys(stream.name for stream, _ in holders.values())
-        late, other = (one.about, run.sensor.stream) if one.about else (run.sensor.stream, next(iter(joints), "joints"))
-        return f'write [[clock]] stream = "{late}", to = "{other}", delay_s = {one.value or 0.0:.3f}'
+        late, other = late_and_kept(comparison, one)
+        clock = f'[[clock]] stream = "{late}", to = "{{}}", delay_s = {one.value or 0.0:.3f}'
+        if late != other:
+            return f"write {clock.format(other)}"
+        own = motion_name(late)
+        return (
+            f'of a table list the signals of the motion in a [[recording.stream]] of their own, name = "{own}", with '
+            f"the same file and stamp, and write {clock.format(own)}; `forcetorque init --resume` proposes both"
+        )
     return f"turn <origin rpy> of the fixed joint of {name!r} in the URDF, or mount the sensor as the URDF has it"
+
+
+def motion_name(stream: str) -> str:
+    """Name the stream that the signals of a motion are divided from another as."""
+    return f"{stream}_motion"

@@ -44,9 +44,10 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     Returns:
         Findings of its readers and of single streams; of patches that share their messages, one for all of them.
     """
+    ignored = [(one.start_ns, one.end_ns) for one in recording.intervals if one.use is Use.IGNORE]
     found = (
         *recording.findings,
-        *(f for one in recording.streams.values() for f in stream_findings(one, recording.start_ns)),
+        *(f for one in recording.streams.values() for f in stream_findings(one, recording.start_ns, ignored)),
     )
     messages = {
         name: (stream.clock, stream.stamp_ns.tobytes())

@@ -13,7 +13,14 @@ import typer
 from forcetorque.base.output_file import declare_outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, Lines, OffsetSource
 from forcetorque.results.terminal.options import DetailsOption, ForceOption
-from forcetorque.results.terminal.output import Format, refuse_standard_output, show, start_logging
+from forcetorque.results.terminal.output import (
+    Format,
+    drawn_to,
+    refuse_figure,
+    refuse_standard_output,
+    show,
+    start_logging,
+)
 
 if TYPE_CHECKING:
     from forcetorque.live.outputs import Output
@@ -166,6 +173,9 @@ def live(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File of all corrected samples: .parquet, or .mcap for ROS 2.")
     ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG, SVG or PDF of the last 60 000 samples, with their intervals.")
+    ] = None,
     udp: Annotated[
         str | None, typer.Option("--udp", help="Loopback address of a UDP server of PlotJuggler, as 127.0.0.1:9870.")
     ] = None,
@@ -214,6 +224,8 @@ def live(
         refuse_other_names,
     )
     from forcetorque.live.program_check import program_checks
+    from forcetorque.live.recent_samples import KEPT, RecentSamples
+    from forcetorque.live.result import KeptSamples
     from forcetorque.live.ros_topics import RosOutput
     from forcetorque.live.run import LiveLoop
     from forcetorque.live.run_from_settings import make_run, ros_topics
@@ -226,6 +238,7 @@ def live(
     refuse_standard_output("--output", output)
     refuse_other_names(output)
     declare_outputs(output, force=force)
+    refuse_figure(figure, force=force)
     settings = read_settings({
         "form": form, "quantity": quantity, "channels": channels, "variables": variables, "status": status,
         "index": index, "stamp": stamp, "sequence": sequence, "gravity": gravity, "envelope": envelope,
@@ -275,6 +288,9 @@ def live(
         shown_by: LivePage | None = None
         if page is not None:  # made at the top, which has the viewer: a context of settings, source and correctors
             shown_by = stack.enter_context(page(settings, source, correctors))
+        recent = None if figure is None else RecentSamples(correctors)
+        if shown_by is not None:
+            recent = shown_by.recent
         loop = LiveLoop(
             source,
             correctors,
@@ -283,7 +299,7 @@ def live(
             silence_s=silence,
             warn=log.warning,
             checks=checks,
-            recent=None if shown_by is None else shown_by.recent,
+            recent=recent,
             **({"show": shown.show} if watch else {}),
         )
         if shown_by is not None:
@@ -299,6 +315,10 @@ def live(
     result = result.model_copy(
         update={"replayed": replay is not None, "output_file": None if output is None else str(output)}
     )
+    if figure is not None and recent is not None:
+        last = recent.since(0, KEPT)
+        kept = KeptSamples(time_s=last.time_s, wrench=last.wrench, half_width=last.half_width)
+        result = drawn_to(result.model_copy(update={"kept": kept}), figure)
     with redirect_stdout(sys.stderr):  # standard output is for lines
         show(result, output_format, details=details)
     if ended_by == "closed output":

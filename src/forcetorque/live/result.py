@@ -4,13 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
 
+from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import counted
-from forcetorque.results.result import Result
+from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
 
 
@@ -109,8 +113,22 @@ class LiveCheck(Row):
     """Samples with a component that differs by more than its interval; None without a sample or a posterior."""
 
 
-class LiveRun(Result):
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class KeptSamples:
+    """The last samples k of all sensors s, for the figure."""
+
+    time_s: FloatArray
+    """Time since the first sample of the run; shape (k,); s."""
+    wrench: FloatArray
+    """Corrected wrenches; shape (k, s, 6); N, N m; NaN where there is none."""
+    half_width: FloatArray
+    """Half-widths of their 95 % intervals; shape (k, s, 6); NaN without a posterior."""
+
+
+class LiveRun(DrawnResult):
     """Account of a live run."""
+
+    drawn_by: ClassVar[str] = "forcetorque.live.figure:live_figure"
 
     schema_name: Literal["forcetorque/live/1"] = Field(default="forcetorque/live/1", alias="schema")
     """Form of the result."""
@@ -130,8 +148,22 @@ class LiveRun(Result):
     """Longest time from a packet to its lines; s; null without a packet."""
     replayed: bool = Field(default=False, exclude=True, repr=False)
     """Whether the samples are of a recording."""
+    kept: KeptSamples | None = Field(default=None, exclude=True, repr=False)
+    """The last samples; None where none were kept."""
     output_file: str | None = None
     """Parquet file or bag; null where none was written."""
+
+    def without_figure(self, file: Path, error: ForceTorqueError | OSError) -> Self:
+        """Give the account with a warning in place of the figure.
+
+        Args:
+            file: The figure.
+            error: Why it is not there.
+
+        Returns:
+            The account.
+        """
+        return self.model_copy(update={"warnings": (*self.warnings, f"--figure {file}: not written: {error}")})
 
     def answers(self) -> Iterator[Answer]:
         """Give the answer for every sensor: samples, faults and losses.

@@ -30,9 +30,9 @@ from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.dynamics import body_poses, joints_between, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import LoggedRobot, Processing
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import support_motion_at
-from forcetorque.robot.mechanics.samples import LoggedRobot, Processing
 from forcetorque.robot.motion import JointMotion, RootMotion, blocks_of
 from forcetorque.robot.tree import BodyTree, build_tree, path_to_root
 

@@ -90,6 +90,10 @@ class Neighbours:
         Returns:
             Values at the instants; shape (m, k); NaN where they are missing or a neighbour is NaN.
         """
+        if (self.is_before | self.is_after).all():  # as of streams that are logged together
+            result = before.copy()
+            result[self.is_after] = after[self.is_after]
+            return result
         with np.errstate(invalid="ignore"):  # infinite samples with weight zero
             result = (1.0 - self.weight)[:, None] * before + self.weight[:, None] * after
         result[self.is_before] = before[self.is_before]

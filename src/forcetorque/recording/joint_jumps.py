@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -61,86 +63,111 @@ def _usual_step(changes: FloatArray, k: int) -> float:
     return float(np.nanmedian(changes[max(k - _AROUND, 0) : k + _AROUND + 1]))
 
 
-def joint_jump_findings(stream: Stream, signal: Signal, start_ns: int) -> list[Finding]:
+def joint_jump_findings(
+    stream: Stream, signal: Signal, start_ns: int, ignored_ns: Sequence[tuple[int, int]] = ()
+) -> list[Finding]:
     """Say which joints jump, and what of their readings cannot be used.
 
     Args:
         stream: The stream.
         signal: Its positions.
         start_ns: Start of the recording, from which instants are stated; ns.
+        ignored_ns: First and last instant of spans that are left out of every use; ns.
 
     Returns:
         One `joint_spike` per joint for whole turns and readings that are elsewhere for a few samples, which cost no
-        more than these; a `joint_jump` for every time in which the joint seems to be elsewhere for longer.
+        more than these; a `joint_jump` for every time in which the joint seems to be elsewhere for longer. None for
+        what is ignored.
     """
     findings = []
+    rows = usable_samples(stream.stamp_ns)
     for column, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
-        to = joint_jumps(stream, signal, column)
-        if not len(to):
+        places = np.searchsorted(rows, joint_jumps(stream, signal, column))
+        if not len(places):
             continue
-        rows = usable_samples(stream.stamp_ns)
-        places = np.searchsorted(rows, to)
         stamps, values = stream.stamp_ns[rows], signal.values[rows, column]
-        steps = values[places] - values[places - 1]
-        turn = _TURN if unit == "rad" else None
-        brief: list[tuple[int, int, int, bool]] = []
-        lasting: list[tuple[int, int, int, bool]] = []
-        for first, after in _excursions(steps, turn):
-            closed = after is not None
-            last = int(places[after - 1]) if after is not None else len(stamps) - 1
-            is_brief = closed and (after == first + 1 or last - places[first] <= _SPIKE)
-            (brief if is_brief else lasting).append((first, int(places[first]), last, closed))
+        found = [
+            one
+            for one in _excursions(values[places] - values[places - 1], places, len(rows), is_angle=unit == "rad")
+            if not one.is_ignored(stamps, ignored_ns)
+        ]
+        finding = partial(Finding, stream=stream.name, channel=name, unit=unit)
+        brief = [one for one in found if one.is_brief]
         if brief:
-            jumps = np.concatenate([np.flatnonzero((places >= a) & (places <= b)) for _, a, b, _ in brief])
-            turns = all(a == b for _, a, b, _ in brief)
-            size = float(np.abs(steps[jumps]).max())
+            size = max(one.size for one in brief)
+            turns = all(one.begin == one.end for one in brief)
             way = "jumps by a whole turn" if turns else "jumps and comes back, or by whole turns,"
             times = "once" if len(brief) == 1 else f"{len(brief)} times"
             text = (
                 f"joint {name!r} {way} {times}, by up to {size:.2g} {unit} from one sample to the next; derivatives "
                 "are not taken across a jump, and samples within it are left out"
             )
-            findings.append(_finding(stream, rows, "joint_spike", text, name, brief[0][1], brief[-1][2], size, unit))
-        for first, begin, last, closed in lasting:
-            start_s, end_s = ((int(stamps[place]) - start_ns) * 1e-9 for place in (begin - 1, last))
-            size = abs(float(steps[first]))
-            back = f"is back {end_s - start_s:.2f} s later" if closed else f"never is back, for {end_s - start_s:.2f} s"
-            text = (
-                f"joint {name!r} jumps by {size:.2g} {unit} from one sample to the next and {back}: where its readings "
-                f"are those of another posture, put an [[interval]] with start_s = {max(start_s, 0.0):.2f}, "
-                f'end_s = {end_s:.2f}, use = "ignore"' + ("" if closed else ", or one over what lies before")
+            start, end = int(stamps[brief[0].begin - 1]), int(stamps[brief[-1].end])
+            findings.append(
+                finding(kind="joint_spike", message=text, count=len(brief), size=size, start_ns=start, end_ns=end)
             )
-            findings.append(_finding(stream, rows, "joint_jump", text, name, begin, last, size, unit))
+        for one in found:
+            if one.is_brief:
+                continue
+            start, end = int(stamps[one.begin - 1]), int(stamps[one.end])
+            start_s, end_s = ((stamp - start_ns) * 1e-9 for stamp in (start, end))
+            back = f"back {end_s - start_s:.2f} s later" if one.ends else f"not back for {end_s - start_s:.2f} s"
+            text = (
+                f"joint {name!r} jumps by {one.size:.2g} {unit} from one sample to the next, {back}: where its "
+                f"readings are those of another posture, put an [[interval]] with start_s = {max(start_s, 0.0):.2f}, "
+                f'end_s = {end_s:.2f}, use = "ignore"' + ("" if one.ends else ", or one over what lies before")
+            )
+            count = one.end - one.begin + 1
+            findings.append(
+                finding(kind="joint_jump", message=text, count=count, size=one.size, start_ns=start, end_ns=end)
+            )
     return findings
 
 
-def _excursions(steps: FloatArray, turn: float | None) -> Iterator[tuple[int, int | None]]:
-    """Jumps that lead back to where the first began: number of the first, and after the last; None if they never do."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Excursion:
+    """A jump of a joint, and where later jumps lead back from it; places are those among the usable samples."""
+
+    begin: int
+    """First sample behind the jump."""
+    end: int
+    """First sample that is back; that behind the jump where it is by whole turns; the last of all if none is."""
+    ends: bool
+    """Whether it ends."""
+    size: float
+    """Largest jump in it; rad or m."""
+
+    @property
+    def is_brief(self) -> bool:
+        """Whether it costs the samples within it and no more."""
+        return self.ends and self.end - self.begin <= _SPIKE
+
+    def is_ignored(self, stamps: IntArray, ignored_ns: Sequence[tuple[int, int]]) -> bool:
+        """Whether its samples are left out, or where it does not end all before it."""
+        wrong = [(stamps[self.begin], stamps[max(self.end - self.ends, self.begin)])]
+        if not self.ends:
+            wrong.append((stamps[0], stamps[self.begin - 1]))
+        return any(first <= begin and end <= last for begin, end in wrong for first, last in ignored_ns)
+
+
+def _excursions(steps: FloatArray, places: IntArray, count: int, *, is_angle: bool) -> Iterator[_Excursion]:
+    """Jumps in the order of time, each with those that lead back from it."""
     first = 0
     while first < len(steps):
-        away, after = 0.0, None
+        size = abs(float(steps[first]))
+        away, after = 0.0, first + 1
         for k in range(first, min(first + _LOOKED_AT, len(steps))):
-            away += steps[k]
-            left = away if turn is None else (away + 0.5 * turn) % turn - 0.5 * turn
-            size = abs(steps[first])
+            away += float(steps[k])
+            left = (away + 0.5 * _TURN) % _TURN - 0.5 * _TURN if is_angle else away
             if abs(left) < max(_JUMP, _OF_TURN * size) or (k > first and abs(away) < _BACK * size):
-                after = k + 1
+                after, ends = k + 1, True
                 break
-        yield first, after
-        first = first + 1 if after is None else after
-
-
-def _finding(
-    stream: Stream, rows: IntArray, kind: str, text: str, name: str, begin: int, last: int, size: float, unit: str
-) -> Finding:
-    return Finding(
-        stream=stream.name,
-        kind=kind,
-        message=text,
-        count=last - begin + 1,
-        start_ns=int(stream.stamp_ns[rows[begin - 1]]),
-        end_ns=int(stream.stamp_ns[rows[last]]),
-        channel=name,
-        size=size,
-        unit=unit,
-    )
+        else:
+            ends = False
+        yield _Excursion(
+            begin=int(places[first]),
+            end=int(places[after - 1]) if ends else count - 1,
+            ends=ends,
+            size=float(np.abs(steps[first:after]).max()),
+        )
+        first = after

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -40,12 +40,16 @@ _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
 """Sizes of counters that start again at zero."""
 
 
-def stream_findings(stream: Stream, start_ns: int | None = None) -> tuple[Finding, ...]:
+def stream_findings(
+    stream: Stream, start_ns: int | None = None, ignored_ns: Sequence[tuple[int, int]] = ()
+) -> tuple[Finding, ...]:
     """Look for what is wrong with a stream, without a model of what it measures.
 
     Args:
         stream: The stream.
         start_ns: Start of the recording, from which intervals are stated; ns; that of the stream if None.
+        ignored_ns: First and last instant of spans that are left out of every use; ns; joints that jump there are not
+            named.
 
     Returns:
         Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels, joints that jump and
@@ -60,9 +64,8 @@ def stream_findings(stream: Stream, start_ns: int | None = None) -> tuple[Findin
         if signal.quantity in _NOISY:
             findings += [*_stuck_channels(stream, signal), *_repeated_readings(stream, signal)]
         if signal.quantity == "position" and stream.clock != ROW_CLOCK:
-            findings += joint_jump_findings(
-                stream, signal, int(stream.stamp_ns.min()) if start_ns is None else start_ns
-            )
+            begin_ns = int(stream.stamp_ns.min()) if start_ns is None else start_ns
+            findings += joint_jump_findings(stream, signal, begin_ns, ignored_ns)
     return tuple(findings)
 
 

@@ -103,7 +103,8 @@ def report(
         progress=log.info,
     )
     log.info("drawing")
-    written.save(*files)
+    for failure in written.save(*files):
+        log.warning("%s", failure)
     written = written.model_copy(update={"files": tuple(map(str, files))})
     show(written, output_format, details=details, experiments=sources.experiments)
 

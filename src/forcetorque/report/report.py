@@ -194,12 +194,15 @@ class Report(Result):
             explained=steps is self.next_steps[0],
         )
 
-    def save(self, *files: Path | str, force: bool = False) -> None:
+    def save(self, *files: Path | str, force: bool = False) -> tuple[str, ...]:
         """Write the document, drawn once.
 
         Args:
             files: Files to write, each by the end of its name as .html, .pdf, or .json with the numbers alone.
             force: Whether files that are neither results nor figures may be replaced; inputs never are.
+
+        Returns:
+            What could not be made, each with its section and the reason, which stands in its place.
         """
         paths = [Path(file) for file in files]
         drawn = [path for path in paths if path.suffix.lower() != ".json"]
@@ -213,6 +216,7 @@ class Report(Result):
                 write_bytes_atomically(path, self.model_dump_json(by_alias=True, indent=1).encode())
             else:
                 write_bytes_atomically(path, _WRITERS[path.suffix.lower()](document))
+        return () if document is None else document.failures
 
 
 def _subject(assessments: Sequence[ExperimentAssessment]) -> str:

@@ -294,7 +294,7 @@ def _drawn(blocks: Iterator[Block]) -> Iterator[Block]:
     try:
         yield from blocks
     except ForceTorqueError as error:
-        yield Text(text=f"What follows could not be drawn: {error}")
+        yield Text(text=f"What follows could not be drawn: {error}", is_failure=True)
 
 
 def _provenance(experiments: Sequence[ExperimentAssessment]) -> Section:
@@ -324,7 +324,8 @@ def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str
     try:
         built = scene_of(path, experiment, calibrations)
     except ForceTorqueError as error:
-        return Section(title=title, blocks=(Text(text=f"The viewer could not be made: {error}"),))
+        words = f"The viewer could not be made: {error}"
+        return Section(title=title, blocks=(Text(text=words, is_failure=True),))
     page = Page(
         html=page_of(packed(built)),
         title=f"Viewer of {experiment.name}",

@@ -45,8 +45,8 @@ class UnusableSamples(Row):
     """Samples in which all channels repeat one reading although the log is noisy, or the expected wrench moves."""
     saturated: Annotated[int, Shown("saturated")]
     """Samples at the limit of the converter, or held by a board that says so."""
-    repeated: Annotated[int, Shown("stamp repeated")]
-    """Messages whose stamp does not step forward."""
+    repeated: Annotated[int, Shown("repeated")]
+    """Messages whose stamp does not step forward, or that repeat the reading before under a new stamp."""
 
 
 _UNUSABLE = "unusable_samples"

@@ -121,6 +121,10 @@ def _stated_colour(place: UrdfPlace, material: Element) -> Colour | None:
 
 _THIN = 1.0 / 80.0
 """Radius of a stick, relative to the reach of the robot."""
+_LOAD_STICK, _LOAD_BALL = 1.0 / 100.0, 1.0 / 12.0
+"""Radii of what is drawn of a load without a robot, relative to the distance of its centre of mass."""
+_LOAD = "no robot: a ball marks the stated centre of mass of the load, at scale from the sensor's frame"
+_FRAME = "no robot and no stated centre of mass of a load: the sensor's frame is drawn alone"
 _NAMES = 3
 """So many names are listed in a note."""
 
@@ -158,7 +162,11 @@ def robot_geometry(
     lacking = {visual.link for visual, mesh in drawn if visual.kind == "mesh" and mesh is None}
     shapes = [_shape(visual, mesh) for visual, mesh in drawn if visual.kind != "mesh" or mesh is not None]
     notes = library.notes()
-    if not visuals:
+    reach = _reach(model)
+    loads = [] if urdf is not None or reach else _loads(model)
+    if urdf is None and not reach:
+        notes += [_LOAD if loads else _FRAME]
+    elif not visuals:
         notes += ["the robot has no shapes to draw: sticks join its joints"]
     elif lacking:
         notes += ["links without their mesh are drawn as sticks from joint to joint"]
@@ -166,7 +174,7 @@ def robot_geometry(
     if reduced != tuple(library.read):
         before, after = (sum(len(mesh.faces) for mesh in meshes) for meshes in (library.read, reduced))
         notes += [f"meshes are simplified from {before} to {after} triangles"]
-    shapes += _sticks(model, model.links if not shapes else lacking)
+    shapes += loads if urdf is None and not reach else _sticks(model, model.links if not shapes else lacking, reach)
     meshes = tuple(
         Mesh(vertices=block.add(mesh.vertices, "float32"), faces=block.add(mesh.faces, "uint32")) for mesh in reduced
     )
@@ -232,9 +240,21 @@ def _shape(visual: Visual, mesh: int | None) -> Shape:
     )
 
 
-def _sticks(model: RobotModel, links: Iterable[str]) -> list[Shape]:
+def _loads(model: RobotModel) -> list[Shape]:
+    """A stick from the frame of the sensor to the centre of mass of its load, and a ball there."""
+    shapes = []
+    for link, inertia in model.links.items():
+        centre = inertia.first_moment / (inertia.mass or 1.0)
+        distance = float(np.linalg.norm(centre))
+        if inertia.mass > 0.0 and distance > 0.0:
+            shapes.append(_stick(link, centre, _LOAD_STICK * distance))
+            shapes.append(_ball(link, make_pose(np.eye(3), centre), _LOAD_BALL * distance))
+    return shapes
+
+
+def _sticks(model: RobotModel, links: Iterable[str], reach: float) -> list[Shape]:
     """A cylinder from the origin of each link to those of its children, and a ball where it has none."""
-    radius = _THIN * _reach(model)
+    radius = _THIN * (reach or 1.0)
     shapes = []
     for link in model.links:
         if link not in links:
@@ -242,10 +262,12 @@ def _sticks(model: RobotModel, links: Iterable[str]) -> list[Shape]:
         ends = [joint.parent_H_child[:3, 3] for joint in model.joints.values() if joint.parent == link]
         shapes += [_stick(link, end, radius) for end in ends if np.linalg.norm(end) > radius]
         if not ends:
-            shapes.append(
-                Shape(link=link, link_H_shape=flat(np.eye(4)), kind="sphere", size=(radius,), mesh=None, colour=GREY)
-            )
+            shapes.append(_ball(link, np.eye(4), radius))
     return shapes
+
+
+def _ball(link: str, link_H_ball: FloatArray, radius: float) -> Shape:
+    return Shape(link=link, link_H_shape=flat(link_H_ball), kind="sphere", size=(radius,), mesh=None, colour=GREY)
 
 
 def _stick(link: str, end: FloatArray, radius: float) -> Shape:
@@ -255,7 +277,7 @@ def _stick(link: str, end: FloatArray, radius: float) -> Shape:
 
 
 def _reach(model: RobotModel) -> float:
-    """Longest way from the root along the joints; m; 1 for a robot of no size."""
+    """Longest way from the root along the joints; m."""
     parent = {joint.child: joint for joint in model.joints.values()}
     longest = 0.0
     for link in model.links:
@@ -264,7 +286,7 @@ def _reach(model: RobotModel) -> float:
             way += float(np.linalg.norm(parent[here].parent_H_child[:3, 3]))
             here = parent[here].parent
         longest = max(longest, way)
-    return longest or 1.0
+    return longest
 
 
 def flat(values: FloatArray) -> tuple[float, ...]:

@@ -18,7 +18,7 @@ from forcetorque.recording.alignment import interpolate, require_overlap, usable
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import joints_between, link_pose
-from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.evaluation.sphere.fit_results import EllipsoidFit
+from forcetorque.evaluation.sphere.ellipsoid import EllipsoidFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.applicability import require_fit
@@ -25,9 +25,9 @@ from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.results.table import short_names
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support
-from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, peak

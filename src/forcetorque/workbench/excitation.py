@@ -13,8 +13,8 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, mapping, rea
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.workbench.bench import Placement
-from forcetorque.workbench.fit import rotation_derivatives, shift_derivatives
 from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.matrix_fit import rotation_derivatives, shift_derivatives
 
 RANK_TOLERANCE: Final = 1e-9
 """Share of the largest singular value below which a direction is not spanned: rounding leaves 1e-15."""

@@ -16,7 +16,8 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.generative.agreement import unmoved_directions
 from forcetorque.results.table import Row, Shown
 from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.fit import (
+from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.matrix_fit import (
     LEAST_SENSORS,
     ResidualSpace,
     Scatter,
@@ -27,7 +28,6 @@ from forcetorque.workbench.fit import (
     shift_derivatives,
     specified_scatter,
 )
-from forcetorque.workbench.loads import BenchLoads
 
 
 class Fault(StrEnum):

@@ -20,7 +20,7 @@ from forcetorque.experiment.calibration.provenance import FittedInterval, Proven
 from forcetorque.experiment.calibration.sensor_model import component_names
 from forcetorque.inspection.plausibility.compared_wrenches import Doubt, Setup
 from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.fit import SESSION, BenchFit, fit_bench, fit_means
+from forcetorque.workbench.matrix_fit import SESSION, BenchFit, fit_bench, fit_means
 from forcetorque.workbench.recording import BenchRecording
 from forcetorque.workbench.result import BenchSensorRow, SeriesRow
 

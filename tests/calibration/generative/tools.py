@@ -15,7 +15,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import Assumption
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
-from forcetorque.robot.mechanics.samples import Processing, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.robot.modified_robot import with_load
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand

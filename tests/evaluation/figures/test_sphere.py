@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import ellipsoid_outline, sphere_figure
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 from forcetorque.results.figures import REFERENCE_COLOUR, look
 from tests.report.drawing import panels, recorded_figures, sphere_of, words
 

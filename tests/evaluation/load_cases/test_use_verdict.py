@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -92,6 +93,22 @@ def test_between_the_two_there_are_not_enough_data(arm: Path) -> None:
     assert verdict.decision == "not enough data"
     assert verdict.within == pytest.approx(0.5, abs=0.1)
     assert "the chance that both are within what is allowed is" in verdict.message
+
+
+def test_where_most_of_the_error_comes_from_the_offset_the_tared_load_case_is_given(arm: Path) -> None:
+    """A small load makes hardly an error of the matrix; with a tared offset nothing is to be changed."""
+    small = PUSH.replace("20.0", "0.5").replace("tared", "fitted")
+    run = _run(arm, small)
+    calibration = _fit(run)
+    typical = _verdict(run, calibration).errors[0]
+    assert typical.from_offset > typical.from_matrix
+    allowed = f"force_error_N = {typical.after}\nmoment_error_Nm = 10.0\n"
+    verdict = _verdict(_run(arm, allowed), calibration)
+    assert (verdict.decision, verdict.limited_by) == ("not enough data", "offset")
+    assert verdict.tared_load_case is not None
+    assert tomllib.loads(verdict.tared_load_case) == tomllib.loads(small.replace("fitted", "tared") + allowed)
+    edit(arm / PARQUET, 'offset = "fitted"', 'offset = "tared"')
+    assert _verdict(_run(arm, ""), calibration).tared_load_case is None
 
 
 @pytest.mark.long

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 
 WEIGHT = 46.4
 """Weight of the leg of an iCub; N."""

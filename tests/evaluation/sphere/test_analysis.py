@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError, UnitError
 from forcetorque.evaluation.sphere.cloud import share_of_directions
-from forcetorque.evaluation.sphere.fit_results import ellipsoid_of_map
+from forcetorque.evaluation.sphere.ellipsoid import ellipsoid_of_map
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from tests.cases import some_cases
 from tests.evaluation.sphere.clouds import grid, slow_noise, whole_sphere

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.evaluation.sphere.fit_results import spread_index
+from forcetorque.evaluation.sphere.ellipsoid import spread_index
 from forcetorque.evaluation.sphere.sensor_sphere import apparent_masses, axis_errors
 
 GRAVITY = 9.81

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 from tests.evaluation.sphere.clouds import DEFORMED, on, whole_sphere
 
 ROUNDING = 1e-13

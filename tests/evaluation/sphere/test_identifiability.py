@@ -11,7 +11,7 @@ import pytest
 from forcetorque.evaluation.sphere.affine_fit import fit_mapped
 from forcetorque.evaluation.sphere.algebraic_fit import gradient_weighted_spheres
 from forcetorque.evaluation.sphere.cloud import QuadricMoments
-from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, lowest_index
+from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, lowest_index
 from forcetorque.evaluation.sphere.model_free_fit import bends, fit_ellipsoid, fit_radius, may_be_flat
 from forcetorque.evaluation.sphere.sensor_sphere import analyse_sphere
 from tests.cases import some_cases

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import least_squares, minimize
 from scipy.spatial.transform import Rotation
 
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.geometric_fit import (
     ellipsoid_distances,
     ellipsoid_equations,

@@ -16,7 +16,7 @@ import pytest
 
 from forcetorque.evaluation.sphere import sphere
 from forcetorque.evaluation.sphere.cloud import StaticForceError
-from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

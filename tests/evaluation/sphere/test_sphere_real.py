@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FitError
-from forcetorque.evaluation.sphere.fit_results import CloudForm
+from forcetorque.evaluation.sphere.ellipsoid import CloudForm
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.experiment import Experiment

@@ -11,7 +11,7 @@ from scipy.stats import t
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.affine_fit import MappedFit, fit_mapped
-from forcetorque.evaluation.sphere.fit_results import TOLERANCE, EllipsoidFit, ellipsoid_of_map
+from forcetorque.evaluation.sphere.ellipsoid import TOLERANCE, EllipsoidFit, ellipsoid_of_map
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from forcetorque.evaluation.trials.trials import drift_between, mean_of_trials
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of

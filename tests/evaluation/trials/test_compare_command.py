@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE
 from tests.app.json_schema import faults
 from tests.app.outcome import Outcome, Run
 from tests.scenes.axia import write_axia

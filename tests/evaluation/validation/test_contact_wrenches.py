@@ -22,9 +22,9 @@ from forcetorque.recording.recording import Recording, Support
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.dynamics import joints_between
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.mechanics.samples import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import SubModel, build_tree

@@ -14,7 +14,7 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.evaluation.validation.joint_torque_errors import TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.question import Question, moving_joints
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion

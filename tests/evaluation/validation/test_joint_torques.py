@@ -27,8 +27,8 @@ from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.recording import Use
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.question import Question
-from forcetorque.robot.mechanics.samples import robot_motion_at
 from forcetorque.robot.tree import build_tree
 from tests.cases import some_cases
 from tests.scenes.experiments import JOINTS, PARQUET, TWO, edit

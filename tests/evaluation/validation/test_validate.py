@@ -16,7 +16,7 @@ from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.seen_and_outside_samples import sentences
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.robot.mechanics.samples import robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from tests.scenes.experiments import PARQUET, TWO, add
 
 SHORT = '\n[[interval]]\nlabel = "blink"\nstart_s = 23.6\nend_s = 23.9\nuse = "validation"\nsupport = "base"\n'

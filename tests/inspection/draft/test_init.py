@@ -339,6 +339,9 @@ def test_bare_headings_leave_units_open(tmp_path: Path) -> None:
         ("fx [N]", "fx", "N"),
         ("tx (N-m)", "tx", "N m"),
         ("Fx_N", "Fx", "N"),
+        ("Fx_kgf", "Fx", "kgf"),
+        ("Mx (kgf-cm)", "Mx", "kgf cm"),
+        ("Mx_lbfin", "Mx", "lbf in"),
         ("joint_n", "joint_n", None),
         ("time_s", "time", "s"),
         ("x_s", "x_s", None),
@@ -847,6 +850,7 @@ def test_a_log_with_neither_sensor_nor_robot_is_not_called_complete(tmp_path: Pa
     assert (alone.verdict, alone.command) == ("NO SENSOR AND NO ROBOT", "")
     (beside,) = draft_experiment([log], urdf=ARM_URDF).answers()
     assert "NO SENSOR" not in beside.verdict
+    assert any("no stream looks like the reading of a force-torque sensor" in words for words in beside.why)
     assert beside.command.startswith("init --resume ")
 
 

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.question import MinimumNorm, Question
 from forcetorque.robot.motion import JointMotion, RootMotion
 from tests.robot.mechanics.touched import Touched, touched

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, moving_joints
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree

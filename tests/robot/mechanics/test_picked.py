@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay, smooth
-from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
 from tests.recording.recordings import EPOCH_NS, recording, signal, stream
 
 WINDOW = SavitzkyGolay(window_s=0.2, order=2)

@@ -17,7 +17,7 @@ from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import expected_wrenches
-from forcetorque.robot.mechanics.samples import Processing, SensorSamples, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, SensorSamples, sensor_samples
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.recording.recording import Interval, Recording, Support, Use
-from forcetorque.robot.mechanics.samples import Processing, SensorSamples, sensor_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, SensorSamples, sensor_samples
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf

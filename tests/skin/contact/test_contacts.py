@@ -13,6 +13,7 @@ from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.skin.contact.contacts import NO_CONTACT, clusters, find_contacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.result import contact_rows
 from tests.skin.layout.skins import PITCH_M, plane_layout
 
 PLATE: Final = plane_layout(rows=20, columns=24)
@@ -48,6 +49,26 @@ def test_one_contact_is_told_whole() -> None:
     assert contacts.peak_Pa[0] == pressures.max()
     assert contacts.edge_share[0] == 0.0
     assert not contacts.beyond_range[0]
+
+
+def test_the_row_of_a_contact_is_in_its_units() -> None:
+    """A row states mm2 and kPa of an area in m2 and a pressure in Pa; all else is as of the contact."""
+    frame = frame_of(hill(MIDDLE))
+    contacts = find_contacts(PATCH, frame)
+    (row,) = contact_rows(PATCH, frame, contacts, 2.5)
+    assert (row.time_s, row.contact, row.active, row.lobes) == (2.5, 1, np.count_nonzero(frame.active), 1)
+    of_taxel_mm2 = np.sqrt(0.75) * (1e3 * PITCH_M) ** 2  # of a triangular lattice
+    assert row.area_mm2 == pytest.approx(row.active * of_taxel_mm2, rel=0.01)
+    assert row.peak_kPa == pytest.approx(frame.pressures.max() / 1000.0)
+    for name, of_row in (
+        ("centroid", row.centroid_m),
+        ("centre_of_pressure", row.centre_of_pressure_m),
+        ("wrench", row.wrench),
+        ("force_N", row.force_N),
+        ("normal_force_N", row.normal_force_N),
+    ):
+        np.testing.assert_array_equal(of_row, getattr(contacts, name)[0], err_msg=name)
+    assert row.taxels == tuple(PLATE.taxels[np.flatnonzero(frame.active)].tolist())
 
 
 def test_only_active_taxels_and_one_ring_count() -> None:

@@ -10,7 +10,7 @@ import pytest
 from scipy.special import kv
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.wrench.operator import LENGTH_M, kriging_shares
+from forcetorque.skin.wrench.pressure_to_wrench import LENGTH_M, kriging_shares
 
 ROUNDING = 1e-9
 """Of a system of three equations whose condition is below 1e4."""

@@ -46,7 +46,9 @@ def test_nothing_at_all(visit: Visit, tmp_path: Path) -> None:
     robot = replace(bare.scene.robot, shapes=(), meshes=())
     scene = replace(bare.scene, robot=robot, sensors=(), contacts=(), intervals=(), findings=())
     page = visit.open(BuiltScene(scene=scene, block=bare.block))
-    assert page.get_by_text("No wrenches of this sensor.").is_visible()
+    assert page.get_by_role("region", name="Robot").is_visible()
+    for absent in ("Series", "Force space", "Error in view"):
+        assert not page.get_by_role("region", name=absent).is_visible()
     page.get_by_role("button", name="one sample on").click()
     assert page.evaluate("window.ft.sample()") == 1
 

@@ -89,6 +89,29 @@ def test_names_and_letters_do_not_lie_on_each_other(visit: Visit, arm: Arm, size
     assert _meet(rectangles[0], rectangles[0])
 
 
+@pytest.mark.parametrize("size", [(360, 740), (1280, 800)])
+def test_numbers_of_the_space_do_not_touch_its_letters(visit: Visit, arm: Arm, size: tuple[int, int]) -> None:
+    """However the view is turned; names of the axes are drawn before numbers."""
+    page = visit.blank()
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    file = visit.folder / "view.html"
+    file.write_bytes(page_of(arm.built))
+    page.goto(file.as_uri())
+    page.evaluate("window.ft.ready")
+    canvas = page.get_by_role("img", name="Force space of shoulder_ft")
+    counts = []
+    for _ in range(24):  # half of a turn
+        canvas.press("Alt+ArrowRight")
+        page.evaluate("window.ft.show(0)")
+        rectangles = page.evaluate("window.ft.spaceLabels()")
+        counts.append(len(rectangles))
+        for k, one in enumerate(rectangles):
+            for other in rectangles[:k]:
+                assert not _meet(one, other), (one, other)
+    assert min(counts) >= 6
+    assert len(set(counts)) > 1  # where some would touch others they are left out
+
+
 def test_what_nothing_is_expected_of_has_no_empty_plots(visit: Visit, arm: Arm) -> None:
     """Forces and moments are beside each other in place of errors; the control has an expected wrench."""
     sensors = tuple(

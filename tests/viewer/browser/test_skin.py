@@ -34,6 +34,14 @@ PLACES = [np.zeros((0, 3)), VERTICES[:1], VERTICES[[0, 2]]]
 FORCES = [np.zeros((0, 3)), np.array([[0.0, 0.0, -10.0]]), np.array([[0.0, 0.0, -20.0], [3.0, 0.0, -4.0]])]
 IDENTITIES = [np.array([], dtype=np.int64), np.array([1]), np.array([1, 3])]
 SD_N = 0.5
+RASTER = """(canvas, places) => places.map(([start, end, seconds, row]) => {
+    const [left, right] = [58, canvas.clientWidth - 10];  // as the plots
+    const x = left + ((seconds - start) / (end - start)) * (right - left);
+    const pixel = canvas.getContext("2d").getImageData(
+        Math.round(x * devicePixelRatio), Math.round((14 * row + 7) * devicePixelRatio), 1, 1).data;
+    return (pixel[0] + pixel[1] + pixel[2]) * pixel[3] / 255 + 765 * (1 - pixel[3] / 255);
+})"""
+"""Brightness of a row at an instant, on white."""
 METRES_TOLERANCE = 1e-5
 """Of tips: coordinates are float32."""
 
@@ -147,11 +155,47 @@ def test_skin_is_switched_off(skin_page: Page, skinned: tuple[Arm, BuiltScene]) 
     assert off == {"pressed": {"forearm_skin": 0}, "contacts": {"forearm_skin": [], "hand_events": []}, "ellipsoids": 0}
 
 
+def test_contacts_are_a_raster_over_time(skin_page: Page) -> None:
+    """A row for each patch and each link of a skinManager; the larger the force, the darker, and white without one."""
+    raster = skin_page.get_by_role("img", name="Contacts on skin over time: forearm_skin, hand_events")
+    box = raster.bounding_box()
+    assert box is not None
+    start, end = skin_page.evaluate("window.ft.plots()")[0]["x"]
+    first, light = raster.evaluate(RASTER, [[start, end, 4.0, 0], [start, end, 4.0, 1]])
+    none, dark = raster.evaluate(RASTER, [[start, end, 1.5, 0], [start, end, 6.9, 0]])
+    late = raster.evaluate(RASTER, [[start, end, 6.9, 1]])[0]
+    assert light == none  # nothing at the hand, nothing in the first frame
+    assert dark < first < none
+    assert late < none
+    largest = max(float(np.linalg.norm(force)) for forces in FORCES for force in forces)
+    legend = skin_page.get_by_role("region", name="Skin").get_by_text("Time axis: darkest at")
+    assert legend.text_content() == f"Time axis: darkest at {largest:.1f} N and 0.500 of the heuristic"
+
+
+def test_the_next_contact_is_one_key_away(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
+    """Where contacts begin: that of the first number, then the second of another patch with that of a new number."""
+    time_s = read_array(skinned[1].block, skinned[1].scene.time_s)
+    starts = [int(np.searchsorted(time_s, seconds)) for seconds in (3.0, 5.0, 6.0)]
+    seen = []
+    for _ in starts:
+        skin_page.keyboard.press("c")
+        seen.append(skin_page.evaluate("window.ft.sample()"))
+    assert seen == starts
+    skin_page.keyboard.press("c")  # there is none beyond
+    assert skin_page.evaluate("window.ft.sample()") == starts[-1]
+    skin_page.keyboard.press("Shift+C")
+    assert skin_page.evaluate("window.ft.sample()") == starts[1]
+    skin_page.get_by_role("button", name="Next contact").click()
+    assert skin_page.evaluate("window.ft.sample()") == starts[2]
+
+
 def test_a_robot_without_skin_has_no_such_section(visit: Visit, tmp_path: Path) -> None:
     """Neither section nor switch."""
     page = visit.open(arm_scene(tmp_path).built)
     assert page.get_by_role("region", name="Skin").count() == 0
     assert page.get_by_label("Pressure and contacts on skin").count() == 0
+    assert page.get_by_role("img", name="Contacts on skin over time").count() == 0
+    assert page.get_by_role("button", name="Next contact").count() == 0
 
 
 def test_pressure_is_seen(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
@@ -175,6 +219,7 @@ def test_skin_alone_has_the_page_to_itself(visit: Visit, tmp_path: Path) -> None
     assert page.get_by_role("region", name="Robot").is_visible()
     for empty in ("Force space", "Planes", "Series", "Error in view"):
         assert not page.get_by_role("region", name=empty).is_visible()
+    assert page.get_by_role("img", name="Contacts on skin over time").is_visible()
     assert page.get_by_role("combobox", name="Sensor").count() == 0
     assert page.get_by_role("heading", name="Time").is_visible()
     assert sum(map(len, page.evaluate("window.ft.skin()")["contacts"].values())) > 0

@@ -149,9 +149,9 @@ def _begun(
             raise ExperimentError(
                 f"{file}: was begun of another log than {', '.join(map(str, logs))}; name another folder by --output"
             )
-        if given := _given(options):
+        if stated := _given(options):
             raise ExperimentError(
-                f"{file}: was begun already, so that {', '.join(given)} would change nothing; leave it out to go on "
+                f"{file}: was begun already, so that {', '.join(stated)} would change nothing; leave it out to go on "
                 "with the file, or name another folder by --output"
             )
         start_logging().info("going on with %s", file)
@@ -166,7 +166,7 @@ def _begun(
         raise ExperimentError(
             f"{', '.join(map(str, logs))}: expected a wrench or raw samples of a force-torque sensor, got none; name "
             "its columns by --column-names where the log has no headings; forcetorque payload weighs the load of a "
-            "Franka arm by its joint torques"
+            f"Franka arm by its joint torques{''.join(f'; {one}' for one in draft.thermometers)}"
         )
     return file
 

@@ -544,12 +544,12 @@ def _report(way: _Way, experiments: Mapping[Path, Experiment], saved: SensorCali
             code_version=version("forcetorque"),
             progress=way.progress,
         )
-        written.save(page, numbers, force=way.force)
+        failures = written.save(page, numbers, force=way.force)
     except ForceTorqueError as error:  # the answer does not wait for a page, such as where an extra is missing
         way.end("report", f"not written: {error}", skipped=True)
         return
     way.written += [str(page), str(numbers)]
-    way.end("report", str(page))
+    way.end("report", "; ".join((str(page), *failures)))
 
 
 def _export(way: _Way, saved: SensorCalibrations) -> None:

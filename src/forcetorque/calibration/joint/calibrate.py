@@ -19,6 +19,7 @@ from forcetorque.calibration.calibrate import (
     data_doubts,
     fit_doubts,
 )
+from forcetorque.calibration.corrected_urdf import urdf_of
 from forcetorque.calibration.joint.artefact import joint_posterior, sensor_artefact
 from forcetorque.calibration.joint.outcome import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
@@ -352,7 +353,7 @@ def calibrate_jointly(
     doubts = [
         *data.left_out,
         *(_without_equation(name) for name in data.campaigns if name not in calibrations),
-        *joint.doubts(),
+        *joint.doubts(urdf_of(experiments[0])),
         *(
             doubt
             for name in calibrations

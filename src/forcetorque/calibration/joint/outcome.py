@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
+from pathlib import Path
 from typing import Annotated, Self
 
 import numpy as np
@@ -18,6 +19,7 @@ from forcetorque.calibration.joint.unknowns import JointFit
 from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.joint_posterior import JointPosterior
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -317,15 +319,18 @@ class JointOutcome(Row):
             yield table_of(self.contacts, "left out, because the part's equation does not hold: touched, or a knock")
         yield from self.left_out
 
-    def doubts(self) -> Iterator[str]:
+    def doubts(self, urdf: Path | None = None) -> Iterator[str]:
         """Say what makes the calibrations doubtful.
+
+        Args:
+            urdf: File of the robot model, whose lines are named; None where there is none.
 
         Yields:
             Sentences.
         """
         yield from self.without_windows
         yield from _open_loads(self.sensors)
-        yield from _far_errors(self.model_errors)
+        yield from _far_errors(self.model_errors, urdf)
         yield from _wide_errors(self.model_errors, [row.root_link for row in self.sub_models])
         for interval, rows in groupby(self.sub_models, key=lambda row: row.interval):
             yield from _disagreeing(interval, [row for row in rows if row.mass_kg > _LIGHT_KG])
@@ -349,13 +354,14 @@ def _open_loads(sensors: Sequence[SensorErrorRow]) -> Iterator[str]:
         yield f"offset not determined: {words}; only changes of load are known, or {advice}"
 
 
-def _far_errors(errors: Sequence[ModelErrorRow]) -> Iterator[str]:
+def _far_errors(errors: Sequence[ModelErrorRow], urdf: Path | None) -> Iterator[str]:
     for row in errors:
         if row.is_far:
             unit = f" {row.unit}" if row.unit else ""
             yield (
                 f"{row.name}: off by {with_error(row.value, row.deviation, digits=4)}{unit}, where the model is "
-                f"trusted to {row.prior_deviation:.2g}{unit}; look at the robot model"
+                f"trusted to {row.prior_deviation:.2g}{unit}; look at the robot "
+                f"model{place_in_urdf(urdf, row.name)}"
             )
 
 

@@ -24,13 +24,13 @@ from forcetorque.experiment.sensor_reading import readings_at
 from forcetorque.recording.alignment import require_overlap, seconds_since
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
-from forcetorque.robot.mechanics.root_motion import imu_frame, joints_to_support
-from forcetorque.robot.mechanics.samples import (
+from forcetorque.robot.mechanics.measured_and_expected_wrench import (
     padded_samples,
     pick_samples,
     require_motion_overlap,
     robot_motion_at,
 )
+from forcetorque.robot.mechanics.root_motion import imu_frame, joints_to_support
 from forcetorque.robot.mechanics.sub_model_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree
 

@@ -23,8 +23,8 @@ from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.measured_and_expected_wrench import pick_samples, robot_motion_at
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
-from forcetorque.robot.mechanics.samples import pick_samples, robot_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.experiment import force_patches

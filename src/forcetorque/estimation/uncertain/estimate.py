@@ -18,7 +18,7 @@ from forcetorque.estimation.uncertain.uncertainty import Uncertainty, actions_of
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import BodyState, net_wrench
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, body_states
-from forcetorque.robot.mechanics.estimates import column_of
+from forcetorque.robot.mechanics.estimate_arrays import column_of
 from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question, TorqueSum
 from forcetorque.robot.motion import JointMotion, RootMotion

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import outline
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid, EllipsoidFit
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, EllipsoidFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.trials.trials import TrialGroup, mean_of_trials
 from forcetorque.results.figures import (

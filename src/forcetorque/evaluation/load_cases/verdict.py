@@ -10,7 +10,7 @@ from typing import Annotated, Final, Literal, Protocol
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FitError
+from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.evaluation.load_cases.load_case import (
@@ -153,7 +153,8 @@ class LoadCaseVerdict(Row):
     readable_load_case: str | None = None
     """A [[load_case]] of its kind that the sensor can read; None where it can read the default one."""
     tared_load_case: str | None = None
-    """The [[load_case]] with `offset = "tared"`, where data show a constant error and taring is next; else None."""
+    """The [[load_case]] with `offset = "tared"`, where taring is next: data show a constant error, or most of the
+    predicted error comes from the offset; else None."""
 
     @property
     def tone(self) -> Tone:
@@ -211,6 +212,26 @@ ADVICE_BY_SOURCE: Final[dict[ErrorSource, str]] = {
     "noise": "noise, which no recording lowers: average readings over more than a second, or allow more.",
 }
 """What lowers an error, by its largest source."""
+
+
+def with_predicted_errors(verdicts: Iterable[LoadCaseVerdict]) -> tuple[LoadCaseVerdict, ...]:
+    """Choose the verdicts that a figure shows.
+
+    Args:
+        verdicts: Verdicts on any sensors.
+
+    Returns:
+        Those with a predicted error.
+
+    Raises:
+        ShapeError: If there is none, or if sensors measure different quantities, which have no panels in common.
+    """
+    predicted = tuple(verdict for verdict in verdicts if verdict.errors)
+    if not predicted:
+        raise ShapeError("figure: expected a load case with a predicted error, there is none to draw")
+    if len({tuple(error.quantity for error in verdict.errors) for verdict in predicted}) > 1:
+        raise ShapeError("figure: expected sensors of the same quantities, got some of force alone; name one")
+    return predicted
 
 
 def largest_source(
@@ -614,7 +635,8 @@ def load_case_verdict(
     case = usual if beyond is None else _recorded(measured) or usual
     assessment = LoadCaseAssessment(case, fitted, measured, worse=[*worse(_COMPARED[case.offset])])
     decision, reasons = assessment.verdict()
-    tare = next((reason.remedy for reason in reasons if reason.remedy is not None), None) == TARE
+    remedy = next((reason.remedy for reason in reasons if reason.remedy is not None), "")
+    tare = remedy == TARE or (case.offset is LoadCaseOffset.FITTED and ADVICE_BY_SOURCE["offset"] in remedy)
     verdict = LoadCaseVerdict(
         sensor=sensor.name,
         serial=sensor.serial,

@@ -16,7 +16,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.evaluation.sphere.algebraic_fit import inverse_lengths
 from forcetorque.evaluation.sphere.cloud import FEWEST_SAMPLES, Resampled, reach, resampled, sums_of_products, whole
-from forcetorque.evaluation.sphere.fit_results import (
+from forcetorque.evaluation.sphere.ellipsoid import (
     EllipsoidFit,
     beyond_measured_extent,
     ellipsoid_of_map,

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.sphere.fit_results import Ellipsoid
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 
 _ROWS = 8192
 """Samples per pass: what is made of them stays in the processor's cache."""

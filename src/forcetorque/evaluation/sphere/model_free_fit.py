@@ -26,7 +26,7 @@ from forcetorque.evaluation.sphere.cloud import (
     resampled,
     whole,
 )
-from forcetorque.evaluation.sphere.fit_results import (
+from forcetorque.evaluation.sphere.ellipsoid import (
     Ellipsoid,
     EllipsoidFit,
     RadiusFit,

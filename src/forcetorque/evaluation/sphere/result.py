@@ -8,7 +8,7 @@ from typing import Self
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.sphere.affine_fit import MomentRow
 from forcetorque.evaluation.sphere.cloud import StaticForceError
-from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit, RadiusFit
+from forcetorque.evaluation.sphere.ellipsoid import CloudForm, EllipsoidFit, RadiusFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, SphereAnalysis
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import AxisValues, Row

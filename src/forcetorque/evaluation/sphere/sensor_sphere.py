@@ -21,7 +21,7 @@ from forcetorque.base.errors import (
 )
 from forcetorque.evaluation.sphere.affine_fit import MappedFit, MomentRow, fit_mapped, fit_moment
 from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud, share_of_directions
-from forcetorque.evaluation.sphere.fit_results import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
+from forcetorque.evaluation.sphere.ellipsoid import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, may_be_flat
 from forcetorque.experiment.applicability import overlapping
 from forcetorque.experiment.calibration.artefact import Calibration

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
-from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
 from forcetorque.experiment.additions import with_recording_notes

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal, Self
 from pydantic import Field
 
 from forcetorque.base.progress import Progress
-from forcetorque.evaluation.sphere.fit_results import RULE, TOLERANCE
+from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow
 from forcetorque.evaluation.trials.result import GroupFitRow, GroupRow, TrialRow, group_rows
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Self
 
-from forcetorque.evaluation.sphere.fit_results import CloudForm, EllipsoidFit
+from forcetorque.evaluation.sphere.ellipsoid import CloudForm, EllipsoidFit
 from forcetorque.evaluation.sphere.result import EllipsoidRow
 from forcetorque.evaluation.trials.trials import DriftRow, TrialGroup, TrialSphere, mean_of_trials
 from forcetorque.results.number_text import finite_or_none

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
 from forcetorque.evaluation.section import TRIAL
 from forcetorque.evaluation.sphere.cloud import BLOCKS
-from forcetorque.evaluation.sphere.fit_results import EllipsoidFit
+from forcetorque.evaluation.sphere.ellipsoid import EllipsoidFit
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
 from forcetorque.evaluation.sphere.result import FailureRow, bounded
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals

@@ -31,7 +31,7 @@ from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
 from forcetorque.robot.dynamics import body_poses
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import BodyTree, Connection, outboard_bodies, sub_models

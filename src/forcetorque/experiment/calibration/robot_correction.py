@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
@@ -91,6 +92,30 @@ def robot_errors(model: RobotModel, errors: Sequence[ModelError]) -> RobotErrors
             else:
                 mass[link] = error.value
     return RobotErrors(mass=mass, centre_m=centre, joint_zero_rad=zero)
+
+
+def place_in_urdf(urdf: Path | None, name: str) -> str:
+    """Say where in a URDF file a mass, a centre of mass or the place of a joint stands.
+
+    Args:
+        urdf: The file; None where there is none.
+        name: Name of an error of the robot model.
+
+    Returns:
+        File, line and tag, in brackets; empty where it is not found, or the error is none of the file.
+    """
+    kind = next((kind for kind in OF_ROBOT if kind in name), None)
+    if urdf is None or kind is None:
+        return ""
+    outer, inner = ("joint", "origin") if kind == ZERO else ("link", "mass" if kind == MASS else "origin")
+    text = urdf.read_text(encoding="utf-8", errors="replace")
+    element = (
+        rf"<{outer}\b[^>]*\bname\s*=\s*[\"']{re.escape(name.rpartition(kind)[2])}[\"'][^>/]*>(?:(?!</{outer}>).)*?"
+    )
+    found = re.search(rf"{element}({'<inertial>.*?' if outer == 'link' else ''}<{inner}\b)", text, re.DOTALL)
+    if found is None:
+        return ""
+    return f" ({urdf.name}:{text.count(chr(10), 0, found.end()) + 1}, <{inner}>)"
 
 
 def _require(name: str, known: Mapping[str, object], error: ModelError) -> None:

@@ -14,8 +14,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison
+from forcetorque.inspection.draft.divided_stream import DividedStream
 from forcetorque.inspection.draft.edits import Edit, key_edit, table_edit
 from forcetorque.inspection.draft.toml_lines import tables_of, toml_value
+from forcetorque.inspection.fault_messages import late_and_kept
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.robot.mounting import rotation_by, rotation_vector, rotation_words
 
@@ -91,7 +93,9 @@ class Correction:
         return f"write {self.key} = {toml_value(self.value)} in {header}{f' {self.owner!r}' if self.owner else ''}"
 
 
-def correction_of(content: Mapping[str, Any], comparison: Comparison, fault: Explanation) -> Correction | None:
+def correction_of(
+    content: Mapping[str, Any], comparison: Comparison, fault: Explanation
+) -> Correction | DividedStream | None:
     """Find the key that corrects a fault.
 
     Args:
@@ -107,7 +111,7 @@ def correction_of(content: Mapping[str, Any], comparison: Comparison, fault: Exp
     if fault.kind == "gravity" and fault.vector is not None:
         return _of_gravity(content, comparison, fault.vector)
     if fault.kind == "delay" and fault.value is not None:
-        return _of_delay(content, run, fault.about, fault.value)
+        return _of_delay(content, comparison, fault, fault.value)
     if index is None:
         return None
     if fault.kind == "reversed":
@@ -176,12 +180,10 @@ def _is_rotation(matrix: FloatArray) -> bool:
     return np.array_equal(matrix @ matrix.T, np.eye(3)) and bool(np.linalg.det(matrix) > 0.0)
 
 
-def _of_delay(content: Mapping[str, Any], run: SensorRun, joints: str, delay_s: float) -> Correction | None:
-    holders = dict.fromkeys(stream.name for stream, _ in run.experiment.recording.joint_signals("position").values())
-    late = joints or run.sensor.stream
-    other = run.sensor.stream if joints else next(iter(holders), None)
-    if other is None or other == late:
-        return None
+def _of_delay(
+    content: Mapping[str, Any], comparison: Comparison, fault: Explanation, delay_s: float
+) -> Correction | DividedStream | None:
+    late, other = late_and_kept(comparison, fault)
     for number, clock in enumerate(tables_of(content, "clock")):
         if late in (clock["stream"] if isinstance(clock["stream"], list) else [clock["stream"]]):
             known = clock["delay_s"]
@@ -189,5 +191,7 @@ def _of_delay(content: Mapping[str, Any], run: SensorRun, joints: str, delay_s: 
                 return None
             total = round(float(known) + delay_s, 4)
             return Correction(table="clock", index=number, key="delay_s", value=total, tried=total, owner=late)
+    if other == late:
+        return DividedStream.of(content, late, delay_s)
     clock = {"stream": late, "to": other, "delay_s": round(delay_s, 4)}
     return Correction(table="clock", index=None, key="", value=clock, tried=clock)

@@ -52,7 +52,13 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     support_lines,
 )
 from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
-from forcetorque.inspection.draft.tables_and_arrays import INERTIAL, example_names, few_components
+from forcetorque.inspection.draft.tables_and_arrays import (
+    INERTIAL,
+    example_names,
+    few_components,
+    second_clock,
+    unread_columns,
+)
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import NO_MOTION, Recording
@@ -99,6 +105,8 @@ _NO_SENSOR = (
     "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed with the "
     "model of its robot alone"
 )
+_MAKE_A_SENSOR = ("quantity", "column_names")
+"""Keys of questions whose answers may be that columns are of a sensor."""
 
 
 class Draft(Result):
@@ -122,6 +130,10 @@ class Draft(Result):
     """Findings about the log, and reasons for what is unknown."""
     few_components: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """Columns of a sensor of fewer than six components, which are not read; none where a sensor was found."""
+    unread: str = Field(default="", exclude=True, repr=False)
+    """Columns that nothing is read from, where no sensor was found."""
+    thermometers: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
+    """What to do with tables of a temperature alone, where no sensor was found."""
     left_out: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """Notes about streams and columns that are left out, as others are of their quantity."""
     robot_file: str | None = None
@@ -134,7 +146,7 @@ class Draft(Result):
     @property
     def lacks_sensor(self) -> bool:
         """Whether the log has nothing like a force-torque sensor, and no answer to a question would give one."""
-        return _NO_SENSOR in self.notes and not self.questions
+        return _NO_SENSOR in self.notes and not any(one.key in _MAKE_A_SENSOR for one in self.questions)
 
     def answers(self) -> Iterator[Answer]:
         """Say what is left to fill in.
@@ -145,29 +157,31 @@ class Draft(Result):
         if self.proposals:
             yield self._proposed
             return
+        few = (
+            f"{listed(self.few_components)} not read: of a load cell or a sensor of three axes, take the lines that "
+            "the file has as comments, and state its [[sensor]]"
+        )
+        lack = (f"{_NO_SENSOR}{self.unread}",) if self.lacks_sensor else ()
+        not_read = (*((few,) if self.few_components else ()), *self.left_out[:_SHOWN_LEFT_OUT])
         count, first = len(self.questions), next(iter(self.questions), None)
         if self.lacks_sensor and "[robot]" not in self.content:
             yield Answer(
                 subject=self.file,
                 verdict="NO SENSOR AND NO ROBOT",
-                why=(_NO_SENSOR,),
+                why=(*lack, *self.thermometers, *not_read),
                 step="begin it again with a log that has the wrench, or with the robot by --urdf",
                 concern=Concern.UNCERTAIN,
             )
             return
         step = "answer what is asked, in a terminal or in the file" if count else "read the file, then go on"
         more = len(self.left_out) - _SHOWN_LEFT_OUT
-        few = (
-            f"{listed(self.few_components)} not read: of a load cell or a sensor of three axes, take the lines that "
-            "the file has as comments, and state its [[sensor]]"
-        )
         yield Answer(
             subject=self.file,
             verdict=f"{count} LINE{'S' * (count != 1)} TO FILL IN" if count else "COMPLETE",
             why=(
                 *(self.notes[-1:] if first is None else (f"line {first.line}, {first.key}: {first.question}",)),
-                *((few,) if self.few_components else ()),
-                *self.left_out[:_SHOWN_LEFT_OUT],
+                *lack,
+                *not_read,
                 *((f"{more} more left out: --details",) if more > 0 else ()),
             ),
             step=step,
@@ -327,6 +341,8 @@ def draft_experiment(
         questions=_questions(text),
         notes=notes,
         few_components=() if found else tuple(column for table in tables for column in few_components(table).values()),
+        unread="" if found else _unread_text(log),
+        thermometers=() if found else tuple(_about_thermometers(log)),
         left_out=left_out,
         robot_file=None if robot_file is None else str(robot_file),
         sensor_files=tuple(map(str, beside)),
@@ -512,6 +528,22 @@ def _about_others(found: Sequence[DraftedSensor], chosen: Sequence[DraftedSensor
             yield f"{sensor.stream}: left out, an estimated wrench by its name; --sensor {sensor.name} takes it"
 
 
+def _unread_text(log: DraftedLog) -> str:
+    names = [name for stream in log.streams for name in unread_columns(stream)]
+    return f"; not read: {listed(names, 8)}" if names else ""
+
+
+def _about_thermometers(log: DraftedLog) -> Iterator[str]:
+    for stream in log.streams:
+        if stream.is_temperature_only and stream.table is not None:
+            again = typed("init", "LOG", str(stream.table.path))
+            yield (
+                f"{stream.name} has a temperature alone: name it with the log of its sensor, forcetorque {again}; or "
+                "in the experiment file of that sensor add its [[recording.stream]] and, below [[sensor]], "
+                f"[[sensor.variable]] {line('name', 'temperature')}, {line('stream', stream.name)}"
+            )
+
+
 def _about_repeated(log: DraftedLog) -> Iterator[str]:
     """Columns that are not read, for others are read as the same quantity."""
     for stream in log.streams:
@@ -521,6 +553,12 @@ def _about_repeated(log: DraftedLog) -> Iterator[str]:
             if group.quantity in stream.quantities:
                 why = f"other columns are its {group.words or group.quantity}"
             yield f"{stream.name}: {listed(names, 3)} left out; {why}"
+        place, on_it = second_clock(stream)
+        if on_it and stream.table is not None:
+            yield (
+                f"{stream.name}: {stream.table.columns[place].name} rises as a second time and is not read; if it "
+                "stamps other columns take the [[recording.stream]] and [[clock]] that the file has as comments"
+            )
 
 
 def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
@@ -608,10 +646,12 @@ def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]
     """The `[load]` table of a wrist sensor whose pose is logged."""
     if not sensors:
         return []
-    if all(stream.is_sensor_alone for stream in log.streams):
+    if all(stream.is_sensor_alone or stream.is_temperature_only for stream in log.streams):
         words = "no column says how the sensor is held: inspect it, or `forcetorque bench` thermal or response"
-        warm = any("temperature" in stream.quantities for stream in log.streams)
-        variable = ["", "[[sensor.variable]]", line("name", "temperature")] if warm else []
+        warm = [stream.name for stream in log.streams if "temperature" in stream.quantities]
+        own = sensors[0].stream in warm
+        elsewhere = [] if own or not warm else [line("stream", warm[0])]
+        variable = ["", "[[sensor.variable]]", line("name", "temperature"), *elsewhere] if warm else []
         return [*variable, "", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
     poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]

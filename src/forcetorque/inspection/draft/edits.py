@@ -164,6 +164,75 @@ def table_extents(lines: Sequence[str], table: str) -> list[tuple[int, int]]:
     return [(k, end) for (k, name), end in zip(headers, ends, strict=True) if name == table]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableBlocks:
+    """Lines of a table with lists of tables in it."""
+
+    before: tuple[str, ...]
+    """Lines in front of it."""
+    head: tuple[str, ...]
+    """Its header and own keys."""
+    inner: tuple[tuple[str, ...], ...]
+    """Lines of each table of the list in it, with the tables in these."""
+    behind: tuple[str, ...]
+    """Lines behind it."""
+
+
+def table_blocks(text: str, table: str, index: int) -> TableBlocks | None:
+    """Divide a file at a table of a list, and this at the tables in it.
+
+    Args:
+        text: Content of the file.
+        table: Name of the list of tables.
+        index: Which of the list, from 0.
+
+    Returns:
+        Its lines; None where the table is not written with a header.
+    """
+    lines = _lines(text)
+    extents = table_extents(lines, table)
+    if index >= len(extents):
+        return None
+    start, after = extents[index]
+    places = [start]
+    headers = ((k, match["name"]) for k in range(after, len(lines)) if (match := _HEADER.match(lines[k])))
+    for k, name in headers:
+        if not _is_header(lines, k):
+            continue
+        depth = name.removeprefix(f"{table}.").count(".") if name.startswith(f"{table}.") else -1
+        if depth < 0:
+            end = k
+            break
+        if depth == 0:
+            places.append(k)
+    else:
+        end = len(lines)
+    while end > places[-1] + 1 and lines[end - 1].startswith("#"):  # comments on the table that follows
+        end -= 1
+    ends = [*places[1:], end]
+    head, *inner = (tuple(lines[a:b]) for a, b in zip(places, ends, strict=True))
+    return TableBlocks(before=tuple(lines[:start]), head=head, inner=tuple(inner), behind=tuple(lines[end:]))
+
+
+def edit_between(old: str, new: str) -> Edit:
+    """Find the lines that differ.
+
+    Args:
+        old: Content of a file.
+        new: Its content after a change.
+
+    Returns:
+        The change, from the first line that differs to the last.
+    """
+    before, after = _lines(old), _lines(new)
+    shorter = min(len(before), len(after))
+    first = next((k for k in range(shorter) if before[k] != after[k]), shorter)
+    same = next((k for k in range(shorter - first) if before[-1 - k] != after[-1 - k]), shorter - first)
+    return Edit(
+        line=first + 1, old=tuple(before[first : len(before) - same]), new=tuple(after[first : len(after) - same])
+    )
+
+
 def _lines(text: str) -> list[str]:
     """Lines as TOML has them: other separators of Unicode are characters of a comment or a text."""
     return text.removesuffix("\n").split("\n")

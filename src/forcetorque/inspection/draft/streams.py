@@ -54,6 +54,11 @@ class DraftedStream:
         return self.reads_load and set(self.quantities) <= {"wrench", "raw", "temperature"}
 
     @property
+    def is_temperature_only(self) -> bool:
+        """Whether it is the thermometer of some sensor, with nothing else."""
+        return self.quantities == ("temperature",)
+
+    @property
     def is_load_only(self) -> bool:
         """Whether it has nothing but the measurement of a force-torque sensor."""
         return set(self.quantities) <= {"wrench", "raw"}

@@ -12,7 +12,7 @@ from forcetorque.base.output_file import relative_path
 from forcetorque.base.toml_file import OPEN
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.formats.headings import Heading, is_time_name, read_heading
+from forcetorque.formats.headings import Heading, is_time_name, names_a_time, read_heading
 from forcetorque.formats.lerobot.dataset import dataset_of_file
 from forcetorque.formats.log_format import LogSketch, SketchedColumns, not_read_message
 from forcetorque.formats.tabular.numbers import ISO8601
@@ -225,9 +225,9 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         sketch = stream.table
         if sketch is not None:
             lines += ["", "[[recording.stream]]", line("name", stream.name)]
-            lines.append(line("file", sketch.path.resolve().relative_to(root).as_posix()))
-            lines += [*_form_lines(sketch), *_stamp_lines(sketch)]
-            lines += _signal_lines(stream, sketch, model, frames)
+            file = sketch.path.resolve().relative_to(root).as_posix()
+            lines += [line("file", file), *_form_lines(sketch), *_stamp_lines(sketch)]
+            lines += _signal_lines(stream, sketch, file, model, frames)
     return lines
 
 
@@ -258,7 +258,7 @@ def episode_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frame
         lines.append(line("episode", first) if first == last else question("episode", words, first))
         lines += ["", "[[recording.stream]]", line("name", stream.name)]
         lines.append(remark(f"times are made up: frame_index / {sketch.rate_hz:g} Hz; a delay is not seen in them"))
-        lines += _signal_lines(stream, sketch, model, frames)
+        lines += _signal_lines(stream, sketch, path.name, model, frames)
     return lines
 
 
@@ -336,10 +336,13 @@ def _stamp_lines(sketch: LogSketch) -> list[str]:
 
 
 def _signal_lines(
-    stream: DraftedStream, sketch: LogSketch, model: RobotModel | None, frames: Mapping[str, str]
+    stream: DraftedStream, sketch: LogSketch, file: str, model: RobotModel | None, frames: Mapping[str, str]
 ) -> list[str]:
     lines: list[str] = []
-    for group in stream.groups:
+    own_clock, on_it = second_clock(stream)
+    for group in (*(one for one in stream.groups if one not in on_it), *on_it):
+        if on_it and group is on_it[0]:
+            lines += _second_clock_lines(stream.name, sketch, file, own_clock)
         lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
     for group in stream.alternatives:
         other = " and ".join(INERTIAL) if group.quantity == "orientation" else "orientation"
@@ -350,9 +353,7 @@ def _signal_lines(
         ]
         signal = ["[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
         lines += [f"# {text}" for text in "\n".join(signal).splitlines() if text]
-    used = {k for group in (*stream.groups, *stream.alternatives) for k in group.columns}
-    used.add(-1 if (time := time_column(_headings(sketch), [c.step for c in sketch.columns])) is None else time)
-    rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
+    rest = unread_columns(stream)
     if not stream.groups:
         lines += ["", "[[recording.stream.signal]]"]
         names = "" if not (sketch.has_headings or sketch.names_specified) else f", by the headings {listed(rest)}"
@@ -369,6 +370,80 @@ def _signal_lines(
             *_few_component_lines(sketch, is_read=bool(stream.components) or "wrench" in stream.quantities),
         ]
     return lines
+
+
+def unread_columns(stream: DraftedStream) -> tuple[str, ...]:
+    """Name the columns of a table that nothing is read from.
+
+    Args:
+        stream: The stream of a table.
+
+    Returns:
+        Their names.
+    """
+    columns = () if stream.table is None or not stream.table.is_table else stream.table.columns
+    used = {k for group in (*stream.groups, *stream.alternatives) for k in group.columns}
+    headings = [read_heading(column.name) for column in columns]
+    used.add(-1 if (time := time_column(headings, [column.step for column in columns])) is None else time)
+    place, on_it = second_clock(stream)
+    if on_it:
+        used.add(place)
+    return tuple(column.name for k, column in enumerate(columns) if k not in used)
+
+
+def second_clock(stream: DraftedStream) -> tuple[int, tuple[ColumnMatch, ...]]:
+    """Find a second column of times, and what it may stamp.
+
+    Args:
+        stream: The stream of a table.
+
+    Returns:
+        Index of the column, -1 for none; the groups behind it, or all but those of the load where none is. No group
+        where nothing is left for the first column.
+    """
+    columns = () if stream.table is None or stream.table.episodes else stream.table.columns
+    headings = [read_heading(column.name) for column in columns]
+    first = time_column(headings, [column.step for column in columns])
+    used = {first, *(k for group in stream.groups for k in group.columns)}
+    for k, column in enumerate(columns):
+        if first is not None and k not in used and column.step is not None and names_a_time(headings[k].name):
+            behind = tuple(group for group in stream.groups if min(group.columns) > k)
+            moved = behind or tuple(group for group in stream.groups if group.quantity not in ("wrench", "raw"))
+            return k, moved if len(moved) < len(stream.groups) else ()
+    return -1, ()
+
+
+def _second_clock_lines(name: str, sketch: LogSketch, file: str, place: int) -> list[str]:
+    column = sketch.columns[place]
+    first = time_column(_headings(sketch), [one.step for one in sketch.columns])
+    own, unit = f"{name}_{read_heading(column.name).name}", column.unit or likeliest_time(column) or "s"
+    began = None if first is None else _first_s(sketch.columns[first]), _first_s(column)
+    lines = [
+        "[[recording.stream]]",
+        line("name", own),
+        line("file", file),
+        *_form_lines(sketch),
+        line("stamp", {"column": column.name, "unit": unit}),
+        "",
+        "[[clock]]",
+        line("stream", own),
+        line("to", name),
+        line("delay_s", "estimate", "or a number, s, by which its stamps are later for what happens at once"),
+    ]
+    if began[0] is not None and began[1] is not None:
+        around = "where it is looked for, within 0.5 s: by it the first row has both times at once"
+        lines.append(line("around_s", round(began[1] - began[0], 3), around))
+    words = (
+        f"{column.name} rises as a second time: if it stamps the signals below, take these lines; motion of [load] "
+        f"then names {own}"
+    )
+    return ["", remark(words), *(f"# {text}".rstrip() for text in "\n".join(lines).splitlines())]
+
+
+def _first_s(column: SketchedColumns) -> float | None:
+    """Time of the first row, where the unit of a column of times is stated or likely; s."""
+    unit = column.unit or likeliest_time(column)
+    return None if unit not in TIME_UNITS or column.smallest is None else column.smallest * TIME_UNITS[unit]
 
 
 def few_components(sketch: LogSketch) -> dict[str, str]:

@@ -153,8 +153,9 @@ def delay_doubts(data_sets: Sequence[DataSet], prior: FloatArray | None) -> Iter
             kind="delay",
             message=f"the reading comes {abs(lag) * step * 1e3:.0f} ms {'later' if lag > 0 else 'earlier'} than the "
             f"reference: moved by it, {1.0 - (left[1] / left[0]) ** 0.5:.0%} less of it is left unexplained; align "
-            'their clocks by [[clock]], delay_s = "estimate", or log both by one clock (stamp of '
-            "[[recording.stream]]; among arrays shift joint_time_s), and look for a delay between their ports",
+            'their clocks by [[clock]], delay_s = "estimate" (columns of one table as two [[recording.stream]] of the '
+            "same file; among arrays shift joint_time_s), or log both by one clock, and look for a delay between their "
+            "ports",
         )
 
 

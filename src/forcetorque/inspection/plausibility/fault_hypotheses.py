@@ -344,7 +344,7 @@ def _of_joints(
         return only is None or (kind, about) in only
 
     changes: dict[tuple[FaultKind, str], Changes] = {}
-    for about, factor in _UNIT_FACTORS.items():
+    for about, factor in _UNIT_FACTORS.items() if robot.joints else ():
         changes["joint_unit", about] = dict.fromkeys(robot.joints, (factor, 0.0))
     for joint in robot.joints:
         changes["joint_sign", joint] = {joint: (-1.0, 0.0)}

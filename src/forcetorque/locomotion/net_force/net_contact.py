@@ -28,8 +28,8 @@ from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.samples import padded_samples, robot_motion_at
 
 _NO_GAIN = 1e-9
 """Change of the net force per change of a reading below which it is rounding; N/N, N/(N m)."""

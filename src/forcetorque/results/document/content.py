@@ -107,6 +107,8 @@ class Text:
 
     text: str
     """Its words."""
+    is_failure: bool = False
+    """Whether it stands for what could not be made, and gives the reason."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,6 +193,20 @@ class Document:
     """When it was made, ISO 8601 with time zone."""
     sections: tuple[Section, ...]
     """Its sections."""
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What could not be made, each with its section and the reason."""
+        found, left = [], list(self.sections)
+        while left:
+            section = left.pop(0)
+            left = [*section.sections, *left]
+            found += [
+                f"{section.title}: {block.text}"
+                for block in section.blocks
+                if isinstance(block, Text) and block.is_failure
+            ]
+        return tuple(found)
 
     def __post_init__(self) -> None:
         try:

@@ -21,7 +21,7 @@ from forcetorque.base.compiled import announced, frozen, source_digest
 from forcetorque.robot.compiled import stages
 from forcetorque.robot.compiled.plan import plan_of
 from forcetorque.robot.compiled.recursion import DRIVER, LANES, STRIDE
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.inputs import Inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question
 

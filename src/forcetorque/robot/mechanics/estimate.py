@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.errors import ShapeError
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, BlockEvaluation
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.motion import JointMotion, RootMotion

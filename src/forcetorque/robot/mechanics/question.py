@@ -15,7 +15,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError, require_known
 from forcetorque.robot.contacts import Contact, ContactType
-from forcetorque.robot.mechanics.estimates import Layout
+from forcetorque.robot.mechanics.estimate_arrays import Layout
 from forcetorque.robot.tree import BodyTree, SubModel, cut_of, outboard_bodies, path_to_root, sub_models
 
 

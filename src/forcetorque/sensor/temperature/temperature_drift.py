@@ -23,7 +23,7 @@ from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import with_error
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
-from forcetorque.robot.mechanics.samples import padded_samples
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
 from forcetorque.sensor.temperature.drift_regression import (
     LAG_UNTOLD_S,

@@ -28,8 +28,8 @@ from forcetorque.skin.layout.normals import patch_normals
 from forcetorque.skin.surface import unrolled
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.wrench.known_weight import KnownWeight, known_weight
-from forcetorque.skin.wrench.operator import WrenchMethod
 from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from forcetorque.skin.wrench.pressures_over_recording import FrameChoice, SkinFrames, patch_messages, skin_frames
 from forcetorque.skin.wrench.result import (
     ContactLifeRow,

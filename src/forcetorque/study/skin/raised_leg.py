@@ -22,7 +22,7 @@ from forcetorque.recording.storage import write_recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.estimates import Estimates
+from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

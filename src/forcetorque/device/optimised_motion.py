@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.device.description import AttachedLoad, Device
+from forcetorque.device.components import AttachedLoad, Device
 from forcetorque.device.excitation_options import SAMPLES, held_out_loads, sample_noise
 from forcetorque.device.motion import Sequence, joint_ranges, joint_speeds
 from forcetorque.device.tolerances import RestTable, Tolerances

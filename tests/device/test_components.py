@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from forcetorque.device.description import Turn, device_load, part_inertia
+from forcetorque.device.components import Turn, device_load, part_inertia
 from forcetorque.device.device_file import read_device
 from forcetorque.device.model import BASE, device_model
 from forcetorque.robot.dynamics import link_pose

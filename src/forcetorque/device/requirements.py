@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.device.description import device_load
+from forcetorque.device.components import device_load
 from forcetorque.device.device_file import DeviceFile, DeviceHeat
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
 from forcetorque.device.excitation_options import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads

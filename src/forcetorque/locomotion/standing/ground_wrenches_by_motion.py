@@ -30,8 +30,8 @@ from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples, robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
-from forcetorque.robot.mechanics.samples import PaddedSamples, padded_samples, robot_motion_at
 from forcetorque.robot.tree import build_tree
 
 

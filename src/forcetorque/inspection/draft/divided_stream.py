@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wrench and motion of one table as two streams, so that a `[[clock]]` can bring one to the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass
+from typing import Any, ClassVar, Final
+
+from forcetorque.inspection.draft.edits import Edit, edit_between, key_edit, table_blocks
+from forcetorque.inspection.draft.toml_lines import line, tables_of, toml_value
+from forcetorque.inspection.fault_messages import motion_name
+
+_OF_SENSOR: Final = frozenset({"wrench", "raw", "temperature"})
+"""Quantities that stay in the stream of the sensor."""
+_REFERENCES: Final = (("load", "motion"), ("support", "imu"))
+"""Tables with keys that list streams of a motion."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DividedStream:
+    """The division of a stream of a table, and the clock of the sensor's part."""
+
+    cause: ClassVar[str] = ""
+    """Nothing beside the fault is wrong."""
+    is_shared: ClassVar[bool] = True
+    """Other sensors have the motion too."""
+    stream: str
+    """The stream."""
+    value: float
+    """By how much the stamps of the sensor's signals are late; s."""
+
+    @classmethod
+    def of(cls, content: Mapping[str, Any], stream: str, delay_s: float) -> DividedStream | None:
+        """Plan the division.
+
+        Args:
+            content: Tables of the experiment file.
+            stream: The stream.
+            delay_s: By how much the stamps of the sensor's signals are late; s.
+
+        Returns:
+            The division; None where the file lists no signals of the stream, or of one kind alone.
+        """
+        division = cls(stream=stream, value=round(delay_s, 4))
+        signals = next((one.get("signal", ()) for one in _streams(content) if one.get("name") == stream), ())
+        own = [one.get("quantity") in _OF_SENSOR for one in signals]
+        return division if any(own) and not all(own) else None
+
+    @property
+    def tried(self) -> float:
+        """What is tried is what is written."""
+        return self.value
+
+    @property
+    def _clock(self) -> dict[str, Any]:
+        return {"stream": self.stream, "to": motion_name(self.stream), "delay_s": self.value}
+
+    @property
+    def by_hand(self) -> str:
+        """What a person writes."""
+        clock = ", ".join(f"{key} = {toml_value(value)}" for key, value in self._clock.items())
+        return f"list the signals of the motion in a [[recording.stream]] of their own and write [[clock]] {clock}"
+
+    def content(self, content: Mapping[str, Any], value: float) -> dict[str, Any]:
+        """Change the content of a file.
+
+        Args:
+            content: Its tables.
+            value: The delay; s.
+
+        Returns:
+            A copy with two streams and the clock.
+        """
+        changed = deepcopy(dict(content))
+        streams = []
+        for one in _streams(changed):
+            signals = one["signal"]
+            if one["name"] != self.stream:
+                streams.append(one)
+                continue
+            own = [signal for signal in signals if signal["quantity"] in _OF_SENSOR]
+            moving = [signal for signal in signals if signal["quantity"] not in _OF_SENSOR]
+            streams += [{**one, "signal": own}, {**one, "name": motion_name(self.stream), "signal": moving}]
+        changed["recording"]["stream"] = streams
+        changed["clock"] = [*changed.get("clock", ()), {**self._clock, "delay_s": value}]
+        for table, _, key, names in self._references(changed):
+            table[key] = names
+        return changed
+
+    def edit(self, text: str, content: Mapping[str, Any]) -> Edit | None:
+        """Make the change of the text of a file.
+
+        Args:
+            text: Content of the file.
+            content: Its tables.
+
+        Returns:
+            The change; None where the text has the tables in a form that is not changed.
+        """
+        changed = text
+        for _, (name, index), key, names in self._references(content):
+            edit = key_edit(changed, name, index, key, names)
+            changed = changed if edit is None else edit.applied(changed)
+        number = next(k for k, one in enumerate(_streams(content)) if one["name"] == self.stream)
+        blocks = table_blocks(changed, "recording.stream", number)
+        signals = _streams(content)[number]["signal"]
+        if blocks is None or len(blocks.inner) != len(signals):
+            return None
+        is_own = [signal["quantity"] in _OF_SENSOR for signal in signals]
+        named = key_edit("\n".join(blocks.head) + "\n", "recording.stream", 0, "name", motion_name(self.stream))
+        if named is None:
+            return None
+        divided = [
+            *blocks.head,
+            *(text for own, block in zip(is_own, blocks.inner, strict=True) if own for text in block),
+            *named.applied("\n".join(blocks.head) + "\n").removesuffix("\n").split("\n"),
+            *(text for own, block in zip(is_own, blocks.inner, strict=True) if not own for text in block),
+            "[[clock]]",
+            *(line(key, value) for key, value in self._clock.items()),
+            "",
+        ]
+        edit = edit_between(text, "\n".join([*blocks.before, *divided, *blocks.behind]) + "\n")
+        return edit if edit.results_in(self.content(content, self.value), text) else None
+
+    def _references(self, content: Mapping[str, Any]) -> Iterator[tuple[Any, tuple[str, int], str, list[str]]]:
+        """Tables that list the stream as that of a motion, with their names, keys and new lists."""
+        for name, key in _REFERENCES:
+            known = content.get(name, ())
+            for index, table in enumerate([known] if isinstance(known, Mapping) else known):
+                streams = table.get(key)
+                if isinstance(streams, list) and self.stream in streams:
+                    new = [motion_name(self.stream) if one == self.stream else one for one in streams]
+                    yield table, (name, index), key, new
+
+
+def _streams(content: Mapping[str, Any]) -> Sequence[Any]:
+    recording = content.get("recording")
+    return tables_of(recording, "stream") if isinstance(recording, dict) else ()

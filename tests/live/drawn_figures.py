@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figure of a live run, of random data."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from forcetorque.live.figure import live_figure
+from forcetorque.live.result import KeptSamples, LivePackets, LiveRun, LiveSensor
+
+
+def run_of(rng: np.random.Generator) -> LiveRun:
+    """Five sensors, the first with a long name, the second without a posterior; a silence, and samples that lack."""
+    names = ("_left $wrist$ " + "x" * 70, *(f"ft_{k}" for k in range(4)))
+    time = np.concatenate([0.01 * np.arange(1500), 20.0 + 0.01 * np.arange(1500)])
+    wrench = np.cumsum(rng.normal(0.0, np.repeat([0.1, 0.005], 3), (len(time), len(names), 6)), axis=0)
+    wrench[700:720] = np.nan
+    half_width = np.broadcast_to(np.repeat([0.5, 0.02], 3), wrench.shape).copy()
+    half_width[:, 1] = np.nan
+    return LiveRun(
+        duration_s=35.0,
+        ended_by="interrupt",
+        stamps="sender",
+        sensors=tuple(
+            LiveSensor(
+                sensor=name,
+                serial=f"FT{k}",
+                samples=len(time),
+                faulty=20,
+                not_finite=20,
+                saturated=0,
+                frozen=0,
+                repeated=0,
+                late=0,
+                device_errors=0,
+                refused=0,
+                in_contact=0,
+                wrench=None,
+                bias=None,
+                bias_half_width_95=None,
+                drift=None,
+                taring=False,
+            )
+            for k, name in enumerate(names)
+        ),
+        packets=LivePackets(
+            received=len(time),
+            lost=3,
+            repeated=0,
+            late=0,
+            backwards=0,
+            restarts=0,
+            unreadable=0,
+            oversized=0,
+            foreign=0,
+            silences=1,
+            longest_silence_s=5.0,
+            unsent=0,
+        ),
+        slowest_s=0.001,
+        kept=KeptSamples(time_s=time, wrench=wrench, half_width=half_width),
+    )
+
+
+def draw_live(rng: np.random.Generator) -> Figure:
+    """More sensors than are drawn."""
+    return live_figure(run_of(rng))
