@@ -205,7 +205,7 @@ def test_too_many_samples_are_refused_before_they_are_computed(
     assert "GB of memory" not in run("view", PARQUET, "--no-browser").err
     monkeypatch.setattr("forcetorque.viewer.command._LARGE_BYTES", 1)
     assert re.search(
-        r"\d+ samples are shown at once, in about \d\.\d GB of memory, of one", run("view", PARQUET, "--no-browser").err
+        r"\d+ samples are shown at once, in about 0\.3 GB of memory; where", run("view", PARQUET, "--no-browser").err
     )
 
 

@@ -330,6 +330,8 @@ class SketchedColumns:
     """Mean of its numbers; None for none."""
     step: float | None = None
     """Median step, in seconds of dates, where its first numbers rise as times do; else None."""
+    first_missing: int | None = None
+    """Row, from 0, of the first of its first numbers that is missing or not finite; None for none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -411,6 +413,7 @@ def sketched_numbers(name: str, values: FloatArray, *, rows: int, unit: str | No
         largest=float(finite.max()),
         mean=float(finite.mean()),
         step=median_step(values),
+        first_missing=next(iter(np.flatnonzero(~np.isfinite(values)).tolist()), None),
     )
 
 

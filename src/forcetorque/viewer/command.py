@@ -29,6 +29,7 @@ from forcetorque.results.terminal.output import (
 )
 
 if TYPE_CHECKING:
+    from forcetorque.experiment.experiment import Experiment
     from forcetorque.viewer.scene_builder import BuiltScene
 
 
@@ -94,14 +95,15 @@ def view(
     if output is not None:
         require_writer(output)
     calibrations = read_calibrations(files, sensor)
+    recorded = read_experiment(path, log, Purpose.DISPLAY)
     built = scene_of(
         path,
-        read_experiment(path, log, Purpose.DISPLAY),
+        recorded,
         calibrations,
         sensors=sensor,
         mesh_folders=mesh_dir,
         progress=log.info,
-        accept=partial(_accept, output, log),
+        accept=partial(_accept, output, log, recorded),
     )
     for note in built.scene.notes:
         log.info("%s", note)
@@ -122,23 +124,25 @@ def view(
         show(shown, output_format, details=details)
 
 
-_LEAST_BYTES, _SAMPLE_BYTES, _LARGE_BYTES = 900_000_000, 3_300, 1_200_000_000
-"""Memory of half an hour or more of a biped: of the log and of each sample, docs/measured.md; what is stated before it
-is taken."""
+_LEAST_BYTES, _SAMPLE_BYTES, _NUMBER_BYTES, _LARGE_BYTES = 250_000_000, 700, 60, 1_200_000_000
+"""Memory of a view, of each sample that is shown, and of each number in the log, as in docs/measured.md; and the
+memory from which it is stated before it is taken."""
 
 
-def _accept(output: Path | None, log: logging.Logger, samples: int) -> None:
+def _accept(output: Path | None, log: logging.Logger, experiment: Experiment, samples: int) -> None:
     """Refuse a page that would be too large, or say how much memory many samples take, before either costs any."""
     from forcetorque.viewer.view_file import require_room
 
     if output is not None:
         require_room(output, samples)
-    if (size := _LEAST_BYTES + samples * _SAMPLE_BYTES) > _LARGE_BYTES:
+    streams = experiment.recording.streams.values()
+    numbers = sum(len(one) * sum(len(signal.columns) for signal in one.signals.values()) for one in streams)
+    if (size := _LEAST_BYTES + samples * _SAMPLE_BYTES + numbers * _NUMBER_BYTES) > _LARGE_BYTES:
         log.warning(
-            "%d samples are shown at once, in about %.1f GB of memory, of one sensor nearly as much as of six; "
-            "where there is less, give a part of the log",
+            "%d samples are shown at once, in about %.1f GB of memory%s; where there is less, give a part of the log",
             samples,
             size * 1e-9,
+            ", of one sensor nearly as much as of all" if len(experiment.sensors) > 1 else "",
         )
 
 

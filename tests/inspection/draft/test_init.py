@@ -218,8 +218,22 @@ def test_times_that_come_twice_are_times(tmp_path: Path, kept: int, is_asked: bo
     draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
     asked = [one.question for one in draft.questions if one.key == "stamp"]
     assert [text[:46] for text in asked] == ["most times of time_s come twice or more, or on"] * is_asked
-    assert all('{ column = "time_s", unit = "s" } uses only rows whose time rises' in text for text in asked)
+    assert all('{ column = "time_s", unit = "s" } uses only rows that rise' in text for text in asked)
     assert "a load cell or a sensor of three axes" not in draft.content  # of a wrench nothing else is offered
+
+
+@pytest.mark.parametrize("lacking", ["nan", ""])
+def test_a_missing_time_is_named_by_its_row(tmp_path: Path, lacking: str) -> None:
+    """No stamp reads it: the row is to be deleted, and the question of the file without it is gone."""
+    first, *rows = log_text().splitlines()
+    texts = [[first, *rows[:5], lacking + rows[5][rows[5].index(",") :], *rows[6:]], [first, *rows[:5], *rows[6:]]]
+    asked = []
+    for lines in texts:
+        log = _written(tmp_path, "\n".join(lines) + "\n")
+        draft = draft_experiment([log], urdf=tmp_path / "robot.urdf")
+        asked.append([one.question for one in draft.questions if one.key == "stamp"])
+    assert [len(one) for one in asked] == [1, 0]
+    assert asked[0][0].startswith("row 6 has no time_s: delete rows without a time, then { column =")
 
 
 def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafted: str) -> None:
@@ -472,7 +486,7 @@ def _axes(text: str) -> str:
         (f"{_WRENCH},pressure [kPa]", {"wrench": "Fx [N]"}),
         (f"{_TAXELS},pressure [kPa]", {"taxel_counts": "left_taxel_0", "pressure": "pressure [kPa]"}),
         (",".join(f"taxel_{k} [N]" for k in range(12)), {}),
-        (",".join(f"cell_{k} [kPa]" for k in range(12)), {}),
+        (",".join(f"cell_{k}" for k in range(12)), {}),
         (",".join(f"taxel_{k} [counts]" for k in range(12)), {"taxel_counts": "taxel_0 [counts]"}),
         (f"{_TAXELS},{_TAXELS.replace('left', 'right')}", {"taxel_counts": "left_taxel_0"}),
     ],
@@ -520,7 +534,22 @@ def test_counts_of_taxels_are_a_patch(tmp_path: Path) -> None:
     (answer,) = resume_experiment(tmp_path / "skin.toml").answers()
     assert (answer.verdict, answer.command) == ("COMPLETE", f"inspect {tmp_path / 'skin.toml'}")
     assert [one.key for one in draft_of([]).questions] == ["name", "layout"]
-    assert "[[patch]]" not in draft_of([], "cell", 6).content
+    assert "[[patch]]" not in draft_of([], "taxel", 6).content
+
+
+def test_taxels_beside_a_sensor_ask_nothing(tmp_path: Path) -> None:
+    """Their patch is there to be taken up: with its lines uncommented it asks for name and layout."""
+    others = ",".join(f"taxel_{k}" for k in range(12))
+    rows = "\n".join(",".join([f"{k / 10}", *["240"] * 12, *map(str, range(k, k + 6))]) for k in range(30))
+    (tmp_path / "log.csv").write_text(f"time_s,{others},{_WRENCH}\n{rows}\n", encoding="utf-8")
+    draft = draft_experiment([tmp_path / "log.csv"])
+    assert "layout" not in [one.key for one in draft.questions]
+    content = tomllib.loads(draft.content)
+    assert [one["name"] for one in content["sensor"]] == ["ft_sensor"]
+    assert "patch" not in content
+    taken_up = re.sub(r"(?m)^# (?=\[\[patch|name = |counts = |layout = )", "", draft.content)
+    patch = tomllib.loads(taken_up)["patch"]
+    assert patch == [{"name": "?", "counts": "log", "layout": "?"}]
 
 
 def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:

@@ -45,9 +45,10 @@ _OF_COUNTS = (None, "counts")
 FORMS_OF_THREE = (OrientationForm.EULER, OrientationForm.ROTATION_VECTOR)
 """Forms that three numbers may have, which their headings do not tell apart for sure."""
 _ORDERS = (OrientationForm.QUAT_XYZW, OrientationForm.QUAT_WXYZ)
-_TAXELS = re.compile(r"(?:^|_)(?:taxels?|skin|cells?)$")
+_TAXELS = re.compile(r"(?:^|_)(?:taxels?|skin)$")
+"""Cells are none: they may be of a battery."""
 _FEWEST_TAXELS = 10
-"""Of a module of iCub's skin; fewer cells may be those of a force-torque sensor."""
+"""Of a module of iCub's skin."""
 _CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
 _MOTIONS = {
     "": "position",

@@ -459,7 +459,9 @@ def _written(
         lines += sensor_lines(sensor, own, on_robot=model is not None)
     for stream in log.streams:
         if stream.is_skin:
-            lines += _patch_lines(stream)
+            patch = _patch_lines(stream)
+            # what a sensor needs is no layout of a skin in the same log
+            lines += [f"# {one}" if sensors and one and one[0] != "#" else one for one in patch]
     extra: list[str] = []
     wrist = None if log.description is None or model is not None or not sensors else log.description.wrist
     if wrist is not None:

@@ -309,15 +309,14 @@ def _stamp_lines(sketch: LogSketch) -> list[str]:
     headings = _headings(sketch)
     place = time_column(headings, [column.step for column in sketch.columns])
     if place is None:
-        times = [heading for heading in headings if is_time_name(heading.name)]
+        times = [k for k, heading in enumerate(headings) if is_time_name(heading.name)]
         if times:
-            words = f"most times of {times[0].text} come twice or more, or one falls"
-            stated = {"column": times[0].text, "unit": times[0].unit or OPEN}
-            choice = (
-                f"{words}: {toml_value(stated)} uses only rows whose time rises; or the two lines below for rows at "
-                "even steps"
-            )
-            return [question("stamp", choice), *RATE_LINES]
+            heading, missing = headings[times[0]], sketch.columns[times[0]].first_missing
+            stated = toml_value({"column": heading.text, "unit": heading.unit or OPEN})
+            words = f"most times of {heading.text} come twice or more, or one falls: {stated} uses only rows that rise"
+            if missing is not None:
+                words = f"row {missing + 1} has no {heading.text}: delete rows without a time, then {stated}"
+            return [question("stamp", f"{words}; or the two lines below for rows at even steps"), *RATE_LINES]
         words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
         choice = (
             f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place; of known loads on a '
