@@ -115,7 +115,8 @@ def test_every_option_spans_six_axes(name: str) -> None:
 
 def test_without_the_lock_at_minus_90_the_rank_is_5_again() -> None:
     """Negative control: the same poses without those at the third lock; and a device without it refuses them."""
-    (poses,) = _options(35.0)["third lock"].still_poses()
+    (trajectory,) = _options(35.0)["third lock"].trajectories
+    poses = still_poses(trajectory)
     kept = poses.select(np.rad2deg(poses.position[:, -1]) > -1.0)
     assert 0 < len(kept.count) < len(poses.count)
     assert Span.of(kept.wrench("ft_1")).rank == 5

@@ -25,8 +25,7 @@ from forcetorque.formats.ros.wrench_message import read_wrench
 from forcetorque.live import outputs
 from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
-from forcetorque.live.mcap_output import mcap_file
-from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, parquet_file
+from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, mcap_file, parquet_file
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.result import LiveRun
 from forcetorque.live.run import LiveLoop

@@ -107,14 +107,6 @@ class ExcitationOption:
     trajectories: tuple[DeviceTrajectory, ...]
     """Motions, one for each load."""
 
-    def still_poses(self) -> list[Poses]:
-        """Compute static poses along all motions.
-
-        Returns:
-            The poses with each load.
-        """
-        return [still_poses(trajectory) for trajectory in self.trajectories]
-
     def sampled(self, samples: int) -> list[Poses]:
         """Divide samples evenly among the motions.
 

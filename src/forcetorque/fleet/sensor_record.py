@@ -111,11 +111,6 @@ class SensorRecord(StoredTable):
         """Day of the earliest stamp, UTC; 1970-01-01 where stamps count from the start of a recording."""
         return datetime.fromtimestamp(self.start_ns * 1e-9, UTC).date().isoformat()
 
-    @property
-    def duration_s(self) -> float:
-        """Time from the earliest to the latest stamp; s."""
-        return (self.end_ns - self.start_ns) * 1e-9
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AddOptions:

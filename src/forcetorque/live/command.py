@@ -213,13 +213,14 @@ def live(
     import signal
     import time
 
-    from forcetorque.live.mcap_output import McapOutput, mcap_file
     from forcetorque.live.outputs import (
         MCAP,
         CsvOutput,
         JsonLinesOutput,
+        McapOutput,
         UdpOutput,
         discard_standard_output,
+        mcap_file,
         parquet_file,
         refuse_other_names,
     )

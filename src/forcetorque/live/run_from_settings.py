@@ -17,10 +17,9 @@ from forcetorque.live.corrector import Corrector
 from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.lines_from_settings import OF_LINES, line_source, message_frames, one_corrector, require_gravity
 from forcetorque.live.net_ft import CountUnits, NetFtSource, fetch_units
-from forcetorque.live.replay import ReplayedGroup, ReplaySource, replayed_groups
 from forcetorque.live.ros_topics import RosSession, RosSource, require_topic
 from forcetorque.live.settings import Settings, by_sensor, corrector_options, numbers_of, refuse
-from forcetorque.live.sources import Source
+from forcetorque.live.sources import ReplayedGroup, ReplaySource, Source, replayed_groups
 from forcetorque.robot.urdf import read_urdf
 
 _OF_TOPICS = ("publish", "domain", "router", "robot", "joints", "base_gravity")

@@ -4,11 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only, require_shape
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import FormatError, RecordingError, SensorError
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import QUANTITIES, Signal
@@ -158,28 +157,6 @@ class SimulatedSensor(ArrayRecord):
             The bias; shape (6,); N, N m.
         """
         return -matrix @ np.linalg.solve(self.matrix, self.offset)
-
-    def with_gains(self, ratio: Any) -> SimulatedSensor:
-        """Change the gains of the amplifier; noise is taken to come after it.
-
-        Args:
-            ratio: New gain of every channel over the present one; shape (6,).
-
-        Returns:
-            The sensor with other gains: the same wrenches, other counts.
-        """
-        factor = read_only(ratio, name="ratio", shape=(6,))
-        drift, crosstalk = self.drift, self.crosstalk
-        if drift is not None:
-            drift = replace(
-                drift,
-                slope=factor * drift.slope,
-                gradient_slope=None if drift.gradient_slope is None else factor * drift.gradient_slope,
-                hysteresis_slope=None if drift.hysteresis_slope is None else factor * drift.hysteresis_slope,
-            )
-        if crosstalk is not None:
-            crosstalk = replace(crosstalk, quadratic=factor[:, None, None] * crosstalk.quadratic)
-        return replace(self, matrix=self.matrix / factor, drift=drift, crosstalk=crosstalk)
 
 
 def y_shaped_matrix(*, arm_m: float, counts_per_newton: float) -> FloatArray:

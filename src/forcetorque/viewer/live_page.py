@@ -23,12 +23,11 @@ from forcetorque.live.choices import HeldQuantity
 from forcetorque.live.corrector import Corrector
 from forcetorque.live.lines_from_settings import message_frames
 from forcetorque.live.recent_samples import RecentSamples, Samples
-from forcetorque.live.replay import ReplaySource
 from forcetorque.live.ros_topics import RosSource
 from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import status_text
 from forcetorque.live.settings import Settings
-from forcetorque.live.sources import Source
+from forcetorque.live.sources import ReplaySource, Source
 from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import Block

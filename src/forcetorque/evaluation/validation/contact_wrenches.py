@@ -12,7 +12,6 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError, known_names, require_known
 from forcetorque.base.noise.means import joined_times
-from forcetorque.base.pose import invert_pose
 from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -57,18 +56,6 @@ class EstimatedContactWrenches(ArrayRecord):
         """
         require_known(candidate, self.candidates, EstimationError, f"no candidate {candidate!r}")
         return self.at_sensor[self.candidates.index(candidate)]
-
-    def at_contact(self, candidate: str) -> FloatArray:
-        """Give the wrenches of one candidate as the estimator has them.
-
-        Args:
-            candidate: Its name.
-
-        Returns:
-            What the environment does to the robot, in and about the contact frame; shape (n, 6); N, N m.
-        """
-        in_direction = transform_wrench(invert_pose(self.sensor_H_contact), self.of(candidate))
-        return self.validation.direction * in_direction
 
 
 def estimate_contact_wrenches(
