@@ -15,7 +15,7 @@ from scipy.stats import chi2, f
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.frame_unit_and_clock_errors import _lag, hypotheses, unexplained
-from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.loads_with_intervals import load_estimates, solve
 from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
 from tests.payload.identification.payloads import (
     CENTRE,
@@ -228,6 +228,24 @@ def test_units_are_doubted_beyond_the_limits_of_the_page(gravity: float, centre_
     centre = centre_m * np.array([0.6, 0.0, -0.8])
     fitted = fit(problem_of(weight(down, centre=centre), down), drift=False)
     assert {row.name for row in hypotheses(fitted, drift=False)} == ({name} if name else set())
+
+
+@pytest.mark.parametrize(("centre_m", "noise_Nm", "limit_m"), [(0.6e-3, 6e-3, 1e-3), (2.08, 1.5, 2.0)])
+def test_units_are_not_doubted_where_the_interval_reaches_the_limit(
+    centre_m: float, noise_Nm: float, limit_m: float
+) -> None:
+    """A centre of mass that is estimated beyond a limit, and may be on its other side."""
+    rng = np.random.default_rng(6)
+    down = poses(COUNT, rng)
+    reading = weight(down, centre=centre_m * np.array([0.6, 0.0, -0.8]))
+    reading[:, 3:] += noise_Nm * rng.normal(size=(COUNT, 3))
+    fitted = fit(problem_of(reading, down), drift=False)
+    (load,) = load_estimates(fitted)
+    size, error = (float(np.linalg.norm(one)) for one in (load.centre_of_mass, load.centre_of_mass_half_width))
+    assert error < size
+    assert size - error < limit_m < size + error
+    assert (size < limit_m) == (centre_m < limit_m)
+    assert [row.name for row in hypotheses(fitted, drift=False)] == []
 
 
 @pytest.mark.parametrize(("turned", "names"), [(MOVING, ["frozen log"]), (RESTING, [])], ids=["moving", "resting"])
