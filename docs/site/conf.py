@@ -24,6 +24,7 @@ html_show_copyright = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_js_files = ["copy_buttons.js"]
+html_search_scorer = "pages_first.js"
 
 # as GitHub names the headings that links point to
 myst_heading_anchors = 4
