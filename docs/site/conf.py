@@ -4,6 +4,7 @@
 import builtins
 import re
 from importlib.metadata import version as version_of
+from pathlib import Path
 from typing import Any
 
 from docutils import nodes
@@ -24,6 +25,7 @@ html_show_copyright = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_js_files = ["copy_buttons.js"]
+html_search_scorer = str(Path(__file__).with_name("pages_first.js"))
 
 # as GitHub names the headings that links point to
 myst_heading_anchors = 4
