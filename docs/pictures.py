@@ -150,6 +150,7 @@ BEFORE = {
     "skin_contacts": "skin calibrate fit.toml -o shank.json",
     "cells": "skin calibrate plate.toml again.toml -o palm.json",
     "live": "fleet run fleet.toml --workers 1",
+    "fleet_over_time": "fleet run fleet.toml --workers 1",
 }
 """Commands that come first."""
 
