@@ -22,8 +22,9 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.formats.log_format import SketchedColumns
 from forcetorque.formats.signals import OrientationTable
-from forcetorque.inspection.draft.column_matches import column_matches, is_estimated
+from forcetorque.inspection.draft.column_matches import array_groups, column_matches, is_estimated
 from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows
 from forcetorque.inspection.draft.questions import answer_questions, resume_experiment
@@ -505,6 +506,13 @@ def test_columns_are_read_as_no_other_quantity(tmp_path: Path, others: str, expe
     (answer,) = draft.answers()
     left_out = "right_" in others or others.count("TCP_pose") > 3 or others.count("fx") > 1
     assert any("left out; other columns are its" in text for text in answer.why) == left_out
+
+
+def test_a_commanded_array_is_not_taken_where_a_measured_one_is() -> None:
+    """Whatever their order in the file; alone it is taken."""
+    arrays = [SketchedColumns(name=name, rows=9, columns=6) for name in ("cmd_wrench", "wrench")]
+    for names, place in ((arrays, 1), (arrays[::-1], 0), (arrays[:1], 0)):
+        assert [(one.quantity, one.columns) for one in array_groups(names, ())] == [("wrench", (place,))]
 
 
 def test_a_time_is_no_temperature() -> None:
