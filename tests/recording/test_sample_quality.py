@@ -134,7 +134,7 @@ def test_every_unusable_sample_is_counted_once() -> None:
     [
         np.arange(COUNT) % 3 == 2,  # every third message was lost and replaced
         np.arange(COUNT) % 2 == 1,  # a sensor of half the rate of its log
-        (np.arange(COUNT) > 1000) & (np.arange(COUNT) <= 1008),  # frozen for 80 ms
+        (np.arange(COUNT) // 10 % 20 == 3) & (np.arange(COUNT) % 10 > 1),  # frozen for 80 ms every 2 s
     ],
 )
 @pytest.mark.parametrize(("noise", "step"), [(1.5, 0.0), (3.0, 1.0), (40.0, 10.0)])
@@ -152,3 +152,14 @@ def test_a_load_at_rest_repeats_nothing(noise: float, step: float) -> None:
     """Equal readings of a log whose noise gives them by itself, or that has none, are measurements."""
     for rests in (False, True):
         assert not repeated_readings(STAMPS, _read(_motion(rests=rests), noise, step)).any()
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.1, 1.0])
+@pytest.mark.parametrize("noise", [0.1, 0.2, 0.3, 0.5, 0.7, 1.0])
+def test_a_quiet_sensor_repeats_nothing_where_its_counts_became_wrenches(noise: float, share: float) -> None:
+    """No channel shows the step of the converter, and many readings are equal; at rest, in small motions and in all."""
+    matrix = np.random.default_rng(2).normal(size=(6, 6)) / 25.0
+    for rests in (False, True):
+        counts = _read(share * _motion(rests=rests), noise, 1.0)
+        assert not repeated_readings(STAMPS, counts).any()
+        assert not repeated_readings(STAMPS, counts @ matrix.T).any()

@@ -26,8 +26,11 @@ grid, what a simulation computes of a motion."""
 _ON_GRID, _FINEST = 0.01, 1e-7
 """Part of a step by which changes of readings on a grid differ from whole steps; and the finest step of a converter,
 relative to the range, below which the grid is that of floating point."""
-_FAR_MORE = 100.0
-"""Equal readings, in those of chance, from which on the log repeats them: of a hundred one may be a measurement."""
+_FAR_MORE = 50.0
+"""Equal readings, in those of chance, or in the same change of another size, from which on the log repeats them: of
+fifty one may be a measurement."""
+_RECURS = 0.01
+"""Share of one change among all, from which on readings have steps."""
 _BESIDE = 2
 """Neighbours on either side of a sample, whose cubic follows a smooth motion and no noise."""
 _NEIGHBOURS = -56.0 / 36.0
@@ -228,7 +231,7 @@ def _log_chance_of_equal(stamps: IntArray, samples: FloatArray, changes: FloatAr
     step = smallest_steps(values)
     noise = np.sqrt(np.maximum(variance - _ROUNDING * step**2, 0.0))
     ranges = ranges_of(values)
-    of_converter = (step > _FINEST * ranges) & _are_on_grid(changes, step)
+    of_converter = _are_of_converter(changes, step, ranges)
     least = np.where(of_converter, _WRITTEN, _COMPUTED) * ranges
     noise[np.sqrt(variance) <= least] = 0.0
     # a reading that lies in the middle of a step stays there longest
@@ -260,6 +263,13 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
     samples = values[usable][first]
     changes = np.diff(samples, axis=0)
     changes = changes[np.isfinite(changes).all(axis=1)]
+    step, ranges = smallest_steps(values), ranges_of(values)
+    if not _are_of_converter(changes, step, ranges).all():
+        # wrenches of a converter's counts: their steps are not known, but small changes come again and again
+        whole = np.rint(changes / np.maximum(_FINEST * ranges, np.finfo(np.float64).tiny))
+        often = int(np.unique(whole, axis=0, return_counts=True)[1].max())
+        if often > _RECURS * len(changes) or count <= _FAR_MORE * often:
+            return marks
     chance = np.exp(_log_chance_of_equal(stamp_ns[usable][first], samples, changes, values))
     if count > _FAR_MORE * len(same) * chance:
         marks[usable[1:][same]] = True
@@ -322,6 +332,11 @@ def white_variance(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
     quietest = np.argsort(moved, axis=0)[: -(-parts // _QUIETEST)]
     usual: FloatArray = np.median(np.take_along_axis(means, quietest, axis=0), axis=0) / _NEIGHBOURS
     return np.maximum(usual, 0.0)
+
+
+def _are_of_converter(changes: FloatArray, step: FloatArray, ranges: FloatArray) -> BoolArray:
+    """Whether the readings of every channel are on a grid that is not that of floating point; shape (c,)."""
+    return (step > _FINEST * ranges) & _are_on_grid(changes, step)
 
 
 def _are_on_grid(changes: FloatArray, step: FloatArray) -> BoolArray:
