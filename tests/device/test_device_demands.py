@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from forcetorque.device.description import device_load
 
 from forcetorque.base.errors import RobotError
+from forcetorque.device.components import device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
