@@ -209,7 +209,8 @@ def _residual(
 
 def _mean_variance(data: DataSet, error: FloatArray, window: IntArray) -> FloatArray:
     """Variance of the mean of every window by how its parts scatter, the middle one of three; shape (n, 6)."""
-    part = np.floor((data.time_s - data.time_s[0]) / (WINDOW_S / _PARTS) + 1e-9).astype(np.int64)
+    origin_s = data.time_s[0] if data.origin_s is None else data.origin_s
+    part = np.floor((data.time_s - origin_s) / (WINDOW_S / _PARTS) + 1e-9).astype(np.int64)
     starts = np.flatnonzero(np.diff(part, prepend=-1))
     means = np.add.reduceat(error, starts, axis=0) / np.diff(starts, append=len(part))[:, None]
     of_part = window[starts]
