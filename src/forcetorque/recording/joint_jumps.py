@@ -30,6 +30,8 @@ _SPIKE = 5
 """Samples that a reading may be elsewhere and count as wrong rows, which are left out."""
 _BESIDE = round(GAP_PERIODS) // 2 + 1
 """Samples on either side of a lasting jump that are left out: no filter of derivatives reaches across such a gap."""
+MOST_LEFT_OUT = max(_SPIKE, 2 * _BESIDE)
+"""Samples in a row that are left out for one jump at most."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
