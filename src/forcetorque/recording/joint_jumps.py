@@ -86,19 +86,15 @@ class _Joint:
         # a reading that is held moves by what it missed
         seconds = np.diff(stamps[changes + 1], prepend=stamps[0]) * 1e-9
         far = np.flatnonzero(np.abs(steps[changes]) > _JUMP)
-        usual = np.array([_median_beside(steps[changes] / seconds, k) for k in far.tolist()])
+        usual, scatter = _movement_beside(steps[changes], seconds, far)
         beside = steps[changes[far]] - usual * seconds[far]
-        scatter = [
-            _median_beside(np.abs(steps[changes] - speed * seconds), k)
-            for k, speed in zip(far.tolist(), usual.tolist(), strict=True)
-        ]
         size = np.abs(beside)
         is_angle = signal.units[column] == "rad"
         turns = is_angle & (np.abs(_beside_turns(beside)) < _OF_TURN) & (size > np.pi)
         # a joint whose reading stops may change its speed meanwhile
         possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * seconds[far]
         jumps = (
-            (size > np.maximum(_JUMP, _STEPS * np.array(scatter)))
+            (size > np.maximum(_JUMP, _STEPS * scatter))
             & ((size > possible) | turns)
             & (periods[changes[far]] <= gap_limit_ns(stamps))
         )
@@ -123,11 +119,16 @@ class _Joint:
         return fixed
 
 
-def _median_beside(values: FloatArray, k: int) -> float:
-    """Median of the values about one of them, without it; 0 where a reading rests but for a few."""
-    if len(values) <= 2 * _AROUND:
-        return 0.0
-    return float(np.median(np.r_[values[max(k - _AROUND, 0) : k], values[k + 1 : k + _AROUND + 1]]))
+def _movement_beside(steps: FloatArray, seconds: FloatArray, far: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Median speed of the changes about some, and of what they scatter about it; 0 of a reading that hardly changes."""
+    if len(steps) <= 2 * _AROUND:
+        return np.zeros(len(far)), np.zeros(len(far))
+    beside = far[:, None] + np.r_[-_AROUND:0, 1 : _AROUND + 1]
+    inside = (beside >= 0) & (beside < len(steps))
+    beside = np.clip(beside, 0, len(steps) - 1)
+    usual = np.nanmedian(np.where(inside, steps[beside] / seconds[beside], np.nan), axis=1)
+    left = np.abs(steps[beside] - usual[:, None] * seconds[beside])
+    return usual, np.nanmedian(np.where(inside, left, np.nan), axis=1)
 
 
 def _beside_turns(angles: FloatArray) -> FloatArray:
