@@ -18,6 +18,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.kept_parts import parts_kept
 from forcetorque.formats.log_format import LoggedRobot, LogSketch, not_read_message
 from forcetorque.inspection.draft.bench import bench_lines, bench_table, is_bench
+from forcetorque.inspection.draft.column_matches import is_estimated, is_measured
 from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals import (
@@ -135,7 +136,7 @@ class Draft(Result):
     thermometers: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """What to do with tables of a temperature alone, where no sensor was found."""
     left_out: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
-    """Notes about streams and columns that are left out, as others are of their quantity."""
+    """Notes about streams and columns that are left out for others of their quantity, or read for want of others."""
     robot_file: str | None = None
     """URDF that was written from the log's own description; None for none."""
     sensor_files: tuple[str, ...] = ()
@@ -545,7 +546,7 @@ def _about_thermometers(log: DraftedLog) -> Iterator[str]:
 
 
 def _about_repeated(log: DraftedLog) -> Iterator[str]:
-    """Columns that are not read, for others are read as the same quantity."""
+    """Columns that are not read, for others are read as the same quantity, and those read for want of others."""
     for stream in log.streams:
         for group in stream.repeated:
             names = [] if stream.table is None else [stream.table.columns[k].name for k in group.columns]
@@ -553,6 +554,13 @@ def _about_repeated(log: DraftedLog) -> Iterator[str]:
             if group.quantity in stream.quantities:
                 why = f"other columns are its {group.words or group.quantity}"
             yield f"{stream.name}: {listed(names, 3)} left out; {why}"
+        for group in stream.groups:
+            names = [] if stream.table is None else [stream.table.columns[k].name for k in group.columns]
+            if not all(is_measured(name) or is_estimated(name) for name in names):
+                yield (
+                    f"{stream.name}: {listed(names, 3)} are its {group.words or group.quantity}, commanded by their "
+                    "names; no measured columns were found: delete the signal unless it is measured"
+                )
         place, on_it = second_clock(stream)
         if on_it and stream.table is not None:
             yield (
