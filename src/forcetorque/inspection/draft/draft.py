@@ -100,6 +100,8 @@ class ProposalRow(Row):
     """The same with the change; N."""
 
 
+LEFT_OUT = "# log left out: "
+"""Begins the comment for a log that a file was begun with and does not read."""
 _SHOWN_LEFT_OUT = 4
 """Notes about what is left out that the answer has; --details has all."""
 _NO_SENSOR = (
@@ -450,6 +452,9 @@ def _written(
     notes.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
+    if len(log.paths) > 1:  # which only tables are
+        read = {stream.table.path for stream in log.streams if stream.table is not None}
+        lines += [f"{LEFT_OUT}{toml_value(relative_path(path, folder))}" for path in log.paths if path not in read]
     if robot is not None:
         lines += ["", "[robot]", robot]
     if model is not None:
