@@ -229,6 +229,22 @@ def test_a_thermometer_alone_names_the_file_that_it_belongs_to(tmp_path: Path) -
     assert [one.source.stream for one in loaded.variables] == ["thermometer"]
 
 
+@pytest.mark.parametrize("robot", [False, True])
+def test_a_thermometer_beside_a_pose_or_a_robot_is_a_variable_as_comments(tmp_path: Path, robot: bool) -> None:
+    """As they stand no sensor uses it, which the answer says; without the comment signs the sensor does."""
+    table = _thermometer(tmp_path)
+    rows = (f"{k:.1f},0,0,{k % 7},0,0,0,0,0,0,1\n" for k in range(300))
+    sensor = _csv(tmp_path / "sensor.csv", "time_s,fx,fy,fz,tx,ty,tz,qx,qy,qz,qw\n", rows)
+    draft = draft_experiment([table, sensor], tmp_path / "both.toml", urdf=FOLDER / "robot.urdf" if robot else None)
+    (answer,) = draft.answers()
+    assert any("thermometer: no sensor uses the temperature" in text for text in answer.why)
+    (without,) = tomllib.loads(draft.content)["sensor"]
+    assert "variable" not in without
+    taken = re.sub(r"^# (\[\[sensor.variable|name = .temperature|stream = .therm)", r"\1", draft.content, flags=re.M)
+    (with_it,) = tomllib.loads(taken)["sensor"]
+    assert with_it == {**without, "variable": [{"name": "temperature", "stream": "thermometer"}]}
+
+
 def test_a_second_column_of_times_has_its_clock_as_comments(tmp_path: Path) -> None:
     """As they stand nothing is moved; without the comment signs the pose is brought from its clock to the first."""
     log = _csv(

@@ -323,7 +323,11 @@ def draft_experiment(
     text, notes, drafted = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
     if kept is not None:
         notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
-    left_out = (*_about_others(found, chosen, asked=bool(sensors)), *_about_repeated(log))
+    left_out = (
+        *_about_others(found, chosen, asked=bool(sensors)),
+        *_about_repeated(log),
+        *(_about_temperature(log, model) if found else ()),
+    )
     notes = (
         *left_out,
         *_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model),
@@ -463,6 +467,7 @@ def _written(
     for sensor in sensors:
         own = prior_lines(sensor, sensors, priors, folder, on_robot=model is not None)
         lines += sensor_lines(sensor, own, on_robot=model is not None)
+        lines += _variable_lines(sensor, log, is_alone=model is None and _is_of_sensor_alone(log))
     for stream in log.streams:
         if stream.is_skin:
             patch = _patch_lines(stream)
@@ -655,17 +660,43 @@ def _imus(log: DraftedLog) -> list[str]:
     return [stream.name for stream in log.streams if set(INERTIAL) <= set(stream.quantities)]
 
 
+def _is_of_sensor_alone(log: DraftedLog) -> bool:
+    """Whether nothing is logged but one sensor and its thermometer."""
+    return all(stream.is_sensor_alone or stream.is_temperature_only for stream in log.streams)
+
+
+def _warm_streams(log: DraftedLog) -> list[str]:
+    return [stream.name for stream in log.streams if "temperature" in stream.quantities]
+
+
+def _variable_lines(sensor: DraftedSensor, log: DraftedLog, *, is_alone: bool) -> list[str]:
+    """The temperature as a variable of the sensor; as comments where it may be that of something else."""
+    warm = _warm_streams(log)
+    if not warm:
+        return []
+    others = f"or {listed(warm[1:])}" if warm[1:] else ""
+    elsewhere = [] if sensor.stream in warm else [line("stream", warm[0], others)]
+    lines = ["[[sensor.variable]]", line("name", "temperature"), *elsewhere]
+    return ["", *(lines if is_alone else [f"# {text}" for text in lines])]
+
+
+def _about_temperature(log: DraftedLog, model: RobotModel | None) -> Iterator[str]:
+    """A temperature that is read, and used by no sensor yet."""
+    warm = _warm_streams(log)
+    if warm and (model is not None or not _is_of_sensor_alone(log)):
+        yield (
+            f"{listed(warm)}: no sensor uses the temperature; if it is that of a sensor take the [[sensor.variable]] "
+            "that the file has as comments"
+        )
+
+
 def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]:
     """The `[load]` table of a wrist sensor whose pose is logged."""
     if not sensors:
         return []
-    if all(stream.is_sensor_alone or stream.is_temperature_only for stream in log.streams):
+    if _is_of_sensor_alone(log):
         words = "no column says how the sensor is held: inspect it, or `forcetorque bench` thermal or response"
-        warm = [stream.name for stream in log.streams if "temperature" in stream.quantities]
-        own = sensors[0].stream in warm
-        elsewhere = [] if own or not warm else [line("stream", warm[0])]
-        variable = ["", "[[sensor.variable]]", line("name", "temperature"), *elsewhere] if warm else []
-        return [*variable, "", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
+        return ["", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
     poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
     # of tables the frame is asked, and has to be that of the sensor; other logs have their own
