@@ -267,6 +267,37 @@ def test_a_second_column_of_times_has_its_clock_as_comments(tmp_path: Path) -> N
     assert (clock["delay_s"], clock["around_s"]) == ("estimate", 90.0)
 
 
+@pytest.mark.parametrize(
+    ("columns", "named"),
+    [
+        ("t,q,ft_time,w", "[wrench] stream of [[sensor]] then names log_ft_time"),
+        ("t,w,t_pose,q", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,w,t_receive,t_pose,q", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,t_receive,w,t_pose,q", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,w,q,t_pose", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,c,ft_time,w,q", "[wrench, orientation] stream of [[sensor]] and motion of [load] then name log_ft_time"),
+        ("t,t_receive,w,q", ""),
+        ("t,w,t_robot,j", "[position] "),
+        ("t,j,ft_time,w", "[wrench] stream of [[sensor]] then names log_ft_time"),
+    ],
+)
+def test_a_second_column_of_times_names_who_reads_the_new_stream(tmp_path: Path, columns: str, named: str) -> None:
+    """That of the groups behind the last such column, also where the sensor is behind it, and on a robot."""
+    joints = [name for name in ROWS[0] if name.endswith("_rad")]
+    groups = {"w": "fx,fy,fz,tx,ty,tz", "q": "qx,qy,qz,qw", "j": ",".join(joints), "c": "temp_degC"}
+    headings = [name for one in columns.split(",") for name in groups.get(one, one).split(",")]
+    assert joints
+    rows = (
+        ",".join(f"{k + (n if name.startswith('t_') else 0.1)}" for n, name in enumerate(headings)) for k in range(9)
+    )
+    log = _csv(tmp_path / "log.csv", ",".join(headings) + "\n", (f"{row}\n" for row in rows))
+    text = draft_experiment([log], urdf=FOLDER / "robot.urdf" if "j" in columns.split(",") else None).content
+    words = re.findall(r"take these lines(?:; (.*))?$", text, flags=re.MULTILINE)
+    behind = text.partition("take these lines")[2]
+    moved = ", ".join(re.findall(r'^quantity = "(\w+)"', behind, flags=re.MULTILINE))
+    assert [f"[{moved}] {one}" for one in words] == ([named] if named else [])
+
+
 def _drafted_streams(text: str) -> list[str]:
     return [one["name"] for one in tomllib.loads(text)["recording"]["stream"]]
 
