@@ -302,11 +302,12 @@ def _drafted_streams(text: str) -> list[str]:
     return [one["name"] for one in tomllib.loads(text)["recording"]["stream"]]
 
 
-@pytest.mark.parametrize("pose", ["joints", "orientation"])
+@pytest.mark.parametrize("pose", ["joints", "orientation", "orientation beside a variable"])
 @pytest.mark.parametrize("late", [0, 3])
 def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pose: str, late: int) -> None:
     """Of an arm and a wrist with the wrench three samples late; what is proposed leaves none, no delay gets it."""
     text = _late_arm(tmp_path, late) if pose == "joints" else _late_wrist(tmp_path, late)
+    text = _with_supply(tmp_path / "log.csv", text) if "variable" in pose else text
     file = tmp_path / "experiment.toml"
     file.write_text(text, encoding="utf-8")
     delays = [one for one in proposals(file) if one.kind == "delay"]
@@ -321,13 +322,22 @@ def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pos
     (clock,) = content["clock"]
     assert (clock["stream"], clock["to"]) == ("log", "log_motion")
     assert clock["delay_s"] == pytest.approx(0.04 * late, abs=0.005)
-    if pose == "orientation":
+    if pose != "joints":
         assert content["load"]["motion"] == ["log_motion"]
     comments = [line for line in text.splitlines() if "#" in line]
     assert comments
     assert set(comments) <= set(changed.splitlines())
     file.write_text(changed, encoding="utf-8")
     assert not [one for one in proposals(file) if one.kind == "delay"]
+
+
+def _with_supply(log: Path, text: str) -> str:
+    """A supply in V as a variable of the sensor, in the same table."""
+    first, *rows = log.read_text(encoding="utf-8").splitlines()
+    _csv(log, f"{first},supply\n", (f"{row},{5.0 + 0.1 * np.sin(0.02 * k):.4f}\n" for k, row in enumerate(rows)))
+    signal = '[[recording.stream.signal]]\nquantity = "scalar"\ncolumns = ["supply"]\nunits = ["V"]\n\n'
+    variable = '[[sensor.variable]]\nname = "supply"\nquantity = "scalar"\n\n'
+    return text.replace("[[sensor]]", f"{signal}[[sensor]]").replace("[load]", f"{variable}[load]")
 
 
 def _late_arm(folder: Path, late: int) -> str:
