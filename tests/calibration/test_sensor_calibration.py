@@ -14,6 +14,7 @@ from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import load_experiment as interactive_experiment
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, calibrate_sensor, data_doubts
+from forcetorque.experiment import additions
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -21,7 +22,6 @@ from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, wri
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording
-from forcetorque.robot import motion
 from tests.app.python.arrays import arrays_of
 from tests.results.showing import require_shown
 from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
@@ -159,6 +159,6 @@ def test_joints_that_jump_leave_the_calibration_as_it_is(arm: Path, monkeypatch:
     assert change < 0.1 * 0.05
     assert 0 < broken.provenance.dropped <= 24
     # negative control: derivatives across jumps are those of no robot
-    monkeypatch.setattr(motion, "joint_jumps", lambda *_: np.empty(0, dtype=np.int64))
+    monkeypatch.setattr(additions, "without_joint_jumps", lambda stream, _: (stream, ()))
     with pytest.raises(FitError, match="times as much as the reference, which no sensor does"):
         calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")

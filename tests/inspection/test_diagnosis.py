@@ -16,6 +16,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison import Comparison, compared
 from forcetorque.inspection.diagnosis import Diagnosis, diagnosed, fault_finding, reversed_sensors
 from forcetorque.inspection.findings import inspect_experiment
+from forcetorque.recording.joint_jumps import without_joint_jumps
 from forcetorque.recording.recording import Finding
 
 SEED, LIMB, SECONDS = 31, "arm_ft", 40.0
@@ -116,11 +117,10 @@ def test_a_joint_that_jumps_has_no_zero_to_add(clean: Experiment, first: int) ->
     position = joints.signal("position")
     values = np.array(position.values)
     values[first:, position.columns.index("shoulder_pitch")] += 1.0
-    streams = {
-        **clean.recording.streams,
-        "joints": replace(joints, signals={**joints.signals, "position": replace(position, values=values)}),
-    }
-    experiment = replace(clean, recording=replace(clean.recording, streams=streams))
+    logged = replace(joints, signals={**joints.signals, "position": replace(position, values=values)})
+    read, findings = without_joint_jumps(logged, clean.recording.start_ns)  # as where a file is read
+    recording = replace(clean.recording, streams={**clean.recording.streams, "joints": read}, findings=findings)
+    experiment = replace(clean, recording=recording)
     finding = fault_finding(*_diagnosed(experiment))
     assert (finding.kind, finding.channel) == ("joint_offset", "shoulder_pitch")
     assert ("add it to the column of 'shoulder_pitch'" in finding.message) == (first == 0)

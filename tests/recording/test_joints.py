@@ -7,15 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import pytest
 
 from forcetorque.base.errors import RecordingError
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.shared_filters import SharedFilters
-from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, FilteredColumns, SavitzkyGolay
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, SavitzkyGolay
 from forcetorque.recording.stream import ROW_CLOCK, Stream
-from forcetorque.robot.motion import LoggedJoints, joint_motion_at
+from forcetorque.robot.motion import joint_motion_at
 from tests.recording.recordings import EPOCH_NS, even_stamps, jittered_stamps, recording, refused, signal, stream
 
 WINDOW = SavitzkyGolay(window_s=0.2, order=2)
@@ -142,24 +140,3 @@ def test_no_joints_have_no_motion() -> None:
         recording(stream([1, 2], signal("raw", np.zeros((2, 6))))), (), even_stamps(7), window=WINDOW
     )
     assert motion.position.shape == (7, 0)
-
-
-@pytest.mark.parametrize("filters", [None, SharedFilters()])
-def test_derivatives_are_not_taken_across_jumps(filters: SharedFilters | None) -> None:
-    """A lost turn and a wrong row of the knee: its derivatives stay, but for instants between and at such rows."""
-    legs = _moving("legs", even_stamps(500, rate_hz=100.0), ("hip", "knee"))
-    values = np.array(legs.signal("position").values)
-    values[200:, 1] += 2.0 * np.pi
-    values[350, 1] -= 0.8
-    jumping = recording(stream(legs.stamp_ns, signal("position", values, ("hip", "knee")), name="legs"))
-    at = np.sort(np.r_[legs.stamp_ns[50:450], legs.stamp_ns[50:450] + 5_000_000])
-    motion = LoggedJoints(jumping, ("hip", "knee"), window=WINDOW, filters=filters).at(at)
-    row = (at - legs.stamp_ns[0]) / 1e7
-    lost = (row == 199.5) | (np.abs(row - 350.0) < 1.0)
-    np.testing.assert_array_equal(np.isnan(motion.acceleration), np.column_stack([np.zeros_like(lost), lost]))
-    np.testing.assert_array_equal(np.isnan(motion.velocity), np.isnan(motion.acceleration))
-    np.testing.assert_allclose(motion.velocity[~lost, 1], SLOPES["knee"], rtol=0.0, atol=VELOCITY)
-    np.testing.assert_allclose(motion.acceleration[~lost], 0.0, atol=ACCELERATION)
-    # negative control: the filter alone takes the turn for a movement
-    across = FilteredColumns(legs.stamp_ns, values, WINDOW, derivatives=(1,)).at(np.array([200]))[0]
-    assert abs(across[0, 1] - SLOPES["knee"]) > 10.0

@@ -18,6 +18,7 @@ from forcetorque.experiment import file as schema
 from forcetorque.experiment.clocks import aligned_clocks
 from forcetorque.experiment.core_tables import PoseTable, TransformTable
 from forcetorque.experiment.input_files import stated_in
+from forcetorque.recording.joint_jumps import without_joint_jumps
 from forcetorque.recording.orientation import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.recording.stream_faults import glitched_values
@@ -51,7 +52,8 @@ def follow_recipes(
     """
     fixed = {} if parsed.robot is None else parsed.robot.fixed
     _require_not_logged(fixed, file, logged)
-    recording = aligned_clocks(parsed, file, logged, model, must_tell=clocks_must_tell)
+    recording = _without_joint_jumps(logged)
+    recording = aligned_clocks(parsed, file, recording, model, must_tell=clocks_must_tell)
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)
@@ -89,6 +91,17 @@ def _corrected(parsed: schema.ExperimentFile) -> Sequence[Finding]:
     return (Finding(stream=parsed.name, kind="corrected_robot", message=text, count=1),)
 
 
+def _without_joint_jumps(logged: Recording) -> Recording:
+    repaired = {
+        name: without_joint_jumps(stream, logged.start_ns) for name, stream in logged.streams.items() if len(stream)
+    }
+    found = [finding for _, findings in repaired.values() for finding in findings]
+    if not found:
+        return logged
+    streams = {**logged.streams, **{name: stream for name, (stream, _) in repaired.items()}}
+    return replace(logged, streams=streams, findings=(*logged.findings, *found))
+
+
 def _kept(parsed: schema.ExperimentFile) -> Sequence[Finding]:
     if not parsed.processing.keep:
         return ()
@@ -118,9 +131,8 @@ def _without_glitches(parsed: schema.ExperimentFile, recording: Recording) -> Re
         message = (
             f"{signal.columns[place]} ({signal.units[place]}): left out {counted(len(rows), 'value')} of {len(values)} "
             f"that {'is' if len(rows) == 1 else 'are'} nowhere near the others: "
-            f"{', '.join(f'{value:.4g}' for value in np.unique(values[rows])[:3])}; the others lie from "
-            f"{kept.min():.4g} to {kept.max():.4g}"
-        )
+            f"{', '.join(f'{value:.4g}' for value in np.unique(values[rows])[:3])}"
+        ) + (f"; the others lie from {kept.min():.4g} to {kept.max():.4g}" if len(kept) else "")
         finding = Finding(
             stream=name,
             kind="glitch",

@@ -10,7 +10,6 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.inspection.comparison import Comparison
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
-from forcetorque.recording.joint_jumps import joint_jump_findings
 
 
 def fault_size(one: Explanation) -> tuple[float | None, str | None]:
@@ -74,10 +73,9 @@ def fault_text(comparison: Comparison, one: Explanation) -> str:
 def _jumps(comparison: Comparison, joint: str) -> bool:
     """Whether compared samples lie on both sides of a jump of a joint, so that no one zero is right for all."""
     recording, at_ns = comparison.run.experiment.recording, comparison.at_ns
-    stream, signal = recording.joint_signals("position")[joint]
     return any(
         len(np.unique((at_ns >= jump.start_ns) & (at_ns <= jump.end_ns))) == 2
-        for jump in joint_jump_findings(stream, signal, recording.start_ns)
+        for jump in recording.findings
         if jump.kind == "joint_jump" and jump.channel == joint and jump.start_ns is not None and jump.end_ns is not None
     )
 

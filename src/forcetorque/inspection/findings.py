@@ -25,6 +25,7 @@ from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
+from forcetorque.recording.joint_jumps import JUMPS, MOST_LEFT_OUT, are_ignored
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
@@ -45,9 +46,19 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
         Findings of its readers and of single streams; of patches that share their messages, one for all of them.
     """
     ignored = [(one.start_ns, one.end_ns) for one in recording.intervals if one.use is Use.IGNORE]
+    with_jumps = {one.stream for one in recording.findings if one.kind in JUMPS}
+
+    def is_of_jump(one: Finding) -> bool:
+        of_joints = one.kind == "missing" and one.channel == "position" and one.stream in with_jumps
+        return of_joints and one.count <= MOST_LEFT_OUT
+
     found = (
-        *recording.findings,
-        *(f for one in recording.streams.values() for f in stream_findings(one, recording.start_ns, ignored)),
+        *(
+            one
+            for one in recording.findings
+            if not (one.kind in JUMPS and are_ignored(recording.stream(one.stream).stamp_ns, one, ignored))
+        ),
+        *(found for one in recording.streams.values() for found in stream_findings(one) if not is_of_jump(found)),
     )
     messages = {
         name: (stream.clock, stream.stamp_ns.tobytes())

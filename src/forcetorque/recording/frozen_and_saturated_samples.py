@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Self
 
@@ -29,6 +29,8 @@ relative to the range, below which the grid is that of floating point."""
 _FAR_MORE = 50.0
 """Equal readings, in those of chance, or in the same change of another size, from which on the log repeats them: of
 fifty one may be a measurement."""
+_LONGEST_NS = 150_000_000
+"""Time that a reading repeats; one that stays for longer may be of a load that rests."""
 _RECURS = 0.01
 """Share of one change among all, from which on readings have steps."""
 _BESIDE = 2
@@ -272,8 +274,20 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
             return marks
     chance = np.exp(_log_chance_of_equal(stamp_ns[usable][first], samples, changes, values))
     if count > _FAR_MORE * len(same) * chance:
-        marks[usable[1:][same]] = True
+        for start, end in _noisy_at_ends(stamp_ns[usable], values[usable], same):
+            marks[usable[start + 1 : end + 1]] = True
     return marks
+
+
+def _noisy_at_ends(stamps: IntArray, samples: FloatArray, same: BoolArray) -> Iterator[Run]:
+    """Short runs of equal readings that most channels enter and leave by a change; a load at rest does not."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
+    for start, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if stamps[end] - stamps[start] > _LONGEST_NS:
+            continue
+        beside = [k for k in (start - 1, end) if 0 <= k < len(same)]
+        if all(np.count_nonzero(samples[k + 1] != samples[k]) >= 0.5 * samples.shape[1] for k in beside):
+            yield start, end
 
 
 def smallest_steps(values: FloatArray) -> FloatArray:

@@ -4,129 +4,39 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from math import ceil, floor
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.recording.alignment import gap_limit_ns, usable_samples
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.recording.alignment import GAP_PERIODS, gap_limit_ns, usable_samples
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import Signal, Stream
+from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
 
+JUMPS = ("joint_spike", "joint_jump")
+"""Kinds of findings of joints that jump."""
 _JUMP, _SPEED, _STEPS, _AROUND = 0.1, 15.0, 10.0, 5
-"""Joints jump from one sample to the next by over 0.1 rad (0.1 m), faster than 15 rad/s (15 m/s), and by ten times the
-median of the five steps on either side, of a reading that is held those at which it changes."""
-_TURN = 2.0 * np.pi
-_OF_TURN, _BACK = 0.05, 0.25
-"""Part of a jump by which it may differ from whole turns, or a jump back from it: the joint moves meanwhile."""
+"""Joints jump from one sample to the next by over 0.1 rad (0.1 m) beside their usual movement, faster than 15 rad/s
+(15 m/s) unless by whole turns, and by ten times the median of what the five changes on either side differ from it."""
+_TURN, _OF_TURN = 2.0 * np.pi, 0.3
+"""A turn, and how far a jump may be from whole ones; rad."""
+_BACK = 0.25
+"""Part of a jump by which one back from it may differ: the joint moves meanwhile."""
 _LOOKED_AT = 1000
 """Jumps after one that may lead back from it."""
 _SPIKE = 5
-"""Samples that a reading may be elsewhere and count as a spike, which no filter of derivatives uses."""
-
-
-def joint_jumps(stream: Stream, signal: Signal, column: int) -> IntArray:
-    """Find where a joint moves from one sample to the next faster than any robot does; not across gaps.
-
-    Args:
-        stream: The stream.
-        signal: Its positions.
-        column: Column of the joint.
-
-    Returns:
-        Rows that it jumps to; shape (k,).
-    """
-    rows = usable_samples(stream.stamp_ns)
-    if len(rows) <= 2 * _AROUND:
-        return np.empty(0, dtype=np.int64)
-    steps = np.abs(np.diff(signal.values[rows, column]))
-    far = np.flatnonzero(steps > _JUMP)
-    if not len(far):
-        return np.empty(0, dtype=np.int64)
-    periods = np.diff(stream.stamp_ns[rows])
-    seconds = np.maximum(periods[far], np.median(periods)) * 1e-9
-    far = far[(steps[far] > _SPEED * seconds) & (periods[far] <= gap_limit_ns(stream.stamp_ns[rows]))]
-    changes = np.flatnonzero(steps != 0.0)
-    jumps = [
-        changes[k]
-        for k in np.searchsorted(changes, far).tolist()
-        if steps[changes[k]] > _STEPS * _usual_step(steps[changes], k)
-    ]
-    return rows[np.array(jumps, dtype=np.int64) + 1]
-
-
-def _usual_step(changes: FloatArray, k: int) -> float:
-    """Median of the changes about one of them; where a reading rests but for a few, that of rest."""
-    if len(changes) <= 2 * _AROUND:
-        return 0.0
-    return float(np.nanmedian(changes[max(k - _AROUND, 0) : k + _AROUND + 1]))
-
-
-def joint_jump_findings(
-    stream: Stream, signal: Signal, start_ns: int, ignored_ns: Sequence[tuple[int, int]] = ()
-) -> list[Finding]:
-    """Say which joints jump, and what of their readings cannot be used.
-
-    Args:
-        stream: The stream.
-        signal: Its positions.
-        start_ns: Start of the recording, from which instants are stated; ns.
-        ignored_ns: First and last instant of spans that are left out of every use; ns.
-
-    Returns:
-        One `joint_spike` per joint for whole turns and readings that are elsewhere for a few samples, which cost no
-        more than these; a `joint_jump` for every time in which the joint seems to be elsewhere for longer. None for
-        what is ignored.
-    """
-    findings = []
-    rows = usable_samples(stream.stamp_ns)
-    for column, (name, unit) in enumerate(zip(signal.columns, signal.units, strict=True)):
-        places = np.searchsorted(rows, joint_jumps(stream, signal, column))
-        if not len(places):
-            continue
-        stamps, values = stream.stamp_ns[rows], signal.values[rows, column]
-        found = [
-            one
-            for one in _excursions(values[places] - values[places - 1], places, len(rows), is_angle=unit == "rad")
-            if not one.is_ignored(stamps, ignored_ns)
-        ]
-        finding = partial(Finding, stream=stream.name, channel=name, unit=unit)
-        brief = [one for one in found if one.is_brief]
-        if brief:
-            size = max(one.size for one in brief)
-            turns = all(one.begin == one.end for one in brief)
-            way = "jumps by a whole turn" if turns else "jumps and comes back, or by whole turns,"
-            times = "once" if len(brief) == 1 else f"{len(brief)} times"
-            text = (
-                f"joint {name!r} {way} {times}, by up to {size:.2g} {unit} from one sample to the next; derivatives "
-                "are not taken across a jump, and samples within it are left out"
-            )
-            start, end = int(stamps[brief[0].begin - 1]), int(stamps[brief[-1].end])
-            findings.append(
-                finding(kind="joint_spike", message=text, count=len(brief), size=size, start_ns=start, end_ns=end)
-            )
-        for one in found:
-            if one.is_brief:
-                continue
-            start, end = int(stamps[one.begin - 1]), int(stamps[one.end])
-            start_s, end_s = ((stamp - start_ns) * 1e-9 for stamp in (start, end))
-            back = f"back {end_s - start_s:.2f} s later" if one.ends else f"not back for {end_s - start_s:.2f} s"
-            text = (
-                f"joint {name!r} jumps by {one.size:.2g} {unit} from one sample to the next, {back}: where its "
-                f"readings are those of another posture, put an [[interval]] with start_s = {max(start_s, 0.0):.2f}, "
-                f'end_s = {end_s:.2f}, use = "ignore"' + ("" if one.ends else ", or one over what lies before")
-            )
-            count = one.end - one.begin + 1
-            findings.append(
-                finding(kind="joint_jump", message=text, count=count, size=one.size, start_ns=start, end_ns=end)
-            )
-    return findings
+"""Samples that a reading may be elsewhere and count as wrong rows, which are left out."""
+_BESIDE = round(GAP_PERIODS) // 2 + 1
+"""Samples on either side of a lasting jump that are left out: no filter of derivatives reaches across such a gap."""
+MOST_LEFT_OUT = max(_SPIKE, 2 * _BESIDE)
+"""Samples in a row that are left out for one jump at most."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Excursion:
-    """A jump of a joint, and where later jumps lead back from it; places are those among the usable samples."""
+    """A jump of a joint, and where later jumps lead back from it; places are those among the samples of the joint."""
 
     begin: int
     """First sample behind the jump."""
@@ -138,36 +48,194 @@ class _Excursion:
     """Largest jump in it; rad or m."""
 
     @property
+    def is_turn(self) -> bool:
+        """Whether it is one jump by whole turns."""
+        return self.ends and self.end == self.begin
+
+    @property
     def is_brief(self) -> bool:
         """Whether it costs the samples within it and no more."""
         return self.ends and self.end - self.begin <= _SPIKE
 
-    def is_ignored(self, stamps: IntArray, ignored_ns: Sequence[tuple[int, int]]) -> bool:
-        """Whether its samples are left out, or where it does not end all before it."""
-        wrong = [(stamps[self.begin], stamps[max(self.end - self.ends, self.begin)])]
-        if not self.ends:
-            wrong.append((stamps[0], stamps[self.begin - 1]))
-        return any(first <= begin and end <= last for begin, end in wrong for first, last in ignored_ns)
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Joint:
+    """The samples of a joint that step forward in time and are not missing, and its jumps."""
+
+    rows: IntArray
+    """Rows of the stream; shape (m,)."""
+    jumps: IntArray
+    """Places among these that it jumps to; shape (k,)."""
+    sizes: FloatArray
+    """How far, beside its usual movement; shape (k,); rad or m."""
+    excursions: tuple[_Excursion, ...]
+
+    @classmethod
+    def of(cls, stream: Stream, signal: Signal, column: int, usable: IntArray) -> _Joint | None:
+        """Find the jumps of a joint; None where there are none. Not across gaps."""
+        values = signal.values[usable, column]
+        finite = np.isfinite(values)
+        rows, values = usable[finite], values[finite]
+        steps = np.diff(values)
+        # most joints never come close to a jump
+        if len(rows) <= 2 * _AROUND or np.abs(steps).max() <= _JUMP:
+            return None
+        stamps = stream.stamp_ns[rows]
+        periods = np.diff(stamps)
+        changes = np.flatnonzero(steps != 0.0)
+        # a reading that is held moves by what it missed
+        seconds = np.diff(stamps[changes + 1], prepend=stamps[0]) * 1e-9
+        far = np.flatnonzero(np.abs(steps[changes]) > _JUMP)
+        usual = np.array([_median_beside(steps[changes] / seconds, k) for k in far.tolist()])
+        beside = steps[changes[far]] - usual * seconds[far]
+        scatter = [
+            _median_beside(np.abs(steps[changes] - speed * seconds), k)
+            for k, speed in zip(far.tolist(), usual.tolist(), strict=True)
+        ]
+        size = np.abs(beside)
+        is_angle = signal.units[column] == "rad"
+        turns = is_angle & (np.abs(_beside_turns(beside)) < _OF_TURN) & (size > np.pi)
+        # a joint whose reading stops may change its speed meanwhile
+        possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * seconds[far]
+        jumps = (
+            (size > np.maximum(_JUMP, _STEPS * np.array(scatter)))
+            & ((size > possible) | turns)
+            & (periods[changes[far]] <= gap_limit_ns(stamps))
+        )
+        if not jumps.any():
+            return None
+        places, sizes = changes[far[jumps]] + 1, beside[jumps]
+        found = _excursions(sizes, places, len(rows), is_angle=is_angle)
+        return cls(rows=rows, jumps=places, sizes=sizes, excursions=tuple(found))
+
+    def repaired(self, values: FloatArray) -> FloatArray:
+        """Take whole turns off, and wrong rows and those about lasting jumps out; `values` of all rows, shape (n,)."""
+        fixed = values.copy()
+        size = dict(zip(self.jumps.tolist(), self.sizes.tolist(), strict=True))
+        for one in self.excursions:
+            if one.is_turn:
+                fixed[self.rows[one.begin] :] -= _TURN * round(size[one.begin] / _TURN)
+            elif one.is_brief:
+                fixed[self.rows[one.begin : one.end]] = np.nan
+            else:
+                for place in (one.begin, one.end) if one.ends else (one.begin,):
+                    fixed[self.rows[max(place - _BESIDE, 0) : place + _BESIDE]] = np.nan
+        return fixed
 
 
-def _excursions(steps: FloatArray, places: IntArray, count: int, *, is_angle: bool) -> Iterator[_Excursion]:
+def _median_beside(values: FloatArray, k: int) -> float:
+    """Median of the values about one of them, without it; 0 where a reading rests but for a few."""
+    if len(values) <= 2 * _AROUND:
+        return 0.0
+    return float(np.median(np.r_[values[max(k - _AROUND, 0) : k], values[k + 1 : k + _AROUND + 1]]))
+
+
+def _beside_turns(angles: FloatArray) -> FloatArray:
+    return (angles + 0.5 * _TURN) % _TURN - 0.5 * _TURN
+
+
+def _excursions(sizes: FloatArray, places: IntArray, count: int, *, is_angle: bool) -> Iterator[_Excursion]:
     """Jumps in the order of time, each with those that lead back from it."""
     first = 0
-    while first < len(steps):
-        size = abs(float(steps[first]))
-        away, after = 0.0, first + 1
-        for k in range(first, min(first + _LOOKED_AT, len(steps))):
-            away += float(steps[k])
-            left = (away + 0.5 * _TURN) % _TURN - 0.5 * _TURN if is_angle else away
-            if abs(left) < max(_JUMP, _OF_TURN * size) or (k > first and abs(away) < _BACK * size):
+    while first < len(sizes):
+        size = abs(float(sizes[first]))
+        away, after, ends = 0.0, first + 1, False
+        for k in range(first, min(first + _LOOKED_AT, len(sizes))):
+            away += float(sizes[k])
+            turns = is_angle and abs(float(_beside_turns(np.array(away)))) < _OF_TURN
+            if turns or (k > first and abs(away) < max(_JUMP, _BACK * size)):
                 after, ends = k + 1, True
                 break
-        else:
-            ends = False
         yield _Excursion(
             begin=int(places[first]),
             end=int(places[after - 1]) if ends else count - 1,
             ends=ends,
-            size=float(np.abs(steps[first:after]).max()),
+            size=float(np.abs(sizes[first:after]).max()),
         )
         first = after
+
+
+def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Finding, ...]]:
+    """Make joints continuous: take lost turns off, and leave out wrong rows and those about lasting jumps.
+
+    Args:
+        stream: A stream.
+        start_ns: Start of the recording, from which instants are stated; ns.
+
+    Returns:
+        The stream, and what was found: one `joint_spike` per joint for whole turns and readings that are elsewhere for
+        a few samples, which cost no more than these; a `joint_jump` for every time in which the joint seems to be
+        elsewhere for longer.
+    """
+    signal = stream.signals.get("position")
+    if signal is None or stream.clock == ROW_CLOCK:
+        return stream, ()
+    usable = usable_samples(stream.stamp_ns)
+    values: FloatArray | None = None
+    findings: list[Finding] = []
+    for column in range(len(signal.columns)):
+        joint = _Joint.of(stream, signal, column, usable)
+        if joint is None:
+            continue
+        values = signal.values.copy() if values is None else values
+        values[:, column] = joint.repaired(signal.values[:, column])
+        findings += _findings(stream, signal.columns[column], signal.units[column], joint, start_ns)
+    if values is None:
+        return stream, ()
+    return replace(stream, signals={**stream.signals, "position": replace(signal, values=values)}), tuple(findings)
+
+
+def _findings(stream: Stream, name: str, unit: str, joint: _Joint, start_ns: int) -> Iterator[Finding]:
+    stamps = stream.stamp_ns[joint.rows]
+    finding = partial(Finding, stream=stream.name, channel=name, unit=unit)
+    brief = [one for one in joint.excursions if one.is_brief]
+    if brief:
+        size = max(one.size for one in brief)
+        turns = all(one.is_turn for one in brief)
+        way = "jumps by a whole turn" if turns else "jumps and comes back, or by whole turns,"
+        times = "once" if len(brief) == 1 else f"{len(brief)} times"
+        text = (
+            f"joint {name!r} {way} {times}, by up to {size:.2g} {unit} from one sample to the next; turns are taken "
+            "off, and samples that are elsewhere are left out"
+        )
+        start, end = int(stamps[brief[0].begin - 1]), int(stamps[brief[-1].end])
+        yield finding(kind="joint_spike", message=text, count=len(brief), size=size, start_ns=start, end_ns=end)
+    for one in joint.excursions:
+        if one.is_brief:
+            continue
+        start, end = int(stamps[one.begin - 1]), int(stamps[one.end])
+        # outwards: an interval that is stated so holds every wrong sample
+        start_s, end_s = floor((start - start_ns) * 1e-7) / 100.0, ceil((end - start_ns) * 1e-7) / 100.0
+        back = f"back {end_s - start_s:.2f} s later" if one.ends else f"not back for {end_s - start_s:.2f} s"
+        text = (
+            f"joint {name!r} jumps by {one.size:.2g} {unit} from one sample to the next, {back}: where its readings "
+            f"are those of another posture, put an [[interval]] with start_s = {max(start_s, 0.0):.2f}, "
+            f'end_s = {end_s:.2f}, use = "ignore"' + ("" if one.ends else ", or one over what lies before")
+        )
+        count = one.end - one.begin + 1
+        yield finding(kind="joint_jump", message=text, count=count, size=one.size, start_ns=start, end_ns=end)
+
+
+def are_ignored(stamp_ns: IntArray, found: Finding, ignored_ns: Sequence[tuple[int, int]]) -> bool:
+    """Tell whether the samples of a jump are left out, or all before one that does not come back.
+
+    Args:
+        stamp_ns: Stamps of the stream; shape (n,); ns.
+        found: A finding of `without_joint_jumps`.
+        ignored_ns: First and last instant of spans that are left out of every use; ns.
+
+    Returns:
+        Whether they are.
+    """
+    if found.start_ns is None or found.end_ns is None:
+        return False
+    within: BoolArray = (stamp_ns > found.start_ns) & (stamp_ns <= found.end_ns)
+    if found.end_ns < stamp_ns.max():
+        within &= stamp_ns < found.end_ns
+    before = stamp_ns <= found.start_ns
+    lasts = found.kind == "joint_jump" and found.end_ns >= stamp_ns.max()
+    return any(
+        (stamp_ns[marks] >= first).all() and (stamp_ns[marks] <= last).all()
+        for marks in ((within, before) if lasts else (within,))
+        for first, last in ignored_ns
+    )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -25,13 +25,7 @@ class SharedFilters:
         self._kept: dict[tuple[str, int, SavitzkyGolay], _Derivatives] = {}
 
     def at(
-        self,
-        stream: Stream,
-        signal: Signal,
-        columns: Sequence[int],
-        window: SavitzkyGolay,
-        jumps: Mapping[int, IntArray],
-        rows: IntArray,
+        self, stream: Stream, signal: Signal, columns: Sequence[int], window: SavitzkyGolay, rows: IntArray
     ) -> list[FloatArray]:
         """Differentiate some columns in some rows, as `FilteredColumns` does.
 
@@ -40,7 +34,6 @@ class SharedFilters:
             signal: One of its signals.
             columns: Columns of the signal, k of them.
             window: The filter.
-            jumps: Rows that columns jump to, by the number of the column, as of `FilteredColumns`.
             rows: Increasing rows of the stream; shape (m,).
 
         Returns:
@@ -50,7 +43,7 @@ class SharedFilters:
         key = (stream.name, id(signal), window)  # the recording keeps the signal
         if key not in self._kept:
             self._kept[key] = _Derivatives(stream.stamp_ns, signal.values, window)
-        return self._kept[key].at(list(columns), jumps, rows)
+        return self._kept[key].at(list(columns), rows)
 
 
 class _Derivatives:
@@ -61,24 +54,24 @@ class _Derivatives:
         self._done = np.zeros((-(-len(values) // _BLOCK), values.shape[1]), dtype=bool)
         self._filters: dict[tuple[int, ...], FilteredColumns] = {}
 
-    def at(self, columns: list[int], jumps: Mapping[int, IntArray], rows: IntArray) -> list[FloatArray]:
+    def at(self, columns: list[int], rows: IntArray) -> list[FloatArray]:
         if not len(rows):
             return [np.empty((0, len(columns))) for _ in _DERIVATIVES]
         blocks = rows // _BLOCK
         for block in blocks[np.flatnonzero(np.diff(blocks, prepend=-1))].tolist():
             missing = [column for column in columns if not self._done[block, column]]
             if missing:
-                self._fill(block, missing, jumps)
+                self._fill(block, missing)
         if rows[-1] - rows[0] == len(rows) - 1:
             own = slice(int(rows[0]), int(rows[-1]) + 1)
             return [result[own][:, columns] for result in self._results]
         return [result[rows[:, None], columns] for result in self._results]
 
-    def _fill(self, block: int, columns: list[int], jumps: Mapping[int, IntArray]) -> None:
+    def _fill(self, block: int, columns: list[int]) -> None:
         key = tuple(columns)
         if key not in self._filters:
             self._filters[key] = FilteredColumns(
-                self._stamp_ns, self._values, self._window, columns=columns, derivatives=_DERIVATIVES, jumps=jumps
+                self._stamp_ns, self._values, self._window, columns=columns, derivatives=_DERIVATIVES
             )
         own = np.arange(block * _BLOCK, min((block + 1) * _BLOCK, len(self._values)))
         for result, values in zip(self._results, self._filters[key].at(own), strict=True):

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -234,7 +234,7 @@ def smooth_columns(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Columns:
-    """Columns that lack the same samples and jump at the same ones."""
+    """Columns that lack the same samples."""
 
     columns: list[int]
     rows: IntArray
@@ -245,7 +245,7 @@ class _Columns:
     length: int
     """Instants of the grid in a window."""
     segment: IntArray
-    """Number of the segment between gaps and jumps that each of the rows lies in."""
+    """Number of the segment between gaps that each of the rows lies in."""
 
     def is_gap_before(self, place: int) -> bool:
         """Whether a segment begins at a place among the rows, or the last one ended."""
@@ -279,7 +279,6 @@ class FilteredColumns:
         derivatives: tuple[int, ...],
         together: bool = False,
         grid: EvenGrid | None = None,
-        jumps: Mapping[int, IntArray] | None = None,
     ) -> None:
         """Lay grids over the stream.
 
@@ -292,8 +291,6 @@ class FilteredColumns:
             together: Whether a sample with a NaN in any column counts as missing in all; else each column is as a
                 stream of its own.
             grid: Grid of the stream that the samples are a part of; None for that of the complete samples themselves.
-            jumps: Rows that columns jump to, by the number of the column; no window reaches across one, as across no
-                gap. None where there are none; of columns that are not filtered `together`.
 
         Raises:
             RecordingError: If the order is too low for a derivative, or the window holds too few samples.
@@ -305,7 +302,6 @@ class FilteredColumns:
             )
         self._values, self._order, self._derivatives = values, window.order, derivatives
         self._columns = list(range(values.shape[1]) if columns is None else columns)
-        self._jumps = jumps or {}
         usable = usable_samples(stamp_ns)
         self._groups = []
         for own, complete in self._complete(usable, together=together):
@@ -315,13 +311,12 @@ class FilteredColumns:
             stamps = stamp_ns[rows]
             own_grid = EvenGrid.of(stamps) if grid is None else grid
             length = own_grid.length_of(window)
-            begins = (np.diff(stamps) > own_grid.gap_ns) | np.isin(rows[1:], self._jumps_of(own[0]))
-            segment = np.concatenate([[0], np.cumsum(begins)])
+            segment = np.concatenate([[0], np.cumsum(np.diff(stamps) > own_grid.gap_ns)])
             group = _Columns(columns=own, rows=rows, stamp_ns=stamps, grid=own_grid, length=length, segment=segment)
             self._groups.append(group)
 
     def _complete(self, usable: IntArray, *, together: bool) -> Iterable[tuple[list[int], BoolArray]]:
-        """Positions of columns that lack the same samples and jump at the same ones, and marks of those they have."""
+        """Positions of columns that lack the same samples, with marks of usable samples that they do not lack."""
         everything = list(range(len(self._columns)))
         if together:
             complete = np.ones(len(usable), dtype=bool)
@@ -331,12 +326,8 @@ class FilteredColumns:
         groups: dict[bytes, tuple[list[int], BoolArray]] = {}  # they may be filtered at once
         for k, column in enumerate(self._columns):
             complete = np.isfinite(self._values[usable, column])
-            key = np.packbits(complete).tobytes() + self._jumps_of(k).tobytes()
-            groups.setdefault(key, ([], complete))[0].append(k)
+            groups.setdefault(np.packbits(complete).tobytes(), ([], complete))[0].append(k)
         return groups.values()
-
-    def _jumps_of(self, k: int) -> IntArray:
-        return self._jumps.get(self._columns[k], np.empty(0, dtype=np.int64))
 
     def all(self) -> list[FloatArray]:
         """Filter all rows.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -19,9 +19,8 @@ from forcetorque.recording.frozen_and_saturated_samples import (
     noisy_runs,
     repeated_readings,
 )
-from forcetorque.recording.joint_jumps import joint_jump_findings
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream import ROW_CLOCK, Signal, Stream
+from forcetorque.recording.stream import Signal, Stream
 
 STUCK_SECONDS = 1.0
 """A noisy channel that repeats one value for longer than this is stuck."""
@@ -31,28 +30,24 @@ STUCK_NOISY_SECONDS = 0.2
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
-_GLITCH_SHARE, _GLITCH_REACH, _GLITCH_AT_ENDS = 0.05, 10.0, 3
-"""Values beyond ten times the distance from the median within which 95 % of them lie are glitches if they come and go
-by jumps of as much; a run at an end of the log, which only comes or only goes, if it is of at most three samples."""
+_GLITCH_SHARE, _GLITCH_SIZE, _GLITCH_REACH = 0.05, 0.05, 10.0
+_GLITCH_LENGTH, _GLITCH_AT_ENDS = 10, 3
+"""Values beyond ten times the distance from the median within which 95 % of them lie, or half of their size, are
+glitches if they come and go by jumps of as much, for at most ten samples; three at an end of the log."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
 """Sizes of counters that start again at zero."""
 
 
-def stream_findings(
-    stream: Stream, start_ns: int | None = None, ignored_ns: Sequence[tuple[int, int]] = ()
-) -> tuple[Finding, ...]:
+def stream_findings(stream: Stream) -> tuple[Finding, ...]:
     """Look for what is wrong with a stream, without a model of what it measures.
 
     Args:
         stream: The stream.
-        start_ns: Start of the recording, from which intervals are stated; ns; that of the stream if None.
-        ignored_ns: First and last instant of spans that are left out of every use; ns; joints that jump there are not
-            named.
 
     Returns:
-        Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels, joints that jump and
+        Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels, repeated readings and
         reported saturation.
     """
     if not len(stream):
@@ -63,9 +58,6 @@ def stream_findings(
             findings += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
             findings += [*_stuck_channels(stream, signal), *_repeated_readings(stream, signal)]
-        if signal.quantity == "position" and stream.clock != ROW_CLOCK:
-            begin_ns = int(stream.stamp_ns.min()) if start_ns is None else start_ns
-            findings += joint_jump_findings(stream, signal, begin_ns, ignored_ns)
     return tuple(findings)
 
 
@@ -138,11 +130,14 @@ def glitched_values(values: FloatArray) -> BoolArray:
         return glitched
     known = values[seen]
     away = np.abs(known - np.median(known))
-    limit = _GLITCH_REACH * float(np.quantile(away, 1.0 - _GLITCH_SHARE, method="higher"))
+    reach = float(np.quantile(away, 1.0 - _GLITCH_SHARE, method="higher"))
+    # a reading that rests may yet move by steps of its resolution
+    limit = _GLITCH_REACH * max(reach, _GLITCH_SIZE * abs(float(np.median(known))))
     steps = np.abs(np.diff(known))
-    for first, last in true_runs(away > limit):
+    for first, last in true_runs(away > limit) if limit > 0.0 else ():
         ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
-        if min(ends) > limit and (len(ends) == 2 or last - first < _GLITCH_AT_ENDS):
+        longest = _GLITCH_LENGTH if len(ends) == 2 else _GLITCH_AT_ENDS
+        if min(ends) > limit and last - first < longest:
             glitched[seen[first : last + 1]] = True
     return glitched
 
@@ -275,7 +270,8 @@ def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
     if len(again):
         text = (
             f"{len(again)} of {len(stream)} samples repeat the {signal.quantity} before under a new stamp: the sensor "
-            "is slower than its log, or messages were lost and replaced; fits leave them out"
+            "is slower than its log, or messages were lost and replaced"
+            + ("; fits leave them out unless [processing] keeps them" if signal.quantity in ("wrench", "raw") else "")
         )
         first, last = int(again[0]), int(again[-1])
         yield _finding(stream, "repeated_reading", text, first, last, channel=signal.quantity, count=len(again))

@@ -10,12 +10,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, check_arrays, names, read_only
+from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names, read_only
 from forcetorque.base.errors import RecordingError, RobotError, ShapeError, known_names
 from forcetorque.base.pose import make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import Interpolation, Neighbours, rows_of
-from forcetorque.recording.joint_jumps import joint_jumps
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.shared_filters import SharedFilters
 from forcetorque.recording.smoothing import FilteredColumns, SavitzkyGolay
@@ -317,8 +316,7 @@ class LoggedJoints:
             at_ns: Instants on the clock of the streams; shape (n,); ns.
 
         Returns:
-            The motion; shape (n, j) each; NaN where a stream has a gap, and derivatives also within a jump of a joint,
-            which they are not taken across. Samples without times are poses at rest: their
+            The motion; shape (n, j) each; NaN where a stream has a gap. Samples without times are poses at rest: their
             velocities and accelerations are zero.
         """
         names = ("position", "velocity", "acceleration")
@@ -331,12 +329,6 @@ class LoggedJoints:
                     rows, before, after = rows_of(neighbours)
                     for name, values in zip(names[1:], derivatives(rows), strict=True):
                         motion[name][block, holder.places] = neighbours.interpolated(values[before], values[after])
-                    if holder.jumps:
-                        jumps = holder.jumps_in(neighbours)
-                        for name in names[1:]:
-                            motion[name][block, holder.places] = np.where(
-                                jumps, np.nan, motion[name][block, holder.places]
-                            )
                 elif not self._logged:
                     none = np.zeros((len(neighbours.before), len(holder.places)))
                     for name in names[1:]:
@@ -382,19 +374,6 @@ class _Holder:
     columns: list[int]
     """Their columns of the signal."""
     interpolation: Interpolation
-    jumps: Mapping[int, IntArray]
-    """By column, rows that its joint jumps to, which no robot does; joints that do not jump are not in it."""
-
-    def jumps_in(self, neighbours: Neighbours) -> BoolArray:
-        """Joints that jump between the samples on either side of instants; shape (m, k)."""
-        none = np.zeros(len(neighbours.after), dtype=bool)
-        between = ~(neighbours.is_before | neighbours.is_after)
-        return np.column_stack(
-            [
-                between & np.isin(neighbours.after, self.jumps[column]) if column in self.jumps else none
-                for column in self.columns
-            ]
-        )
 
     @property
     def is_at_rest(self) -> bool:
@@ -406,9 +385,9 @@ class _Holder:
     ) -> Callable[[IntArray], list[FloatArray]]:
         """Give rates and second derivatives of its joints in rows."""
         if filters is not None:
-            return partial(filters.at, self.stream, self.signal, self.columns, window, self.jumps)
+            return partial(filters.at, self.stream, self.signal, self.columns, window)
         stamps, values = self.stream.stamp_ns, self.signal.values
-        return FilteredColumns(stamps, values, window, columns=self.columns, derivatives=(1, 2), jumps=self.jumps).at
+        return FilteredColumns(stamps, values, window, columns=self.columns, derivatives=(1, 2)).at
 
     def interpolated(self, neighbours: Neighbours) -> FloatArray:
         """Its joints as logged, at instants."""
@@ -439,11 +418,6 @@ def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[_
     for own in places.values():
         stream, signal = signals[joints[own[0]]]
         columns = [signal.columns.index(joints[k]) for k in own]
-        jumps: dict[int, IntArray] = {}
-        if source == "position" and stream.clock != ROW_CLOCK:
-            jumps = {column: to for column in columns if len(to := joint_jumps(stream, signal, column))}
         interpolation = Interpolation(stream)
-        holders.append(
-            _Holder(stream=stream, signal=signal, places=own, columns=columns, interpolation=interpolation, jumps=jumps)
-        )
+        holders.append(_Holder(stream=stream, signal=signal, places=own, columns=columns, interpolation=interpolation))
     return holders

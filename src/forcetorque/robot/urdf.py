@@ -10,8 +10,11 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
 from xml.etree.ElementTree import Element
+from xml.sax.handler import ContentHandler
+from xml.sax.xmlreader import AttributesImpl, Locator
 
 import numpy as np
+from defusedxml.sax import parse
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError, RobotError
@@ -298,6 +301,48 @@ def read_urdf(path: Path | str) -> RobotModel:
         raise MissingFileError(f"{file}: expected a URDF file, there is none")
     declare_input(file)
     return _read_once(file.read_bytes(), str(file), file.stem)
+
+
+class _Lines(ContentHandler):
+    """Lines of the tags in one link or joint of a robot, by their path in it."""
+
+    def __init__(self, outer: str, name: str) -> None:
+        super().__init__()
+        self.lines: dict[tuple[str, ...], int] = {}
+        self._outer, self._name = outer, name
+        self._path: list[str] = []
+        self._is_inside = False
+        self._locator: Locator | None = None
+
+    def setDocumentLocator(self, locator: Locator) -> None:
+        self._locator = locator
+
+    def startElement(self, name: str, attrs: AttributesImpl) -> None:
+        self._path.append(name)
+        if len(self._path) == 2:
+            self._is_inside = name == self._outer and attrs.get("name") == self._name
+        if self._is_inside and self._locator is not None:
+            self.lines.setdefault(tuple(self._path[2:]), self._locator.getLineNumber() or 0)
+
+    def endElement(self, name: str) -> None:
+        self._path.pop()
+        self._is_inside = self._is_inside and len(self._path) > 1
+
+
+def tag_lines(path: Path, outer: str, name: str) -> dict[tuple[str, ...], int]:
+    """Give the lines of the tags of a link or a joint.
+
+    Args:
+        path: A URDF file that was read.
+        outer: `link` or `joint`.
+        name: Its name.
+
+    Returns:
+        The line of the first tag of every path in it; of itself by the empty path; nothing if it is not there.
+    """
+    handler = _Lines(outer, name)
+    parse(str(path), handler)
+    return handler.lines
 
 
 @lru_cache(maxsize=_KEPT)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
@@ -19,6 +18,7 @@ from forcetorque.experiment.calibration.robot_model_error import CENTRE, MASS, Z
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors
 from forcetorque.robot.tree import build_tree
+from forcetorque.robot.urdf import tag_lines
 
 _EXPECTED: Final = "a file of `calibrate`, or joint.json of `calibrate --jointly`, there is none"
 OF_ROBOT: Final = (MASS, CENTRE, ZERO)
@@ -107,15 +107,11 @@ def place_in_urdf(urdf: Path | None, name: str) -> str:
     kind = next((kind for kind in OF_ROBOT if kind in name), None)
     if urdf is None or kind is None:
         return ""
-    outer, inner = ("joint", "origin") if kind == ZERO else ("link", "mass" if kind == MASS else "origin")
-    text = urdf.read_text(encoding="utf-8", errors="replace")
-    element = (
-        rf"<{outer}\b[^>]*\bname\s*=\s*[\"']{re.escape(name.rpartition(kind)[2])}[\"'][^>/]*>(?:(?!</{outer}>).)*?"
-    )
-    found = re.search(rf"{element}({'<inertial>.*?' if outer == 'link' else ''}<{inner}\b)", text, re.DOTALL)
-    if found is None:
-        return ""
-    return f" ({urdf.name}:{text.count(chr(10), 0, found.end()) + 1}, <{inner}>)"
+    outer, inner = ("joint", ()) if kind == ZERO else ("link", ("inertial",))
+    tag = "mass" if kind == MASS else "origin"
+    lines = tag_lines(urdf, outer, name.rpartition(kind)[2])
+    found = next((path for path in ((*inner, tag), inner) if path in lines), None)
+    return "" if found is None else f" ({urdf.name}:{lines[found]}, <{found[-1] if found else outer}>)"
 
 
 def _require(name: str, known: Mapping[str, object], error: ModelError) -> None:

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lost turns, wrong rows and slips of joints: what of a stream is used, and what is said of it."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.recording.joint_jumps import are_ignored, without_joint_jumps
+from forcetorque.recording.recording import Finding
+from forcetorque.recording.smoothing import DERIVATIVE_WINDOW
+from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.motion import joint_motion_at
+from tests.recording.recordings import recording
+
+COUNT, PERIOD_NS, TURN = 1000, 10_000_000, 2.0 * np.pi
+SWING = 2.0 * np.sin(np.arange(COUNT) * 0.03) + 1e-3 * np.random.default_rng(6).normal(size=COUNT)
+
+
+def _stream(values: FloatArray, *, period_ns: int = PERIOD_NS, unit: str = "rad") -> Stream:
+    joints = Signal(quantity="position", values=values[:, None], columns=("knee",), units=(unit,))
+    return Stream(name="leg", clock="c", stamp_ns=np.arange(len(values)) * period_ns, signals={"position": joints})
+
+
+def _repaired(
+    values: FloatArray, *, period_ns: int = PERIOD_NS, unit: str = "rad"
+) -> tuple[FloatArray, tuple[Finding, ...]]:
+    stream, findings = without_joint_jumps(_stream(values, period_ns=period_ns, unit=unit), 0)
+    return stream.signal("position").values[:, 0], findings
+
+
+def _with(values: FloatArray, rows: slice | int, change: float) -> FloatArray:
+    changed = values.copy()
+    changed[rows] += change
+    return changed
+
+
+def test_turns_are_taken_off_and_wrong_rows_are_left_out() -> None:
+    """All else stays as it is, and so do velocities and accelerations; one finding for a joint."""
+    jumping = _with(_with(SWING, slice(500, None), TURN), slice(300, 303), 0.8)
+    values, (finding,) = _repaired(jumping)
+    expected = SWING.copy()
+    expected[300:303] = np.nan
+    np.testing.assert_allclose(values, expected, rtol=0.0, atol=1e-12)
+    assert (finding.kind, finding.channel, finding.count, finding.unit) == ("joint_spike", "knee", 2, "rad")
+    assert (finding.start_ns, finding.end_ns) == (299 * PERIOD_NS, 500 * PERIOD_NS)
+    assert "jumps and comes back, or by whole turns, 2 times, by up to 6.3 rad" in finding.message
+    at = np.arange(50, 950) * PERIOD_NS
+    motions = [
+        joint_motion_at(recording(one), ("knee",), at, window=DERIVATIVE_WINDOW)
+        for one in (_stream(SWING), without_joint_jumps(_stream(jumping), 0)[0], _stream(jumping))
+    ]
+    away = [np.abs(motion.acceleration - motions[0].acceleration) for motion in motions[1:]]
+    assert np.isnan(away[0]).sum() == 3
+    assert np.nanmax(away[0]) < 1.0 < 100.0 < away[1].max()  # negative control: as logged
+
+
+def test_a_posture_that_lasts_is_named_and_its_edges_are_left_out() -> None:
+    """With the interval to ignore, which leaves nothing wrong; no derivative is taken across the edges."""
+    slipped = _with(SWING, slice(400, 460), -0.7)
+    values, (finding,) = _repaired(slipped)
+    lost = np.flatnonzero(np.isnan(values))
+    assert lost.tolist() == [*range(397, 403), *range(457, 463)]
+    assert (finding.kind, finding.count) == ("joint_jump", 61)
+    assert "back 0.61 s later" in finding.message
+    assert "start_s = 3.99, end_s = 4.60" in finding.message
+    shifted = _with(SWING, slice(850, None), -0.7)
+    (finding,) = _repaired(shifted)[1]
+    assert "not back for 1.50 s: where" in finding.message
+    stamps = np.arange(COUNT) * PERIOD_NS
+    assert are_ignored(stamps, finding, [(849 * PERIOD_NS, COUNT * PERIOD_NS)])
+    assert are_ignored(stamps, finding, [(0, 849 * PERIOD_NS)])
+    assert not are_ignored(stamps, finding, [(0, 840 * PERIOD_NS)])
+
+
+@pytest.mark.parametrize("rate_hz", [50, 100, 250, 1000])
+def test_the_interval_that_is_stated_holds_what_is_wrong(rate_hz: int) -> None:
+    """Printed to 0.01 s and typed again: at any rate of the log no wrong sample is left, and nothing is named."""
+    time = np.arange(20 * rate_hz) / rate_hz
+    wrong = (time > 12.3465) & (time < 15.0014)
+    stream = _stream(0.5 * np.sin(time) + wrong, period_ns=10**9 // rate_hz)
+    (finding,) = without_joint_jumps(stream, 0)[1]
+    start_s, end_s = map(float, re.findall(r"_s = ([0-9.]+)", finding.message))
+    ignored = (round(start_s * 1e9), round(end_s * 1e9))
+    assert are_ignored(stream.stamp_ns, finding, [ignored])
+    assert ((time[wrong] >= start_s) & (time[wrong] < end_s)).all()
+    assert not are_ignored(stream.stamp_ns, finding, [(ignored[0], ignored[1] - 10**8 - 10**9 // rate_hz)])
+
+
+@pytest.mark.parametrize("rate_hz", [2, 5, 10, 50, 100])
+@pytest.mark.parametrize("speed", [0.3, 1.6, 3.0])
+@pytest.mark.parametrize("held", [1, 10])
+def test_joints_that_wrap_turn_on(rate_hz: int, speed: float, held: int) -> None:
+    """At any rate and speed of a robot, also where each reading is held in a faster log."""
+    rows = np.arange(60 * rate_hz * held)
+    angle = speed * (rows // held) / rate_hz
+    wrapped = angle % TURN
+    values, findings = _repaired(wrapped, period_ns=10**9 // (rate_hz * held))
+    np.testing.assert_allclose(values, angle, rtol=0.0, atol=1e-9)
+    turns = int(np.count_nonzero(np.diff(wrapped) < -1.0))
+    assert [(one.kind, one.count) for one in findings] == [("joint_spike", turns)] * int(turns > 0)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        SWING,
+        np.repeat(3.0 * np.sin(np.arange(600) * 0.2), 10),  # a slow source in a fast table
+        np.repeat(3.0 * np.sin(np.arange(600) * 1.0), 50),
+        # readings that stop for 0.16 s and catch up
+        np.where(np.abs(np.arange(COUNT) - 408) < 8, SWING[400], SWING),
+        np.where(np.arange(COUNT) % 50 < 17, SWING[np.arange(COUNT) // 50 * 50], SWING),
+        0.3 * np.random.default_rng(3).normal(size=COUNT),  # no jump stands out of such noise
+        np.full(COUNT, np.nan),
+    ],
+)
+def test_nothing_is_taken_from_joints_that_do_not_jump(values: FloatArray) -> None:
+    """Also fast, held and noisy ones, and those whose log stops for a moment."""
+    repaired, findings = _repaired(values)
+    np.testing.assert_array_equal(repaired, values)
+    assert findings == ()
+
+
+def test_a_row_without_a_value_hides_no_jump() -> None:
+    """A lost turn beside it, and wherever every other row is empty."""
+    for gaps in (slice(499, 500), slice(0, None, 2)):
+        turned = _with(SWING, slice(500, None), TURN)
+        turned[gaps] = np.nan
+        values, (finding,) = _repaired(turned)
+        assert (finding.kind, finding.count) == ("joint_spike", 1)
+        kept = np.isfinite(turned)
+        np.testing.assert_allclose(values[kept], SWING[kept], rtol=0.0, atol=1e-12)
+        assert np.isnan(values[~kept]).all()
+
+
+def test_a_wrong_row_at_rest_is_left_out_and_metres_have_no_turns() -> None:
+    """A joint that rests moves by nothing beside its jump; 6.3 m of a sliding joint are a slip."""
+    values, (finding,) = _repaired(_with(np.zeros(COUNT), 300, 0.8))
+    assert (np.flatnonzero(np.isnan(values)).tolist(), finding.kind) == ([300], "joint_spike")
+    (finding,) = _repaired(_with(0.2 * SWING, slice(500, None), TURN), unit="m")[1]
+    assert (finding.kind, finding.unit) == ("joint_jump", "m")
