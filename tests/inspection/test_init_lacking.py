@@ -229,6 +229,22 @@ def test_a_thermometer_alone_names_the_file_that_it_belongs_to(tmp_path: Path) -
     assert [one.source.stream for one in loaded.variables] == ["thermometer"]
 
 
+@pytest.mark.parametrize("robot", [False, True])
+def test_a_thermometer_beside_a_pose_or_a_robot_is_a_variable_as_comments(tmp_path: Path, robot: bool) -> None:
+    """As they stand no sensor uses it, which the answer says; without the comment signs the sensor does."""
+    table = _thermometer(tmp_path)
+    rows = (f"{k:.1f},0,0,{k % 7},0,0,0,0,0,0,1\n" for k in range(300))
+    sensor = _csv(tmp_path / "sensor.csv", "time_s,fx,fy,fz,tx,ty,tz,qx,qy,qz,qw\n", rows)
+    draft = draft_experiment([table, sensor], tmp_path / "both.toml", urdf=FOLDER / "robot.urdf" if robot else None)
+    (answer,) = draft.answers()
+    assert any("thermometer: no sensor uses the temperature" in text for text in answer.why)
+    (without,) = tomllib.loads(draft.content)["sensor"]
+    assert "variable" not in without
+    taken = re.sub(r"^# (\[\[sensor.variable|name = .temperature|stream = .therm)", r"\1", draft.content, flags=re.M)
+    (with_it,) = tomllib.loads(taken)["sensor"]
+    assert with_it == {**without, "variable": [{"name": "temperature", "stream": "thermometer"}]}
+
+
 def test_a_second_column_of_times_has_its_clock_as_comments(tmp_path: Path) -> None:
     """As they stand nothing is moved; without the comment signs the pose is brought from its clock to the first."""
     log = _csv(
@@ -251,15 +267,47 @@ def test_a_second_column_of_times_has_its_clock_as_comments(tmp_path: Path) -> N
     assert (clock["delay_s"], clock["around_s"]) == ("estimate", 90.0)
 
 
+@pytest.mark.parametrize(
+    ("columns", "named"),
+    [
+        ("t,q,ft_time,w", "[wrench] stream of [[sensor]] then names log_ft_time"),
+        ("t,w,t_pose,q", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,w,t_receive,t_pose,q", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,t_receive,w,t_pose,q", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,w,q,t_pose", "[orientation] motion of [load] then names log_t_pose"),
+        ("t,c,ft_time,w,q", "[wrench, orientation] stream of [[sensor]] and motion of [load] then name log_ft_time"),
+        ("t,t_receive,w,q", ""),
+        ("t,w,t_robot,j", "[position] "),
+        ("t,j,ft_time,w", "[wrench] stream of [[sensor]] then names log_ft_time"),
+    ],
+)
+def test_a_second_column_of_times_names_who_reads_the_new_stream(tmp_path: Path, columns: str, named: str) -> None:
+    """That of the groups behind the last such column, also where the sensor is behind it, and on a robot."""
+    joints = [name for name in ROWS[0] if name.endswith("_rad")]
+    groups = {"w": "fx,fy,fz,tx,ty,tz", "q": "qx,qy,qz,qw", "j": ",".join(joints), "c": "temp_degC"}
+    headings = [name for one in columns.split(",") for name in groups.get(one, one).split(",")]
+    assert joints
+    rows = (
+        ",".join(f"{k + (n if name.startswith('t_') else 0.1)}" for n, name in enumerate(headings)) for k in range(9)
+    )
+    log = _csv(tmp_path / "log.csv", ",".join(headings) + "\n", (f"{row}\n" for row in rows))
+    text = draft_experiment([log], urdf=FOLDER / "robot.urdf" if "j" in columns.split(",") else None).content
+    words = re.findall(r"take these lines(?:; (.*))?$", text, flags=re.MULTILINE)
+    behind = text.partition("take these lines")[2]
+    moved = ", ".join(re.findall(r'^quantity = "(\w+)"', behind, flags=re.MULTILINE))
+    assert [f"[{moved}] {one}" for one in words] == ([named] if named else [])
+
+
 def _drafted_streams(text: str) -> list[str]:
     return [one["name"] for one in tomllib.loads(text)["recording"]["stream"]]
 
 
-@pytest.mark.parametrize("pose", ["joints", "orientation"])
+@pytest.mark.parametrize("pose", ["joints", "orientation", "orientation beside a variable"])
 @pytest.mark.parametrize("late", [0, 3])
 def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pose: str, late: int) -> None:
     """Of an arm and a wrist with the wrench three samples late; what is proposed leaves none, no delay gets it."""
     text = _late_arm(tmp_path, late) if pose == "joints" else _late_wrist(tmp_path, late)
+    text = _with_supply(tmp_path / "log.csv", text) if "variable" in pose else text
     file = tmp_path / "experiment.toml"
     file.write_text(text, encoding="utf-8")
     delays = [one for one in proposals(file) if one.kind == "delay"]
@@ -274,13 +322,22 @@ def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pos
     (clock,) = content["clock"]
     assert (clock["stream"], clock["to"]) == ("log", "log_motion")
     assert clock["delay_s"] == pytest.approx(0.04 * late, abs=0.005)
-    if pose == "orientation":
+    if pose != "joints":
         assert content["load"]["motion"] == ["log_motion"]
     comments = [line for line in text.splitlines() if "#" in line]
     assert comments
     assert set(comments) <= set(changed.splitlines())
     file.write_text(changed, encoding="utf-8")
     assert not [one for one in proposals(file) if one.kind == "delay"]
+
+
+def _with_supply(log: Path, text: str) -> str:
+    """A supply in V as a variable of the sensor, in the same table."""
+    first, *rows = log.read_text(encoding="utf-8").splitlines()
+    _csv(log, f"{first},supply\n", (f"{row},{5.0 + 0.1 * np.sin(0.02 * k):.4f}\n" for k, row in enumerate(rows)))
+    signal = '[[recording.stream.signal]]\nquantity = "scalar"\ncolumns = ["supply"]\nunits = ["V"]\n\n'
+    variable = '[[sensor.variable]]\nname = "supply"\nquantity = "scalar"\n\n'
+    return text.replace("[[sensor]]", f"{signal}[[sensor]]").replace("[load]", f"{variable}[load]")
 
 
 def _late_arm(folder: Path, late: int) -> str:

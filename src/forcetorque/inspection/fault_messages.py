@@ -180,7 +180,8 @@ def remedy(comparison: Comparison, one: Explanation) -> str:
         own = motion_name(late)
         return (
             f'of a table list the signals of the motion in a [[recording.stream]] of their own, name = "{own}", with '
-            f"the same file and stamp, and write {clock.format(own)}; `forcetorque init --resume` proposes both"
+            f"the same file and stamp, and write {clock.format(own)}; `forcetorque init --resume` proposes both, and "
+            "writes them where each signal is a [[recording.stream.signal]]"
         )
     return f"turn <origin rpy> of the fixed joint of {name!r} in the URDF, or mount the sensor as the URDF has it"
 

@@ -182,7 +182,7 @@ def test_a_log_without_a_file_asks_its_questions(tmp_path: Path, run: Run, monke
 
 
 def test_a_log_that_was_left_out_is_no_other_log(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same command goes on with the file; with fewer logs than the file names, or none of them, it does not."""
+    """The same command goes on with the file; with fewer logs than the file names, or one more, it does not."""
     monkeypatch.chdir(tmp_path)
     for name, offset in (("ft.csv", 0), ("foot.csv", 1), ("external_wrench.csv", 2), ("other.csv", 3)):
         rows = "\n".join(f"{0.01 * k:.2f},{k % 7},{k % 5},{k % 3},{k % 2},1,{offset}" for k in range(200))
@@ -190,8 +190,9 @@ def test_a_log_that_was_left_out_is_no_other_log(tmp_path: Path, run: Run, monke
     two = ("ft.csv", "foot.csv")
     for logs, code in (((*two, "external_wrench.csv"), 4), ((*two, "external_wrench.csv"), 4), (two, 4)):
         assert run("run", *logs, "-o", "results", "--no-input").code == code
-    assert "external_wrench" not in Path("results/experiment.toml").read_text(encoding="utf-8")
-    for others in (("ft.csv",), ("other.csv",), ("ft.csv", "other.csv")):
+    text = Path("results/experiment.toml").read_text(encoding="utf-8")
+    assert [one for one in text.split("\n") if "external_wrench" in one] == ['# log left out: "../external_wrench.csv"']
+    for others in (("ft.csv",), ("other.csv",), ("external_wrench.csv",), ("ft.csv", "other.csv"), (*two, "other.csv")):
         assert "begun of another log" in run("run", *others, "-o", "results", "--no-input").error()
 
 

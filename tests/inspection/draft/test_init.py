@@ -508,6 +508,27 @@ def test_columns_are_read_as_no_other_quantity(tmp_path: Path, others: str, expe
     assert any("left out; other columns are its" in text for text in answer.why) == left_out
 
 
+@pytest.mark.parametrize("heading", ["{}joint_states/position/{}", "{}_joint_state_position_{}"])
+def test_commanded_joints_are_not_taken_where_measured_ones_are(tmp_path: Path, heading: str) -> None:
+    """Where they come first too; alone they are taken, which is said."""
+    model = read_urdf(ARM_URDF)
+    joints = [name for name, joint in model.joints.items() if joint.type != "fixed"]
+    ends = joints if "/" in heading else [str(k) for k in range(len(joints))]
+    desired, measured = ([heading.format(of, end) for end in ends] for of in ("/desired/", "/actual/"))
+    both = [*desired, *measured]
+    for names, said in ((both, "left out; other columns are its"), (desired, "commanded by their names")):
+        columns = ["time_s", *names, *_WRENCH.split(",")]
+        rows = [",".join(f"{0.1 * row + 0.01 * k:.3f}" for k in range(len(columns))) for row in range(3)]
+        (tmp_path / "log.csv").write_text("\n".join([",".join(columns), *rows]) + "\n", encoding="utf-8")
+        draft = draft_experiment([tmp_path / "log.csv"], urdf=ARM_URDF)
+        (stream,) = tomllib.loads(draft.content)["recording"]["stream"]
+        read = [one["columns"] for one in stream["signal"] if one["quantity"] == "position"]
+        assert read == [names[-len(joints) :]]
+        (note,) = draft.left_out
+        assert desired[0] in note
+        assert said in note
+
+
 def test_a_commanded_array_is_not_taken_where_a_measured_one_is() -> None:
     """Whatever their order in the file; alone it is taken."""
     arrays = [SketchedColumns(name=name, rows=9, columns=6) for name in ("cmd_wrench", "wrench")]

@@ -137,17 +137,18 @@ def _begun(
 ) -> Path:
     """The experiment file of logs, in the folder of results; one that is there already is taken up again."""
     from forcetorque.inspection.draft.draft import draft_experiment
-    from forcetorque.inspection.draft.questions import logs_of
+    from forcetorque.inspection.draft.questions import logs_left_out, logs_of
 
     file = output / "experiment.toml"
     options = {"--urdf": urdf, "--matrices": matrices, "--column-names": column_names or None, "--loads": loads}
     if file.exists():
         given, named = {log.resolve() for log in logs}, logs_of(file)
-        # a log of which all is left out is not in the file; a folder is in it beside its tables, or they beside it
+        # a folder is in the file beside its tables, or they beside it
         others = [one for one in named if not any(one in (log, *log.parents) or log in one.parents for log in given)]
-        if others or not given & named:
+        if others or given - named - logs_left_out(file):
             raise ExperimentError(
-                f"{file}: was begun of another log than {', '.join(map(str, logs))}; name another folder by --output"
+                f"{file}: was begun of another log than {', '.join(map(str, logs))}, or changed since: name the file "
+                "itself to go on with it, or another folder by --output"
             )
         if stated := _given(options):
             raise ExperimentError(

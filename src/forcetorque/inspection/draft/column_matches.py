@@ -194,12 +194,11 @@ def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMat
         if joint is not None:
             rest = text.replace(f"_{_plain(joint)}_", "_", 1).strip("_")
             groups.setdefault(rest, {}).setdefault(joint, k)
-    likeness: dict[str, ColumnMatch] = {}
-    for rest, members in groups.items():
-        quantity = _motion(rest)
-        if quantity is not None and quantity not in likeness:
-            likeness[quantity] = ColumnMatch(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
-    return list(likeness.values())
+    return [
+        ColumnMatch(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
+        for rest, members in groups.items()
+        if (quantity := _motion(rest)) is not None
+    ]
 
 
 def _motion(words: str) -> str | None:
@@ -334,8 +333,8 @@ def _numbered(units: Sequence[str | None], free: Mapping[int, str], joints: Sequ
         match = _NUMBERED.match(name)
         if match:
             groups.setdefault((match["before"], match["behind"]), []).append((int(match["number"]), k))
-    likeness: dict[str, ColumnMatch] = {}
     patches: list[ColumnMatch] = []
+    others: list[ColumnMatch] = []
     for (before, behind), members in groups.items():
         columns = tuple(k for _, k in sorted(members))
         word = _plain(before or behind)
@@ -343,13 +342,13 @@ def _numbered(units: Sequence[str | None], free: Mapping[int, str], joints: Sequ
             if all(units[k] in _OF_COUNTS for k in columns):
                 patches.append(ColumnMatch(quantity="taxel_counts", columns=columns))
         elif _CHANNELS.search(word) and len(columns) >= 6:
-            likeness.setdefault("raw", ColumnMatch(quantity="raw", columns=columns))
+            others.append(ColumnMatch(quantity="raw", columns=columns))
         quantity = _motion(_plain(behind) or word) or _motion(word)
         of_joints = word in _OF_JOINTS or _STATES.match(word) is not None
         counted = len(columns) == len(joints) or (of_joints and 1 < len(columns) <= len(joints))
         if word and quantity is not None and counted:
-            likeness.setdefault(quantity, ColumnMatch(quantity=quantity, columns=columns))
-    return [*patches, *likeness.values()]
+            others.append(ColumnMatch(quantity=quantity, columns=columns))
+    return [*patches, *others]
 
 
 def _listed_quaternions(unit_fours: Sequence[int], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:

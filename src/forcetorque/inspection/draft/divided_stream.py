@@ -12,8 +12,10 @@ from forcetorque.inspection.draft.edits import Edit, edit_between, key_edit, tab
 from forcetorque.inspection.draft.toml_lines import line, tables_of, toml_value
 from forcetorque.inspection.fault_messages import motion_name
 
-_OF_SENSOR: Final = frozenset({"wrench", "raw", "temperature"})
-"""Quantities that stay in the stream of the sensor."""
+_JOINTS = ("position", "velocity", "acceleration", "torque", "motor_current", "pwm")
+_FRAMES = ("orientation", "translation", "gravity", "proper_acceleration", "angular_velocity", "angular_acceleration")
+_OF_MOTION: Final = frozenset((*_JOINTS, *_FRAMES))
+"""Quantities that leave the stream of the sensor; others, which a variable or a contact names by the stream, stay."""
 _REFERENCES: Final = (("load", "motion"), ("support", "imu"))
 """Tables with keys that list streams of a motion."""
 
@@ -45,8 +47,8 @@ class DividedStream:
         """
         division = cls(stream=stream, value=round(delay_s, 4))
         signals = next((one.get("signal", ()) for one in _streams(content) if one.get("name") == stream), ())
-        own = [one.get("quantity") in _OF_SENSOR for one in signals]
-        return division if any(own) and not all(own) else None
+        moves = [one.get("quantity") in _OF_MOTION for one in signals]
+        return division if any(moves) and not all(moves) else None
 
     @property
     def tried(self) -> float:
@@ -80,8 +82,8 @@ class DividedStream:
             if one["name"] != self.stream:
                 streams.append(one)
                 continue
-            own = [signal for signal in signals if signal["quantity"] in _OF_SENSOR]
-            moving = [signal for signal in signals if signal["quantity"] not in _OF_SENSOR]
+            own = [signal for signal in signals if signal["quantity"] not in _OF_MOTION]
+            moving = [signal for signal in signals if signal["quantity"] in _OF_MOTION]
             streams += [{**one, "signal": own}, {**one, "name": motion_name(self.stream), "signal": moving}]
         changed["recording"]["stream"] = streams
         changed["clock"] = [*changed.get("clock", ()), {**self._clock, "delay_s": value}]
@@ -108,7 +110,7 @@ class DividedStream:
         signals = _streams(content)[number]["signal"]
         if blocks is None or len(blocks.inner) != len(signals):
             return None
-        is_own = [signal["quantity"] in _OF_SENSOR for signal in signals]
+        is_own = [signal["quantity"] not in _OF_MOTION for signal in signals]
         named = key_edit("\n".join(blocks.head) + "\n", "recording.stream", 0, "name", motion_name(self.stream))
         if named is None:
             return None

@@ -18,6 +18,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.formats.kept_parts import parts_kept
 from forcetorque.formats.log_format import LoggedRobot, LogSketch, not_read_message
 from forcetorque.inspection.draft.bench import bench_lines, bench_table, is_bench
+from forcetorque.inspection.draft.column_matches import is_estimated, is_measured
 from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals import (
@@ -99,6 +100,8 @@ class ProposalRow(Row):
     """The same with the change; N."""
 
 
+LEFT_OUT = "# log left out: "
+"""Begins the comment for a log that a file was begun with and does not read."""
 _SHOWN_LEFT_OUT = 4
 """Notes about what is left out that the answer has; --details has all."""
 _NO_SENSOR = (
@@ -135,7 +138,7 @@ class Draft(Result):
     thermometers: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """What to do with tables of a temperature alone, where no sensor was found."""
     left_out: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
-    """Notes about streams and columns that are left out, as others are of their quantity."""
+    """Notes about streams and columns that are left out for others of their quantity, or read for want of others."""
     robot_file: str | None = None
     """URDF that was written from the log's own description; None for none."""
     sensor_files: tuple[str, ...] = ()
@@ -320,7 +323,11 @@ def draft_experiment(
     text, notes, drafted = _written(without_streams(log, others), apart[:1] or framed, priors, folder, model, robot)
     if kept is not None:
         notes = (f"{kept}: kept, for it differs from {logged.source}; remove it to have that one written", *notes)
-    left_out = (*_about_others(found, chosen, asked=bool(sensors)), *_about_repeated(log))
+    left_out = (
+        *_about_others(found, chosen, asked=bool(sensors)),
+        *_about_repeated(log),
+        *(_about_temperature(log, model) if found else ()),
+    )
     notes = (
         *left_out,
         *_about_robot(logged, None if urdf is None else Path(urdf), robot_file, model),
@@ -449,6 +456,9 @@ def _written(
     notes.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
+    if len(log.paths) > 1:  # which only tables are
+        read = {stream.table.path for stream in log.streams if stream.table is not None}
+        lines += [f"{LEFT_OUT}{toml_value(relative_path(path, folder))}" for path in log.paths if path not in read]
     if robot is not None:
         lines += ["", "[robot]", robot]
     if model is not None:
@@ -457,6 +467,7 @@ def _written(
     for sensor in sensors:
         own = prior_lines(sensor, sensors, priors, folder, on_robot=model is not None)
         lines += sensor_lines(sensor, own, on_robot=model is not None)
+        lines += _variable_lines(sensor, log, is_alone=model is None and _is_of_sensor_alone(log))
     for stream in log.streams:
         if stream.is_skin:
             patch = _patch_lines(stream)
@@ -545,7 +556,7 @@ def _about_thermometers(log: DraftedLog) -> Iterator[str]:
 
 
 def _about_repeated(log: DraftedLog) -> Iterator[str]:
-    """Columns that are not read, for others are read as the same quantity."""
+    """Columns that are not read, for others are read as the same quantity, and those read for want of others."""
     for stream in log.streams:
         for group in stream.repeated:
             names = [] if stream.table is None else [stream.table.columns[k].name for k in group.columns]
@@ -553,6 +564,13 @@ def _about_repeated(log: DraftedLog) -> Iterator[str]:
             if group.quantity in stream.quantities:
                 why = f"other columns are its {group.words or group.quantity}"
             yield f"{stream.name}: {listed(names, 3)} left out; {why}"
+        for group in stream.groups:
+            names = [] if stream.table is None else [stream.table.columns[k].name for k in group.columns]
+            if not all(is_measured(name) or is_estimated(name) for name in names):
+                yield (
+                    f"{stream.name}: {listed(names, 3)} are its {group.words or group.quantity}, commanded by their "
+                    "names; no measured columns were found: delete the signal unless it is measured"
+                )
         place, on_it = second_clock(stream)
         if on_it and stream.table is not None:
             yield (
@@ -642,17 +660,43 @@ def _imus(log: DraftedLog) -> list[str]:
     return [stream.name for stream in log.streams if set(INERTIAL) <= set(stream.quantities)]
 
 
+def _is_of_sensor_alone(log: DraftedLog) -> bool:
+    """Whether nothing is logged but one sensor and its thermometer."""
+    return all(stream.is_sensor_alone or stream.is_temperature_only for stream in log.streams)
+
+
+def _warm_streams(log: DraftedLog) -> list[str]:
+    return [stream.name for stream in log.streams if "temperature" in stream.quantities]
+
+
+def _variable_lines(sensor: DraftedSensor, log: DraftedLog, *, is_alone: bool) -> list[str]:
+    """The temperature as a variable of the sensor; as comments where it may be that of something else."""
+    warm = _warm_streams(log)
+    if not warm:
+        return []
+    others = f"or {listed(warm[1:])}" if warm[1:] else ""
+    elsewhere = [] if sensor.stream in warm else [line("stream", warm[0], others)]
+    lines = ["[[sensor.variable]]", line("name", "temperature"), *elsewhere]
+    return ["", *(lines if is_alone else [f"# {text}" for text in lines])]
+
+
+def _about_temperature(log: DraftedLog, model: RobotModel | None) -> Iterator[str]:
+    """A temperature that is read, and used by no sensor yet."""
+    warm = _warm_streams(log)
+    if warm and (model is not None or not _is_of_sensor_alone(log)):
+        yield (
+            f"{listed(warm)}: no sensor uses the temperature; if it is that of a sensor take the [[sensor.variable]] "
+            "that the file has as comments"
+        )
+
+
 def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]:
     """The `[load]` table of a wrist sensor whose pose is logged."""
     if not sensors:
         return []
-    if all(stream.is_sensor_alone or stream.is_temperature_only for stream in log.streams):
+    if _is_of_sensor_alone(log):
         words = "no column says how the sensor is held: inspect it, or `forcetorque bench` thermal or response"
-        warm = [stream.name for stream in log.streams if "temperature" in stream.quantities]
-        own = sensors[0].stream in warm
-        elsewhere = [] if own or not warm else [line("stream", warm[0])]
-        variable = ["", "[[sensor.variable]]", line("name", "temperature"), *elsewhere] if warm else []
-        return [*variable, "", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
+        return ["", "[load]", line("frame", sensors[0].name), line("motion", NO_MOTION, words)]
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
     poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
     # of tables the frame is asked, and has to be that of the sensor; other logs have their own

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from forcetorque.base.run_files import files_of_one_run
@@ -20,7 +21,7 @@ from forcetorque.base.toml_file import (
 from forcetorque.experiment.bench_file import BenchFile
 from forcetorque.experiment.file import experiment_file
 from forcetorque.inspection.draft.bench import is_bench, logs_of_bench
-from forcetorque.inspection.draft.draft import Draft, ProposalRow, QuestionRow
+from forcetorque.inspection.draft.draft import LEFT_OUT, Draft, ProposalRow, QuestionRow
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, toml_value, write_text_of
@@ -65,6 +66,23 @@ def logs_of(file: Path) -> set[Path]:
     recording = content.get("recording", {})
     folder = file.parent / recording.get("path", "")
     return {(folder / stream.get("file", "")).resolve() for stream in ({}, *recording.get("stream", ()))}
+
+
+def logs_left_out(file: Path) -> set[Path]:
+    """Name the logs that an experiment file was begun with and does not read.
+
+    Args:
+        file: Experiment file.
+
+    Returns:
+        The logs, by the comments of its draft; absolute.
+    """
+    names: list[str] = []
+    for text in text_of(file).split("\n"):
+        if text.startswith(LEFT_OUT):
+            with suppress(tomllib.TOMLDecodeError):  # a comment that was changed
+                names.append(str(tomllib.loads(f"log = {text.removeprefix(LEFT_OUT)}")["log"]))
+    return {(file.parent / name).resolve() for name in names}
 
 
 def answer_questions(file: Path, ask: Callable[[str], str]) -> bool:

@@ -49,6 +49,8 @@ from forcetorque.robot.model import RobotModel
 
 INERTIAL = ("proper_acceleration", "angular_velocity")
 """Quantities of an inertial sensor, of which both determine how it moves."""
+_OF_LOAD = ("wrench", "raw")
+"""Quantities of a force-torque sensor."""
 _SHOWN = 60
 """Characters that are shown of a line in front of a table."""
 _FEW = 9
@@ -342,7 +344,8 @@ def _signal_lines(
     own_clock, on_it = second_clock(stream)
     for group in (*(one for one in stream.groups if one not in on_it), *on_it):
         if on_it and group is on_it[0]:
-            lines += _second_clock_lines(stream.name, sketch, file, own_clock)
+            moved = frozenset(one.quantity for one in on_it)
+            lines += _second_clock_lines(stream.name, sketch, file, own_clock, moved, on_robot=model is not None)
         lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
     for group in stream.alternatives:
         other = " and ".join(INERTIAL) if group.quantity == "orientation" else "orientation"
@@ -398,22 +401,41 @@ def second_clock(stream: DraftedStream) -> tuple[int, tuple[ColumnMatch, ...]]:
         stream: The stream of a table.
 
     Returns:
-        Index of the column, -1 for none; the groups behind it, or all but those of the load where none is. No group
-        where nothing is left for the first column.
+        Index of the column, the last with groups behind it; these groups, or all but those of the load where none is
+        behind any. -1 and no group where nothing would be left for the first column, or there is no such column.
     """
     columns = () if stream.table is None or stream.table.episodes else stream.table.columns
     headings = [read_heading(column.name) for column in columns]
     first = time_column(headings, [column.step for column in columns])
     used = {first, *(k for group in stream.groups for k in group.columns)}
-    for k, column in enumerate(columns):
-        if first is not None and k not in used and column.step is not None and names_a_time(headings[k].name):
-            behind = tuple(group for group in stream.groups if min(group.columns) > k)
-            moved = behind or tuple(group for group in stream.groups if group.quantity not in ("wrench", "raw"))
-            return k, moved if len(moved) < len(stream.groups) else ()
-    return -1, ()
+    times = [
+        k
+        for k, column in enumerate(columns)
+        if first is not None and k not in used and column.step is not None and names_a_time(headings[k].name)
+    ]
+    behind = {k: tuple(group for group in stream.groups if min(group.columns) > k) for k in times}
+    of_motion = tuple(group for group in stream.groups if group.quantity not in _OF_LOAD)
+    choices = [(k, behind[k]) for k in reversed(times) if behind[k]] + [(k, of_motion) for k in times if not behind[k]]
+    return next((choice for choice in choices if 0 < len(choice[1]) < len(stream.groups)), (-1, ()))
 
 
-def _second_clock_lines(name: str, sketch: LogSketch, file: str, place: int) -> list[str]:
+def _named_by(moved: frozenset[str], own: str, *, on_robot: bool) -> str:
+    """What then names the stream of moved quantities; joints of a robot are found wherever they are."""
+    keys = []
+    if not moved.isdisjoint(_OF_LOAD):
+        keys.append("stream of [[sensor]]")
+    elif "temperature" in moved:
+        keys.append("stream of [[sensor.variable]]")
+    if on_robot and moved >= set(INERTIAL):
+        keys.append("imu of [support]")
+    elif not on_robot and not moved.isdisjoint(("orientation", "gravity", *INERTIAL)):
+        keys.append("motion of [load]")
+    return f"; {' and '.join(keys)} then name{'s' * (len(keys) == 1)} {own}" if keys else ""
+
+
+def _second_clock_lines(
+    name: str, sketch: LogSketch, file: str, place: int, moved: frozenset[str], *, on_robot: bool
+) -> list[str]:
     column = sketch.columns[place]
     first = time_column(_headings(sketch), [one.step for one in sketch.columns])
     own, unit = f"{name}_{read_heading(column.name).name}", column.unit or likeliest_time(column) or "s"
@@ -433,10 +455,8 @@ def _second_clock_lines(name: str, sketch: LogSketch, file: str, place: int) -> 
     if began[0] is not None and began[1] is not None:
         around = "where it is looked for, within 0.5 s: by it the first row has both times at once"
         lines.append(line("around_s", round(began[1] - began[0], 3), around))
-    words = (
-        f"{column.name} rises as a second time: if it stamps the signals below, take these lines; motion of [load] "
-        f"then names {own}"
-    )
+    words = f"{column.name} rises as a second time: if it stamps the signals below, take these lines"
+    words += _named_by(moved, own, on_robot=on_robot)
     return ["", remark(words), *(f"# {text}".rstrip() for text in "\n".join(lines).splitlines())]
 
 
