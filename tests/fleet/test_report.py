@@ -141,10 +141,15 @@ def test_any_recording_without_a_date_may_be_the_last(base: Path, tmp_path: Path
 
 @pytest.mark.usefixtures("blank_pictures")
 def test_a_report_without_a_page_is_printed(base: Path, run: Run) -> None:
-    """No file is asked for, and none is written."""
+    """No file is asked for, and none is written; a figure that cannot be drawn is a warning with the reason."""
     answer = run("fleet", "report", str(base / "fleet"), "--format", "json").result()
     assert answer["file"] is None
     assert answer["unranked"]
+    outcome = run("fleet", "report", base / "fleet", "--format", "json", "--figure", base / "report.png")
+    account = json.loads(outcome.out)
+    assert (outcome.code, account["figure"], account["unranked"]) == (0, None, answer["unranked"])
+    serial = answer["unranked"][0]["serial"]
+    assert f"({serial}): no calibration of it was given" in outcome.err
 
 
 @pytest.mark.usefixtures("blank_pictures")

@@ -59,7 +59,7 @@ def run_of(rng: np.random.Generator) -> LiveRun:
             unsent=0,
         ),
         slowest_s=0.001,
-        kept=KeptSamples(time_s=time, wrench=wrench, half_width=half_width),
+        kept=KeptSamples(time_s=time, came=np.full(wrench.shape[:2], True), wrench=wrench, half_width=half_width),
     )
 
 

@@ -21,6 +21,8 @@ from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.formats.ros.wrench_message import read_wrench
+from forcetorque.live.figure import live_figure
+from forcetorque.live.result import KeptSamples
 from forcetorque.results.terminal.output import drawn_to
 from tests.app.outcome import Run
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
@@ -84,6 +86,18 @@ def test_a_run_without_a_sample_has_its_account_and_no_figure(tmp_path: Path) ->
     assert not (tmp_path / "live.png").exists()
     assert drawn_to(whole, tmp_path / "live.png").warnings == ()
     assert (tmp_path / "live.png").exists()
+
+
+def test_lines_of_streams_that_come_in_turn_are_whole() -> None:
+    """Three streams of 100 Hz, the samples of one just behind those of another; the fourth sensor has none."""
+    time = (0.01 * np.arange(300)[:, None] + [0.0, 2e-4, 5e-4]).ravel()
+    wrench = np.broadcast_to(np.sin(time)[:, None, None], (900, 4, 6)).copy()
+    wrench[:, 3] = np.nan
+    came = np.tile(np.eye(3, 4, dtype=np.bool_), (300, 1))
+    kept = KeptSamples(time_s=time, came=came, wrench=wrench, half_width=0.1 * np.ones_like(wrench))
+    figure = live_figure(run_of(np.random.default_rng(1)).model_copy(update={"kept": kept}))
+    breaks = [int(np.isnan(panel.lines[0].get_ydata()).sum()) for panel in figure.axes[:6]]
+    assert breaks == [1] * 6  # behind the last
 
 
 def test_a_recording_becomes_a_bag(fitted: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -97,6 +97,7 @@ def test_streams_with_clocks_of_their_own_stand_side_by_side() -> None:
     taken.take(10**12 + 600 * MS)
     samples = taken.all()
     assert _times(samples) == [0.0, 0.0, 0.4, 0.6]
+    assert samples.came.tolist() == [[True, False], [False, True], [True, False], [True, False]]
     assert np.isnan(samples.wrench[:, 0, 0]).tolist() == [False] * 4
     assert np.isnan(samples.wrench[:, 1, 0]).tolist() == [True, False, False, True]
     assert np.allclose(samples.reading[1, 1], 1.001 * RAW[0])

@@ -225,6 +225,16 @@ def test_of_a_load_that_nothing_is_stated_of_no_centre_is_drawn() -> None:
     assert geometry.notes == ("no robot and no stated centre of mass of a load: the sensor's frame is drawn alone",)
 
 
+def test_a_centre_of_mass_at_the_origin_is_a_stated_one() -> None:
+    """There is nothing to draw beside the frame, and the note does not deny what is stated."""
+    load = Inertia.about_centre_of_mass(mass=0.5, centre_of_mass=np.zeros(3), second_moment=np.zeros((3, 3)))
+    geometry = robot_geometry(_load(load), None, Block())
+    assert geometry.shapes == ()
+    assert geometry.notes == (
+        "no robot: the sensor's frame is drawn alone, as the stated centre of mass of the load is at its origin",
+    )
+
+
 def _load(inertia: Inertia) -> RobotModel:
     table = Load.model_validate({"frame": "ft", "motion": ["log"], "measure_direction": "child_to_parent"})
     return load_model(table, "wrist", inertia)

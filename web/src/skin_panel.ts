@@ -22,16 +22,16 @@ export function skinPanel(data: SceneData, store: Store, frames: Frames, metresP
   const scale = Number((0.1 / metresPer).toPrecision(2));
   const arrows = skin.length ? [el("p", {}, `0.1 m of arrow on skin: ${scale} N, ellipsoid: one standard deviation`)] : [];
   const largest = [
-    ...darkest(data, skin, "N"),
-    ...darkest(data, events, "of the heuristic"),
+    ...strongest(data, skin, "N"),
+    ...strongest(data, events, "of the heuristic"),
   ];
-  const raster = largest.length ? [el("p", {}, `Time axis: darkest at ${largest.join(" and ")}`)] : [];
+  const raster = largest.length ? [el("p", {}, `Time axis: strongest colour at ${largest.join(" and ")}`)] : [];
   const values = new ContactsTable(data, store, frames);
   return [el("section", { "aria-label": "Skin" }, el("h2", {}, "Skin"), ...legend, ...arrows, ...raster, values.root)];
 }
 
-/** Largest force of a contact, which the raster over time shows as the darkest; none without any. */
-function darkest(data: SceneData, all: readonly { readonly contacts: SkinContactFrames }[], unit: string): string[] {
+/** Largest force of a contact, which the raster over time shows by its strongest colour; none without any. */
+function strongest(data: SceneData, all: readonly { readonly contacts: SkinContactFrames }[], unit: string): string[] {
   const largest = Math.max(0, ...all.map(({ contacts }) => largestForce(data, contacts)));
   return largest > 0 ? [`${largest.toPrecision(3)} ${unit}`] : [];
 }

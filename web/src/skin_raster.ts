@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contacts on skin over time: a row for each patch, its colour the largest force of a contact.
 
-import { faded, HEURISTIC, INK, MUTED } from "./colours";
+import { DARK, faded, HEURISTIC, INK, MUTED, PAPER } from "./colours";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import type { SceneData } from "./scene_data";
@@ -10,6 +10,7 @@ import { frameForces } from "./skin_frames";
 import { pressureColour } from "./skin_view";
 import type { Store } from "./store";
 import { penOf, TimeAxis } from "./time_axis";
+import { PRESSURES } from "./visual_roles";
 
 /** Height of a row; CSS pixels. */
 const ROW = 14;
@@ -24,6 +25,8 @@ interface Row {
   /** Largest force of each frame; N, or of the heuristic. */
   readonly forces: Float32Array;
   readonly shades: readonly string[];
+  /** Colour without a contact. */
+  readonly bed: string;
   readonly full: number;
   readonly unit: string;
 }
@@ -44,8 +47,8 @@ export class SkinRaster implements Drawable {
     const { skin, skin_events: events } = data.scene;
     const pressures = shades((share) => pressureColour(share).getStyle());
     this.rows = [
-      ...rowsOf(data, skin, pressures, "N"),
-      ...rowsOf(data, events, shades((share) => faded(HEURISTIC, share)), "heuristic"),
+      ...rowsOf(data, skin, pressures, DARK ? PRESSURES[0] : PAPER, "N"), // the largest is dark: its bed is light
+      ...rowsOf(data, events, shades((share) => faded(HEURISTIC, share)), PAPER, "heuristic"),
     ];
     const names = this.rows.map(({ name }) => name).join(", ");
     this.canvas.setAttribute("aria-label", `Contacts on skin over time: ${names}; the next one by the key c`);
@@ -78,8 +81,9 @@ export class SkinRaster implements Drawable {
     const [left, right] = this.axis.ends;
     this.rows.forEach((row, k) => {
       const top = ROW * k + 1;
-      const columns = this.columns(row);
-      columns.forEach((force, column) => {
+      pen.fillStyle = row.bed;
+      pen.fillRect(left, top, right - left, ROW - 2);
+      this.columns(row).forEach((force, column) => {
         if (!(force > 0)) return;
         pen.fillStyle = row.shades[Math.round((SHADES - 1) * Math.min(1, force / row.full))] ?? INK;
         pen.fillRect(left + column, top, 1, ROW - 2);
@@ -90,8 +94,11 @@ export class SkinRaster implements Drawable {
       pen.fillText(short(pen, row.name, left - 8), 4, top + 9);
     });
     const now = this.axis.pixel(this.data.time[this.store.state.sample] ?? Number.NaN);
-    pen.fillStyle = INK;
-    if (now >= left && now <= right) pen.fillRect(now - 1, 0, 2, this.height);
+    if (!(now >= left && now <= right)) return;
+    for (const [colour, half] of [[PAPER, 2], [INK, 1]] as const) {
+      pen.fillStyle = colour;
+      pen.fillRect(now - half, 0, 2 * half, this.height);
+    }
   }
 
   /** Largest force of a row in each pixel. */
@@ -103,6 +110,7 @@ export class SkinRaster implements Drawable {
       if (!(force > 0)) return;
       const start = times[k] ?? Number.NaN;
       const end = Math.min(start + frames.hold_s, times[k + 1] ?? Number.POSITIVE_INFINITY);
+      if (!(this.axis.pixel(end) > left)) return; // before the window
       const first = Math.max(0, Math.floor(this.axis.pixel(start) - left));
       const last = Math.min(columns.length - 1, Math.floor(this.axis.pixel(end) - left - 1e-6));
       for (let column = first; column <= Math.max(first, last) && column < columns.length; column++)
@@ -124,11 +132,12 @@ function rowsOf(
   data: SceneData,
   all: readonly { readonly name: string; readonly contacts: SkinContactFrames }[],
   colours: readonly string[],
+  bed: string,
   unit: string,
 ): Row[] {
   const rows = all.map(({ name, contacts }) => ({ name, frames: contacts, forces: frameForces(data, contacts) }));
   const full = rows.reduce((most, { forces }) => forces.reduce((a, b) => Math.max(a, b), most), 0) || 1;
-  return rows.map((row) => ({ ...row, shades: colours, full, unit }));
+  return rows.map((row) => ({ ...row, shades: colours, bed, full, unit }));
 }
 
 /** Colours of forces from 0 to the largest, of which the palest is seen. */

@@ -161,7 +161,8 @@ def fleet_report_figure(report: FleetReport) -> Figure:
         ShapeError: If no sensor was evaluated.
     """
     if not report.ranked:
-        raise ShapeError(f"{report.dataset}: expected an evaluated sensor to draw, got none; give calibrations by -c")
+        why = "".join(f"; {row.subject}: {row.reason}" for row in report.unranked[:1])
+        raise ShapeError(f"{report.dataset}: expected an evaluated sensor to draw, got none{why}")
     times = [row.times_allowed for row in report.ranked if row.times_allowed is not None]
     beyond = sum(one > 1.0 for one in times)
     message = (

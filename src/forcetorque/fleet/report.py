@@ -149,6 +149,7 @@ class FleetReport(DrawnResult):
     answered_by: ClassVar[str | None] = "forcetorque.fleet.answers:report_answers"
 
     drawn_by: ClassVar[str] = "forcetorque.fleet.figures:fleet_report_figure"
+    outlives_figure = True
 
     schema_name: Literal["forcetorque/fleet_report/1"] = Field(default="forcetorque/fleet_report/1", alias="schema")
     """Form of the result."""

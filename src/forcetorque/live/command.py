@@ -318,7 +318,7 @@ def live(
     )
     if figure is not None and recent is not None:
         last = recent.since(0, KEPT)
-        kept = KeptSamples(time_s=last.time_s, wrench=last.wrench, half_width=last.half_width)
+        kept = KeptSamples(time_s=last.time_s, came=last.came, wrench=last.wrench, half_width=last.half_width)
         result = drawn_to(result.model_copy(update={"kept": kept}), figure)
     with redirect_stdout(sys.stderr):  # standard output is for lines
         show(result, output_format, details=details)

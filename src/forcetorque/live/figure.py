@@ -46,7 +46,8 @@ def live_figure(run: LiveRun) -> Figure:
 
     Returns:
         The figure over time: a row per sensor, force on the left, moment on the right, with 95 % bands where the
-        calibration has a posterior. Lines break where samples lack; a line of many samples keeps its peaks.
+        calibration has a posterior. A line breaks where samples of its sensor lack; one of
+        many samples keeps its peaks.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -59,8 +60,9 @@ def live_figure(run: LiveRun) -> Figure:
     figure = new_figure(_FRAME_INCHES + _SENSOR_INCHES * len(sensors))
     panels = figure.subplots(len(sensors), 2, sharex=True, squeeze=False)
     for k, sensor in enumerate(sensors):
-        wrench, half = kept.wrench[:, k], kept.half_width[:, k]
-        time, lines = thinned_line(kept.time_s, np.concatenate([wrench, wrench - half, wrench + half], axis=1))
+        own = kept.came[:, k] | ~kept.came[:, k].any()  # a line needs an instant
+        wrench, half = kept.wrench[own, k], kept.half_width[own, k]
+        time, lines = thinned_line(kept.time_s[own], np.concatenate([wrench, wrench - half, wrench + half], axis=1))
         panels[k, 0].set_title(shown_name(f"{sensor.sensor} ({sensor.serial})"), loc="left", fontweight="bold")
         for panel, part, unit in zip(panels[k], FORCE_AND_MOMENT, ("force, N", "moment, N m"), strict=True):
             columns = (lines[:, n : n + 6][:, part].T for n in (0, 6, 12))

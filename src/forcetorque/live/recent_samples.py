@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.live.choices import FaultPolicy, HeldQuantity
 from forcetorque.live.corrector import Corrected, Corrector
@@ -35,6 +35,8 @@ class Samples:
     """Time since the first sample, by the stamps of the senders, never decreasing; shape (k,); s."""
     stamp_ns: IntArray
     """Stamps; shape (k,); ns."""
+    came: BoolArray
+    """Whether the sample is of the sensor; else that of another stream stands beside its last; shape (k, s)."""
     wrench: FloatArray
     """Corrected wrenches; NaN where there is none; shape (k, s, 6); N, N m."""
     half_width: FloatArray
@@ -72,6 +74,7 @@ class RecentSamples:
         channels = max(corrector.channels for corrector in correctors)
         shape = (self._size, ends[-1])
         self._time_ns, self._stamp_ns = np.zeros((2, self._size), dtype=np.int64)
+        self._came = np.zeros(shape, dtype=np.bool_)
         self._wrench, self._half_width = (np.full((*shape, 6), np.nan, dtype=np.float32) for _ in range(2))
         self._sample = np.full((*shape, channels), np.nan)
         self._positions = np.full((self._size, joints), np.nan, dtype=np.float32)
@@ -100,6 +103,7 @@ class RecentSamples:
         place = self._begin(now_ns, stamp_ns)
         if len(self._sensors) > 1:
             self._hold_others(place, group, now_ns)
+        self._came[place, sensors] = True
         self._wrench[place, sensors], self._half_width[place, sensors] = corrected.wrench, corrected.half_width
         if self._refuses[group]:
             self._wrench[place, sensors][(corrected.status & FAULTS) != 0] = np.nan
@@ -131,6 +135,7 @@ class RecentSamples:
                 first=first,
                 time_s=np.asarray(self._time_ns[places] * 1e-9, dtype=np.float64),
                 stamp_ns=self._stamp_ns[places],
+                came=self._came[places],
                 wrench=self._wrench[places].astype(np.float64),
                 half_width=self._half_width[places].astype(np.float64),
                 reading=reading,
@@ -143,6 +148,7 @@ class RecentSamples:
         """Make the next place empty, and give it."""
         place = self.total % self._size
         self._time_ns[place], self._stamp_ns[place] = now_ns, stamp_ns
+        self._came[place] = False
         for values in (self._wrench, self._half_width, self._sample):
             values[place] = np.nan
         self._positions[place] = self._positions[place - 1]

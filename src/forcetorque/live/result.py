@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
@@ -117,6 +117,8 @@ class KeptSamples:
 
     time_s: FloatArray
     """Time since the first sample of the run; shape (k,); s."""
+    came: BoolArray
+    """Whether the sample is of the sensor; else that of another stream stands beside its last; shape (k, s)."""
     wrench: FloatArray
     """Corrected wrenches; shape (k, s, 6); N, N m; NaN where there is none."""
     half_width: FloatArray

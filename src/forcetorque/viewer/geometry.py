@@ -125,6 +125,7 @@ _LOAD_STICK, _LOAD_BALL = 1.0 / 100.0, 1.0 / 12.0
 """Radii of what is drawn of a load without a robot, relative to the distance of its centre of mass."""
 _LOAD = "no robot: a ball marks the stated centre of mass of the load, at scale from the sensor's frame"
 _FRAME = "no robot and no stated centre of mass of a load: the sensor's frame is drawn alone"
+_AT_FRAME = "no robot: the sensor's frame is drawn alone, as the stated centre of mass of the load is at its origin"
 _NAMES = 3
 """So many names are listed in a note."""
 
@@ -165,7 +166,8 @@ def robot_geometry(
     reach = _reach(model)
     loads = [] if urdf is not None or reach else _loads(model)
     if urdf is None and not reach:
-        notes += [_LOAD if loads else _FRAME]
+        has_mass = any(link.mass > 0.0 for link in model.links.values())
+        notes += [_LOAD if loads else _AT_FRAME if has_mass else _FRAME]
     elif not visuals:
         notes += ["the robot has no shapes to draw: sticks join its joints"]
     elif lacking:

@@ -13,6 +13,7 @@ import pytest
 
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.viewer.arrays import Block, read_array
+from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene import SkinEventSeries, SkinPatch
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from forcetorque.viewer.skin import contact_frames
@@ -36,12 +37,14 @@ IDENTITIES = [np.array([], dtype=np.int64), np.array([1]), np.array([1, 3])]
 SD_N = 0.5
 RASTER = """(canvas, places) => places.map(([start, end, seconds, row]) => {
     const [left, right] = [58, canvas.clientWidth - 10];  // as the plots
+    const sum = (colour) => colour.reduce((total, part) => total + Number(part), 0);
+    const ground = sum(getComputedStyle(document.querySelector(".panel")).backgroundColor.match(/\\d+/g));
     const x = left + ((seconds - start) / (end - start)) * (right - left);
     const pixel = canvas.getContext("2d").getImageData(
         Math.round(x * devicePixelRatio), Math.round((14 * row + 7) * devicePixelRatio), 1, 1).data;
-    return (pixel[0] + pixel[1] + pixel[2]) * pixel[3] / 255 + 765 * (1 - pixel[3] / 255);
+    return sum([...pixel].slice(0, 3)) * pixel[3] / 255 + ground * (1 - pixel[3] / 255);
 })"""
-"""Brightness of a row at an instant, on white."""
+"""Brightness of a row at an instant, on the ground of the page."""
 METRES_TOLERANCE = 1e-5
 """Of tips: coordinates are float32."""
 
@@ -155,21 +158,39 @@ def test_skin_is_switched_off(skin_page: Page, skinned: tuple[Arm, BuiltScene]) 
     assert off == {"pressed": {"forearm_skin": 0}, "contacts": {"forearm_skin": [], "hand_events": []}, "ellipsoids": 0}
 
 
-def test_contacts_are_a_raster_over_time(skin_page: Page) -> None:
-    """A row for each patch and each link of a skinManager; the larger the force, the darker, and white without one."""
+@pytest.mark.parametrize("ground", ["light", "dark"])
+def test_contacts_are_a_raster_over_time(visit: Visit, skinned: tuple[Arm, BuiltScene], ground: Any) -> None:
+    """A row for each patch and each link of a skinManager; the larger the force, the further from none.
+
+    What was before the window is not at its left edge, which is as the right one, where nothing was.
+    """
+    (visit.folder / "view.html").write_bytes(page_of(skinned[1]))
+    skin_page = visit.blank()
+    skin_page.emulate_media(color_scheme=ground)
+    skin_page.goto((visit.folder / "view.html").as_uri())
+    skin_page.evaluate("window.ft.ready")
     raster = skin_page.get_by_role("img", name="Contacts on skin over time: forearm_skin, hand_events")
     box = raster.bounding_box()
     assert box is not None
     start, end = skin_page.evaluate("window.ft.plots()")[0]["x"]
     first, light = raster.evaluate(RASTER, [[start, end, 4.0, 0], [start, end, 4.0, 1]])
     none, dark = raster.evaluate(RASTER, [[start, end, 1.5, 0], [start, end, 6.9, 0]])
-    late = raster.evaluate(RASTER, [[start, end, 6.9, 1]])[0]
-    assert light == none  # nothing at the hand, nothing in the first frame
-    assert dark < first < none
-    assert late < none
+    nothing, late = raster.evaluate(RASTER, [[start, end, 1.5, 1], [start, end, 6.9, 1]])
+    assert light == nothing  # at the hand
+    assert dark + 100 < first < none - 100  # of 765
+    assert abs(late - nothing) > 100
     largest = max(float(np.linalg.norm(force)) for forces in FORCES for force in forces)
-    legend = skin_page.get_by_role("region", name="Skin").get_by_text("Time axis: darkest at")
-    assert legend.text_content() == f"Time axis: darkest at {largest:.1f} N and 0.500 of the heuristic"
+    legend = skin_page.get_by_role("region", name="Skin").get_by_text("Time axis: strongest colour at")
+    assert legend.text_content() == f"Time axis: strongest colour at {largest:.1f} N and 0.500 of the heuristic"
+    plot = skin_page.locator(".u-over").first.bounding_box()
+    assert plot is not None
+    skin_page.mouse.move(plot["x"] + plot["width"] - 1, plot["y"] + 5)
+    skin_page.mouse.wheel(0, -600)
+    skin_page.wait_for_function("window.ft.plots()[0].x[0] > 7")
+    skin_page.evaluate("window.ft.show(0)")
+    width = box["width"] - 68
+    edges = [raster.evaluate(RASTER, [[0, width, pixel, row] for pixel in (0, width - 1)]) for row in (0, 1)]
+    assert [left - right for left, right in edges] == [0, 0]
 
 
 def test_the_next_contact_is_one_key_away(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
