@@ -114,6 +114,7 @@ def test_joints_that_wrap_turn_on(rate_hz: int, speed: float, held: int) -> None
         np.where(np.abs(np.arange(COUNT) - 408) < 8, SWING[400], SWING),
         np.where(np.arange(COUNT) % 50 < 17, SWING[np.arange(COUNT) // 50 * 50], SWING),
         0.3 * np.random.default_rng(3).normal(size=COUNT),  # no jump stands out of such noise
+        np.random.default_rng(4).uniform(-np.pi, np.pi, size=COUNT),  # nor out of postures in any order
         np.full(COUNT, np.nan),
     ],
 )

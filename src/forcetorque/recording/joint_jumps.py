@@ -20,6 +20,8 @@ JUMPS = ("joint_spike", "joint_jump")
 _JUMP, _SPEED, _STEPS, _AROUND = 0.1, 15.0, 10.0, 5
 """Joints jump from one sample to the next by over 0.1 rad (0.1 m) beside their usual movement, faster than 15 rad/s
 (15 m/s) unless by whole turns, and by ten times the median of what the five changes on either side differ from it."""
+_OF_ALL = 3.0
+"""Part of what one change usually differs from the next in the whole log, beyond which a change can be a jump."""
 _TURN, _OF_TURN = 2.0 * np.pi, 0.3
 """A turn, and how far a jump may be from whole ones; rad."""
 _BACK = 0.25
@@ -89,12 +91,14 @@ class _Joint:
         usual, scatter = _movement_beside(steps[changes], seconds, far)
         beside = steps[changes[far]] - usual * seconds[far]
         size = np.abs(beside)
+        rests = len(changes) <= 2 * _AROUND
+        everywhere = 0.0 if rests else _OF_ALL * float(np.median(np.abs(np.diff(steps[changes]))))
         is_angle = signal.units[column] == "rad"
         turns = is_angle & (np.abs(_beside_turns(beside)) < _OF_TURN) & (size > np.pi)
         # a joint whose reading stops may change its speed meanwhile
         possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * seconds[far]
         jumps = (
-            (size > np.maximum(_JUMP, _STEPS * scatter))
+            (size > np.maximum(max(_JUMP, everywhere), _STEPS * scatter))
             & ((size > possible) | turns)
             & (periods[changes[far]] <= gap_limit_ns(stamps))
         )
