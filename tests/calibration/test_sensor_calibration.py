@@ -14,7 +14,6 @@ from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import load_experiment as interactive_experiment
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, calibrate_sensor, data_doubts
-from forcetorque.experiment import additions
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -24,7 +23,7 @@ from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording
 from tests.app.python.arrays import arrays_of
 from tests.results.showing import require_shown
-from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
+from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, add, edit, edit_lines, snapshot
 from tests.scenes.warm_experiments import TEMPERATURE, put, with_variables
 
 
@@ -142,7 +141,7 @@ def test_doubts_name_the_channel(arm: Path) -> None:
     assert any("s: ch2 stays at 12 counts" in sentence for sentence in doubts)
 
 
-def test_joints_that_jump_leave_the_calibration_as_it_is(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_joints_that_jump_leave_the_calibration_as_it_is(arm: Path) -> None:
     """Ten wrong rows and two lost turns in 24 s move the matrix by less than a tenth of what mounting does."""
     clean = calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")
     recording = read_recording(arm / "recording")
@@ -159,6 +158,6 @@ def test_joints_that_jump_leave_the_calibration_as_it_is(arm: Path, monkeypatch:
     assert change < 0.1 * 0.05
     assert 0 < broken.provenance.dropped <= 24
     # negative control: derivatives across jumps are those of no robot
-    monkeypatch.setattr(additions, "without_joint_jumps", lambda stream, _: (stream, ()))
+    add(arm / PARQUET, '\n[processing]\nkeep = ["joint_jumps"]\n')
     with pytest.raises(FitError, match="times as much as the reference, which no sensor does"):
         calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")

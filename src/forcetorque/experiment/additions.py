@@ -52,7 +52,7 @@ def follow_recipes(
     """
     fixed = {} if parsed.robot is None else parsed.robot.fixed
     _require_not_logged(fixed, file, logged)
-    recording = _without_joint_jumps(logged)
+    recording = logged if "joint_jumps" in parsed.processing.keep else _without_joint_jumps(logged)
     recording = aligned_clocks(parsed, file, recording, model, must_tell=clocks_must_tell)
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):

@@ -276,10 +276,11 @@ class ProcessingTable(Table):
     the log; if left out, it holds five samples of a stream below 10 Hz."""
     smoothing: Smoothing | None = None
     """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
-    keep: tuple[Literal["frozen", "saturated", "repeated", "glitches", "disagreeing"], ...] = ()
+    keep: tuple[Literal["frozen", "saturated", "repeated", "joint_jumps", "glitches", "disagreeing"], ...] = ()
     """What is used although it is left out by default: samples of a reading that does not change for long, or at the
-    limit of the converter; samples that repeat the reading before under a new stamp; single values of a variable that
-    are nowhere near its others; seconds in which readings disagree with all others, as if the robot was touched."""
+    limit of the converter; samples that repeat the reading before under a new stamp; turns and wrong rows of joints;
+    single values of a variable that are nowhere near its others; seconds in which readings disagree with all others, as
+    if the robot was touched."""
 
 
 class PoseTable(Table):
