@@ -161,3 +161,20 @@ def test_joints_that_jump_leave_the_calibration_as_it_is(arm: Path) -> None:
     add(arm / PARQUET, '\n[processing]\nkeep = ["joint_jumps"]\n')
     with pytest.raises(FitError, match="times as much as the reference, which no sensor does"):
         calibrate_sensor(SensorRun(load_experiment(arm / PARQUET), "arm_ft"), code_version="1", created="")
+
+
+def test_jumps_are_stated_on_the_clock_of_the_experiment(arm: Path) -> None:
+    """Joints that are stamped 0.4 s late: the interval to ignore is that of the joints as they are used."""
+    joints = read_recording(arm / "recording").stream("joints")
+    position = joints.signal("position")
+    values = position.values.copy()
+    values[300:400, 0] += 0.9
+    put(arm, replace(joints, signals={**joints.signals, "position": replace(position, values=values)}))
+    add(arm / PARQUET, '\n[[clock]]\nstream = "joints"\nto = "arm_ft"\ndelay_s = 0.4\n')
+    recording = load_experiment(arm / PARQUET).recording
+    moved = recording.stream("joints").stamp_ns
+    assert abs(int(moved[300] - joints.stamp_ns[300])) == 400_000_000
+    (found,) = (one for one in recording.findings if one.kind == "joint_jump")
+    assert (found.start_ns, found.end_ns) == (moved[299], moved[400])
+    start_s = (int(moved[299]) - recording.start_ns) * 1e-9
+    assert f"start_s = {np.floor(100.0 * start_s) / 100.0:.2f}" in found.message

@@ -52,8 +52,9 @@ def follow_recipes(
     """
     fixed = {} if parsed.robot is None else parsed.robot.fixed
     _require_not_logged(fixed, file, logged)
-    recording = logged if "joint_jumps" in parsed.processing.keep else _without_joint_jumps(logged)
-    recording = aligned_clocks(parsed, file, recording, model, must_tell=clocks_must_tell)
+    recording = aligned_clocks(parsed, file, logged, model, must_tell=clocks_must_tell)
+    if "joint_jumps" not in parsed.processing.keep:
+        recording = _without_joint_jumps(recording)  # behind the clocks: its findings state instants
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)
@@ -91,15 +92,17 @@ def _corrected(parsed: schema.ExperimentFile) -> Sequence[Finding]:
     return (Finding(stream=parsed.name, kind="corrected_robot", message=text, count=1),)
 
 
-def _without_joint_jumps(logged: Recording) -> Recording:
+def _without_joint_jumps(recording: Recording) -> Recording:
     repaired = {
-        name: without_joint_jumps(stream, logged.start_ns) for name, stream in logged.streams.items() if len(stream)
+        name: without_joint_jumps(stream, recording.start_ns)
+        for name, stream in recording.streams.items()
+        if len(stream)
     }
     found = [finding for _, findings in repaired.values() for finding in findings]
     if not found:
-        return logged
-    streams = {**logged.streams, **{name: stream for name, (stream, _) in repaired.items()}}
-    return replace(logged, streams=streams, findings=(*logged.findings, *found))
+        return recording
+    streams = {**recording.streams, **{name: stream for name, (stream, _) in repaired.items()}}
+    return replace(recording, streams=streams, findings=(*recording.findings, *found))
 
 
 def _kept(parsed: schema.ExperimentFile) -> Sequence[Finding]:
