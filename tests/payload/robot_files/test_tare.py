@@ -15,9 +15,9 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.robot_files.export import export_load, robot_load
 from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_hrpsys
 from forcetorque.payload.tare_offset import tare
 from tests.page_scripts import unmarked
+from tests.payload.robot_files.written_loads import read_hrpsys
 from tests.results.showing import require_shown
 from tests.scenes.experiments import OFFSET, PARQUET
 from tests.scenes.wrist_postures import BIAS, CENTRE, MASS, POSTURES, SLOW, weight, write_postures
@@ -74,7 +74,7 @@ def test_the_robot_is_told_the_new_offset(tmp_path: Path) -> None:
     (row,) = tare(run, "first").sensors
     words = export_load(robot_load(run, row.bias), tmp_path / "offsets", LoadFormat.HRPSYS)
     assert "taken off" in words
-    load = read_hrpsys(tmp_path / "offsets", sensor="wrist", frame="tool")
+    load = read_hrpsys(tmp_path / "offsets", "tool")
     assert load.mass == MASS
     np.testing.assert_allclose(load.centre_of_mass, CENTRE, atol=1e-15)
     assert np.array_equal(load.bias, -row.offset)
@@ -101,7 +101,7 @@ def test_the_script_of_its_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyP
     path.write_text(path.read_text().replace('label = "first"', 'label = "still"'))
     monkeypatch.chdir(tmp_path)
     exec(compile(code, "robot_load.md", "exec"), {})
-    assert read_hrpsys(tmp_path / "offsets.txt", sensor="wrist", frame="tool").mass == MASS
+    assert read_hrpsys(tmp_path / "offsets.txt", "tool").mass == MASS
 
 
 @pytest.mark.long
