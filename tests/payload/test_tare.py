@@ -13,9 +13,9 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.robot_files.export import export_load, robot_load
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import read_hrpsys
+from forcetorque.payload.export.export import export_load, robot_load
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.hrpsys_and_mc_rtc import read_hrpsys
 from forcetorque.payload.tare_offset import tare
 from tests.page_scripts import unmarked
 from tests.results.showing import require_shown

@@ -20,10 +20,10 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.answers import payload_answers
+from forcetorque.payload.export.export import export_load, robot_load
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.load_parameters import RobotLoad
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.robot_files.export import export_load, robot_load
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
