@@ -13,7 +13,7 @@ import forcetorque
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.contests.entries import read_entries
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
-from forcetorque.evaluation.acceptance.limits import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.locomotion.torque_control.file import read_torque_loop
 from forcetorque.report.sources import sort_sources
