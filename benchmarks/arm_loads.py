@@ -22,7 +22,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, FormatError
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_of_log import described_log, experiment_of_description, load_of_torque_logs
+from forcetorque.payload.log_without_experiment import described_log, experiment_of_description, load_of_torque_logs
 from forcetorque.payload.result import LoadRow
 from tests.formats.franka.states import write_states, write_table
 from tests.formats.ros.bags import TF, Types, write_bag

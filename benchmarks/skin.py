@@ -25,11 +25,11 @@ from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joi
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import DISC_POINTS, DISC_RADIUS_M
 
 PITCH_M = 6.6e-3

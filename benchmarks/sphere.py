@@ -10,9 +10,10 @@ from scipy.spatial.transform import Rotation
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.sphere.algebraic_fit import direct_fit, gradient_weighted_fit
-from forcetorque.evaluation.sphere.cloud import QuadricMoments, Resampled, extent, resampled
+from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 from forcetorque.evaluation.sphere.geometric_fit import ellipsoid_distances, refine_ellipsoid
+from forcetorque.evaluation.sphere.resampling import Resampled, resampled
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 
 WEIGHT, NOISE = 46.4, 0.5

@@ -19,7 +19,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import SkinBody, contacts
+from forcetorque.skin.simulation.objects_on_skin import SkinBody, contacts
 from forcetorque.skin.simulation.recordings import TaxelResponses, chamber_recording, contact_recording
 
 TAXELS, RADIUS_M = 400, 0.05

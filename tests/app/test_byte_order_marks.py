@@ -13,7 +13,7 @@ import forcetorque
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.contests.entries import read_entries
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
-from forcetorque.evaluation.acceptance.limits import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.locomotion.torque_control.file import read_torque_loop
 from forcetorque.report.sources import sort_sources
@@ -71,5 +71,5 @@ def test_one_function_reads_toml_files() -> None:
     """`tomllib` is elsewhere only given texts of our own or of an option."""
     users = {path.relative_to(ROOT).as_posix() for path in ROOT.rglob("*.py") if "tomllib" in path.read_text()}
     drafts = {f"inspection/draft/{name}.py" for name in ("draft", "edits", "first_look", "proposals", "questions")}
-    options = {"formats/specified_keys.py", "payload/load_of_log.py"}
+    options = {"formats/specified_keys.py", "payload/log_without_experiment.py"}
     assert users == {"base/toml_file.py"} | drafts | options

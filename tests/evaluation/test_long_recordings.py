@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.sphere.sphere import spheres

@@ -21,7 +21,7 @@ RUN_ELSEWHERE = {
     "live.md": "tests/live/test_corrector.py",
     "yarp.md": "tests/experiment/test_written_logs.py",
     "calibration/joint.md": "tests/calibration/joint/test_joint_calibration.py",
-    "payload/robot_load.md": "tests/payload/robot_files/test_tare.py",
+    "payload/robot_load.md": "tests/payload/test_tare.py",
     "locomotion/coherence.md": "tests/locomotion/net_force/test_coherence_command.py",
     "contests.md": "tests/contests/test_contest_command.py",
     "sensor/response.md": "tests/sensor/bandwidth/test_response.py",

@@ -20,7 +20,7 @@ from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import compare, evaluate, validate
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.additions import added_to, with_recording_notes

@@ -13,7 +13,8 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.streams import RecordedLog, load_recorded
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, load_foot_forces
-from forcetorque.skin.experiment import PatchExperiment, load_patches
+from forcetorque.skin.patches_of_experiment import PatchExperiment
+from forcetorque.skin.section import load_patches
 from tests.payload.test_wrist_load import TEXT
 
 INTERVALS = """\

@@ -17,7 +17,7 @@ from forcetorque.calibration.export.command import export_calibrations
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.limits import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
 from forcetorque.experiment.loading import load_experiment

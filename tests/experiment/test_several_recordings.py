@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.validation_evidence import compare_with_prior
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces

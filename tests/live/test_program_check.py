@@ -27,9 +27,9 @@ from forcetorque.live.run import LiveLoop
 from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.settings import Settings
 from forcetorque.live.tool import Tool
-from forcetorque.payload.robot_files.export import export_load
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.payload.export.export import export_load
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.load_parameters import RobotLoad
 from forcetorque.results.answer import Concern
 from tests.scenes.calibrations import make_calibration, make_variable
 

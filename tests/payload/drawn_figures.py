@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.payload.figure import load_figure, tare_figure
+from forcetorque.payload.figures import load_figure, tare_figure
 from forcetorque.payload.result import LoadRow, RecordingLoadRow
 from forcetorque.payload.tare_offset import TaredSensor, TareErrors
 

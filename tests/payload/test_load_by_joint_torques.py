@@ -16,7 +16,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.formats.franka.kinematics import joint_frames
 from forcetorque.payload.load_by_joint_torques import TorqueLoad
-from forcetorque.payload.load_of_log import described_log, load_of_torque_logs
+from forcetorque.payload.log_without_experiment import described_log, load_of_torque_logs
 from forcetorque.results.answer import MOST_LINES
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.installed import installed_robots

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload import samples_from_recordings
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_of_log import described_log, experiment_of_description
+from forcetorque.payload.log_without_experiment import described_log, experiment_of_description
 from forcetorque.payload.result import WeighedLoad
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_binary
 from tests.scenes.segments import short_segments

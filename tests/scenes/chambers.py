@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, TaxelResponses, chamber_recording
-from forcetorque.skin.taxels.faults import TaxelFault
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 
 TAXELS = 60
 BROKEN = {

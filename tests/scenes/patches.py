@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import MODULE_COLUMNS, MODULE_TAXELS, MODULE_THERMAL, placed_pads
+from forcetorque.skin.layout.triangular_modules import MODULE_COLUMNS, MODULE_TAXELS, MODULE_THERMAL, placed_pads
 
 RADIUS_M = 0.06
 """Of a shank; m."""

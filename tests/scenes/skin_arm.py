@@ -15,7 +15,7 @@ from forcetorque.formats.yarp.skin_ports import COLUMNS, UNITS
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.skin.simulation.contact import ContactTruth
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth
 from forcetorque.skin.taxels.calibrate import calibrate_skin
 from tests.scenes.experiments import PARQUET, add
 from tests.scenes.touched import write_touched

@@ -16,7 +16,7 @@ from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.skin.simulation.contact import ContactTruth
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.robots import joint_xml, link_xml, robot_xml, sensor_xml

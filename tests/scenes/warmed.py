@@ -14,7 +14,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import (
     NOISE_COUNTS,
     TaxelResponses,

@@ -17,18 +17,18 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.contact.contacts import find_contacts
+from forcetorque.skin.contact.contact_clusters import find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
-from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, SIMPLE_AREA_M2, TaxelResponses, chamber_recording
-from forcetorque.skin.taxels.curve import CurveKind, fit_curve
-from forcetorque.skin.taxels.fit import calibrated_taxel
+from forcetorque.skin.taxels.curve_comparison import calibrated_taxel
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.taxels.recording import REST_SHARE, pressure_cycle
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.taxels.pressure_cycles import REST_SHARE, pressure_cycle
+from forcetorque.skin.taxels.taxel_curve import CurveKind, fit_curve
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 
 TUNED_SEED: Final = 1

@@ -16,7 +16,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.pose import cross
-from forcetorque.skin.simulation.contact import PAD_RADIUS_M, RigidObject
+from forcetorque.skin.simulation.objects_on_skin import PAD_RADIUS_M, RigidObject
 
 Surface = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 """Positions and outward unit normals of the outer side at places of a chart; shapes (..., 2) to (..., 3) twice; m."""

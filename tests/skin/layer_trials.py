@@ -19,8 +19,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ContactTruth, FlatWeight, SkinContact, Sphere
-from forcetorque.skin.simulation.surface import TrueSurface
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth, FlatWeight, SkinContact, Sphere
+from forcetorque.skin.simulation.true_surface import TrueSurface
 from forcetorque.skin.wrench.known_weight import agreement_of
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from tests.skin.contact_trials import (

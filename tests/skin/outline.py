@@ -7,7 +7,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.surface import SkinSurface, rim_strip
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 
 
 def outline_wrench(patch: SkinPatch) -> FloatArray:

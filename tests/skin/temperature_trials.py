@@ -17,17 +17,17 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.recording.recording import Recording
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_tracking import PatchFollower
 from forcetorque.skin.contact.pressure_frame import PatchReader
-from forcetorque.skin.contact.tracking import PatchFollower
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ON_SKIN, ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.objects_on_skin import ON_SKIN, ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import TaxelResponses
 from forcetorque.skin.simulation.temperature import HeatResponses, Warmth, warm_recording
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, TaxelDrift
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from tests.skin.contact_trials import chamber_table, leg_layout
 
 MASS_KG: Final = 1.0

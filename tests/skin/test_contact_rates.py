@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.skin.simulation.contact import GRID_M
+from forcetorque.skin.simulation.objects_on_skin import GRID_M
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from tests.skin.contact_trials import CHAINS, CONTACTS, JUDGED_SEED, ContactTrial, Leg, by_active, errors, within
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.simulation.contact import Sphere
+from forcetorque.skin.simulation.objects_on_skin import Sphere
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from tests.skin.contact_trials import ContactTrial, PatchTrials, errors
 from tests.skin.elastic_layer import STIFFNESS_PA_PER_M, ElasticLayer, LayerMaterial, Pressing

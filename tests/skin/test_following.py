@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.contact.contacts import SkinContacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts
+from forcetorque.skin.contact.contact_tracking import PatchFollower
 from forcetorque.skin.contact.pressure_frame import PatchReader
-from forcetorque.skin.contact.tracking import PatchFollower
 from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressures_over_recording import _short_noise, touched_at_rest
 from tests.scenes.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 from tests.skin.contact_trials import chamber_table

@@ -13,8 +13,8 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.inspection.findings import taxel_findings
 from forcetorque.recording.recording import Use
-from forcetorque.skin.experiment import load_patches
-from forcetorque.skin.taxels.faults import TaxelFault
+from forcetorque.skin.section import load_patches
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 from tests.scenes.chambers import TAXELS, TEXT, chamber, responses, write_chamber
 from tests.scenes.patches import cylinder_patch, position_text
 

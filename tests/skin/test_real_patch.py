@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from tests.skin.contact_trials import leg_drawing, leg_layout
 from tests.skin.outline import outline_wrench
 

@@ -18,11 +18,11 @@ from forcetorque.report.experiment_assessment import ExperimentAssessment, asses
 from forcetorque.report.sensor_assessment import Demands
 from forcetorque.results.document.content import Figure, List, Section, Text
 from forcetorque.results.table import Table
-from forcetorque.skin.experiment import PATCHES
 from forcetorque.skin.figures import skin_event_figure
 from forcetorque.skin.report_blocks import skin_section
+from forcetorque.skin.section import PATCHES
 from forcetorque.skin.wrench.result import skin_event_rows
-from forcetorque.skin.wrench.wrench import skin_wrench
+from forcetorque.skin.wrench.skin_wrench import skin_wrench
 from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit
 from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, PATCH, SKIN, write_skin_arm

@@ -15,7 +15,8 @@ from forcetorque.recording.recording import Use
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.experiment import BESIDE_M, ROOT, force_patches, is_skin_alone, links_side_by_side
+from forcetorque.skin.patches_of_experiment import BESIDE_M, ROOT, is_skin_alone, links_side_by_side
+from forcetorque.skin.section import force_patches
 from tests.scenes.skin_alone import EVENTS, FRAMES, write_events
 from tests.scenes.touched import write_table, write_touched
 

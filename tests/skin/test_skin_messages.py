@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.wrench.pressures_over_recording import patch_messages
 
 MESSAGES, COLUMNS = 20, 12

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.errors import FormatError, MissingExtraError
 from forcetorque.base.inertia import Inertia
 from forcetorque.payload.load_on_wrist_sensor import load_model
-from forcetorque.payload.toml_tables import Load
+from forcetorque.payload.load_tables import Load
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.viewer.arrays import Block, read_array

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, UnitError
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.workbench.bench import Bench
 from forcetorque.workbench.calibrate import workbench

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, FormatError, UnitError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.evaluation.acceptance.limits import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.workbench.calibrate import workbench

@@ -44,7 +44,7 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.contests.entries import ContestFile
     from forcetorque.device.device_file import DeviceFile
-    from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.experiment.bench_file import BenchFile
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.calibration.joint_posterior import JointPosterior

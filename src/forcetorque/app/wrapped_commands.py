@@ -191,7 +191,7 @@ def _write(
 def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progress: Progress) -> BuiltScene:
     """What the viewer shows of an experiment, by the options of the command."""
     from forcetorque.experiment.loading import Purpose, load_experiment
-    from forcetorque.payload.load_of_log import is_experiment_file
+    from forcetorque.payload.log_without_experiment import is_experiment_file
     from forcetorque.results.terminal.input import read_calibrations
     from forcetorque.viewer.contacts import ContactOptions
     from forcetorque.viewer.scene_builder import build_scene, scene_of

@@ -299,7 +299,7 @@ class CompensatedDataset(DrawnResult):
 
     answered_by: ClassVar[str | None] = "forcetorque.dataset.result:compensation_answer"
 
-    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_by: ClassVar[str] = "forcetorque.payload.figures:load_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
     outlives_figure = True
 

@@ -37,8 +37,8 @@ from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSampl
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, outboard_bodies
-from forcetorque.skin.experiment import force_patches
-from forcetorque.skin.wrench.wrench import PatchFrames
+from forcetorque.skin.section import force_patches
+from forcetorque.skin.wrench.skin_wrench import PatchFrames
 
 
 def narrowed(

@@ -22,9 +22,9 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.skin.contact.contacts import SkinContacts
-from forcetorque.skin.experiment import PATCHES, force_patches
-from forcetorque.skin.wrench.wrench import PatchFrames, patch_frames
+from forcetorque.skin.contact.contact_clusters import SkinContacts
+from forcetorque.skin.section import PATCHES, force_patches
+from forcetorque.skin.wrench.skin_wrench import PatchFrames, patch_frames
 
 TILT_RAD: Final = 0.011
 """Standard deviation of the direction of a skin's force about either tangent: root mean square of 157 simulated

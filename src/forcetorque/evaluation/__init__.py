@@ -8,7 +8,7 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.evaluation.acceptance.acceptance import accept as accept
-    from forcetorque.evaluation.acceptance.limits import read_acceptance as read_acceptance
+    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance as read_acceptance
     from forcetorque.evaluation.commands import compare as compare, evaluate as evaluate, validate as validate
     from forcetorque.evaluation.evaluation import Evaluation as Evaluation
     from forcetorque.evaluation.load_cases.verdict import use_verdicts as use_verdicts
@@ -44,7 +44,7 @@ __all__, __getattr__, __dir__ = lazy_names(
         "accept": "forcetorque.evaluation.acceptance.acceptance",
         "compare": "forcetorque.evaluation.commands",
         "evaluate": "forcetorque.evaluation.commands",
-        "read_acceptance": "forcetorque.evaluation.acceptance.limits",
+        "read_acceptance": "forcetorque.evaluation.acceptance.acceptance_file",
         "spheres": "forcetorque.evaluation.sphere.sphere",
         "spheres_of_sensors": "forcetorque.evaluation.sphere.sphere",
         "use_verdicts": "forcetorque.evaluation.load_cases.verdict",

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from forcetorque.base.progress import Progress
     from forcetorque.evaluation.acceptance.acceptance import Acceptance
-    from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.evaluation.evaluation import Evaluation
     from forcetorque.evaluation.sphere.sphere import Spheres
     from forcetorque.evaluation.trials.comparison import Comparison
@@ -111,7 +111,7 @@ def accept(
         ForceTorqueError: If a limit is specified for what cannot be measured; the message names its table.
     """
     from forcetorque.evaluation.acceptance.acceptance import accept
-    from forcetorque.evaluation.acceptance.limits import AcceptanceFile, read_acceptance
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
     from forcetorque.experiment.calibrations_under_test import one_named
     from forcetorque.experiment.input_files import stated_in
 

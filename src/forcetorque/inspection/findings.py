@@ -29,9 +29,9 @@ from forcetorque.recording.joint_jumps import JUMPS, MOST_LEFT_OUT, are_ignored
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.faults import TaxelFault, taxel_faults
-from forcetorque.skin.taxels.recording import patch_recordings
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.taxels.pressure_cycles import patch_recordings
+from forcetorque.skin.taxels.taxel_faults import TaxelFault, taxel_faults
 
 _Found = TypeVar("_Found")
 

@@ -49,7 +49,8 @@ from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Finding, Recording, Use
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
-from forcetorque.skin.experiment import PATCHES, PatchExperiment, load_patches
+from forcetorque.skin.patches_of_experiment import PatchExperiment
+from forcetorque.skin.section import PATCHES, load_patches
 
 
 def inspect_segments(

@@ -25,9 +25,9 @@ from forcetorque.live.packets import Packet
 from forcetorque.live.result import LiveCheck
 from forcetorque.live.sample_status import FAULTS
 from forcetorque.live.tool import Tool
-from forcetorque.payload.robot_files.arms import READABLE_ARMS, read_arm_load
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.ros import read_gravity_filter
+from forcetorque.payload.export.arm_controllers_and_simulators import READABLE_ARMS, read_arm_load
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.ros2_control_and_ft_tools import read_gravity_filter
 
 _WHOLE_BODY = ExportFormat.WHOLEBODYDYNAMICS.value
 PROGRAMS = (_WHOLE_BODY, LoadFormat.GRAVITY_FILTER.value, *(form.value for form in READABLE_ARMS))

@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
+    from forcetorque.payload.export.export import export_load as export_load, robot_load as robot_load
     from forcetorque.payload.identify import weigh_load as weigh_load
-    from forcetorque.payload.robot_files.export import export_load as export_load, robot_load as robot_load
     from forcetorque.payload.tare_offset import tare as tare
 
 CAPABILITY = Capability(
@@ -24,8 +24,8 @@ CAPABILITY = Capability(
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "export_load": "forcetorque.payload.robot_files.export",
-        "robot_load": "forcetorque.payload.robot_files.export",
+        "export_load": "forcetorque.payload.export.export",
+        "robot_load": "forcetorque.payload.export.export",
         "tare": "forcetorque.payload.tare_offset",
         "weigh_load": "forcetorque.payload.identify",
     },

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.formats.logged_wrist import BAG
+from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
 from forcetorque.payload.result import fitted_drifts, gravity_words, mount_words, tilt_words
-from forcetorque.payload.robot_files.formats import LoadFormat
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names

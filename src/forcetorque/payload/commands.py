@@ -12,7 +12,7 @@ import typer
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
-from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.results.terminal.options import (
     DetailsOption,
     ExperimentArgument,
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     from forcetorque.experiment.calibration.artefact import Calibration
     from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-    from forcetorque.payload.robot_files.robot_load import RobotLoad
+    from forcetorque.payload.export.load_parameters import RobotLoad
 
 
 LoadFormatOption = Annotated[
@@ -82,7 +82,7 @@ def refuse_load_file(
             f"expected both --to, out of {', '.join(LoadFormat)}, and --output, the file, or neither of them"
         )
     if output is not None and to is not None:
-        from forcetorque.payload.robot_files.export import override_file
+        from forcetorque.payload.export.export import override_file
 
         refuse_two_on_standard_output(output, output_format)
         declare_outputs(output, None if override is None else override_file(output, to), force=force)
@@ -108,7 +108,7 @@ def write_load(
         log: Where that goes.
     """
     from forcetorque.base.pose import make_pose, rotation_from_rpy
-    from forcetorque.payload.robot_files.export import export_load
+    from forcetorque.payload.export.export import export_load
 
     pose = None if sensor_pose is None else make_pose(rotation_from_rpy(sensor_pose[3:]), sensor_pose[:3])
     convention = export_load(load, output, to, world_frame=world_frame, body_H_sensor=pose)
@@ -163,15 +163,15 @@ def payload(
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.formats.kept_parts import parts_kept
     from forcetorque.formats.specified_keys import specified_keys
+    from forcetorque.payload.export.export import require_agreeing_logs, robot_load
     from forcetorque.payload.identify import weigh_load, weighing_sensor
-    from forcetorque.payload.load_of_log import (
+    from forcetorque.payload.log_without_experiment import (
         described_log,
         experiment_of_description,
         is_experiment_file,
         load_of_torque_logs,
         refuse_a_log_twice,
     )
-    from forcetorque.payload.robot_files.export import require_agreeing_logs, robot_load
 
     log = start_logging()
     _declare_experiment_file(experiments, save_experiment, output, output_format, force=force)
@@ -263,7 +263,7 @@ def _refuse_beside_torques(
     experiments: Sequence[Path], torques: Collection[Path], save_experiment: Path | None, to: LoadFormat | None
 ) -> None:
     from forcetorque.experiment.kept_experiments import experiments_asked_by
-    from forcetorque.payload.robot_files.arms import ARMS
+    from forcetorque.payload.export.arm_controllers_and_simulators import ARMS
 
     first = next(iter(torques))
     if option := experiments_asked_by():
@@ -321,7 +321,7 @@ def tare(
     """
     from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.payload.robot_files.export import robot_load
+    from forcetorque.payload.export.export import robot_load
     from forcetorque.payload.tare_offset import Tare, tare
     from forcetorque.results.terminal.input import read_calibrations, read_experiment, refuse_left_out, sensors_named
 

@@ -15,10 +15,11 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.held_load import held_load
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution, three
-from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
+from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
 from forcetorque.payload.load_warnings import (
     behind_flange,
@@ -29,7 +30,6 @@ from forcetorque.payload.load_warnings import (
 )
 from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, link_loads
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
-from forcetorque.payload.robot_files.held_load import held_load
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none, plus_minus
 from forcetorque.robot.mounting import rotation_vector

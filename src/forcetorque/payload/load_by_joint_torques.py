@@ -21,9 +21,9 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques
 from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.export.load_parameters import RobotLoad
 from forcetorque.payload.load_warnings import overruled, torque_doubt
 from forcetorque.payload.result import ArmLog, LoadRow, load_words
-from forcetorque.payload.robot_files.robot_load import RobotLoad
 from forcetorque.results.number_text import plus_minus
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
@@ -63,7 +63,7 @@ class JointTorqueRow(Row):
 class TorqueLoad(DrawnResult):
     """What an arm holds beyond its flange, by its joint torques."""
 
-    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_by: ClassVar[str] = "forcetorque.payload.figures:load_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
 
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:torque_answers"

@@ -15,11 +15,11 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading, require_link
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.loads_with_intervals import solve
+from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.load_from_result_file import LoadFromFile, read_load_from_file, spread_of, with_matrix_in_part
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_estimated, inertia_of_stated
+from forcetorque.payload.load_tables import LinkLoad
 from forcetorque.payload.samples_from_recordings import LoadedInterval, link_load_problem
-from forcetorque.payload.toml_tables import LinkLoad
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.tree import build_tree, path_to_root

@@ -352,7 +352,7 @@ def gravity_words(gravity: float) -> str:
 class WeighedLoad(DrawnResult):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
-    drawn_by: ClassVar[str] = "forcetorque.payload.figure:load_figure"
+    drawn_by: ClassVar[str] = "forcetorque.payload.figures:load_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads", "recordings")
 
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:payload_answers"

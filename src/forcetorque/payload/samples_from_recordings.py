@@ -25,7 +25,7 @@ from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.measurement_model import inertial_columns
-from forcetorque.payload.toml_tables import Load as LoadTable
+from forcetorque.payload.load_tables import Load as LoadTable
 from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.dynamics import body_poses, joints_between, motion_of_link

@@ -17,8 +17,7 @@ from forcetorque.payload.load_on_wrist_sensor import (
     stated_inertia,
     stated_loads,
 )
-from forcetorque.payload.loads_on_robot_links import LinkLoads, read_link_loads, with_loads_named
-from forcetorque.payload.toml_tables import (
+from forcetorque.payload.load_tables import (
     AnyLoad,
     LinkLoad,
     Loads,
@@ -29,6 +28,7 @@ from forcetorque.payload.toml_tables import (
     require_one_sensor,
     wrist_tables,
 )
+from forcetorque.payload.loads_on_robot_links import LinkLoads, read_link_loads, with_loads_named
 from forcetorque.recording.recording import Interval, MovingSupport, Use
 
 

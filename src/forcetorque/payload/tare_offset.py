@@ -83,7 +83,7 @@ class TaredSensor(Row):
 class Tare(DrawnResult):
     """Offsets with which sensors read what their loads weigh."""
 
-    drawn_by: ClassVar[str] = "forcetorque.payload.figure:tare_figure"
+    drawn_by: ClassVar[str] = "forcetorque.payload.figures:tare_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
     answered_by: ClassVar[str | None] = "forcetorque.payload.answers:tare_answers"
 

@@ -38,9 +38,10 @@ from forcetorque.report.sensor_assessment import (
     stream_overviews,
 )
 from forcetorque.results.table import Row
-from forcetorque.skin.experiment import PATCHES, PatchExperiment, force_patches, is_skin_alone
+from forcetorque.skin.patches_of_experiment import PatchExperiment, is_skin_alone
+from forcetorque.skin.section import PATCHES, force_patches
 from forcetorque.skin.wrench.result import SkinEventPicture, SkinEventRow, skin_event_rows
-from forcetorque.skin.wrench.wrench import SkinWrench, skin_wrench
+from forcetorque.skin.wrench.skin_wrench import SkinWrench, skin_wrench
 
 
 def assess_skin(patches: PatchExperiment | None) -> tuple[tuple[SkinWrench, ...], tuple[str, ...]]:

@@ -15,8 +15,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.summary import LITTLE_LEARNT, InformationGain, information_gains, learnt_words
 from forcetorque.evaluation.acceptance.acceptance import accept
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Criterion
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks, check
 from forcetorque.evaluation.evaluation import CalibrationErrors, Evaluation, at_rest, validation_errors
 from forcetorque.evaluation.load_cases.validation_evidence import (

@@ -13,7 +13,7 @@ import forcetorque
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import toml_content
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile, read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.applicability import calibrations_of
 from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.experiment import Experiment

@@ -18,7 +18,7 @@ CAPABILITY = Capability(
     page="skin/layout.md",
     needs=("simulation",),
     commands=("forcetorque.skin.commands:skin",),
-    sections=("forcetorque.skin.experiment:PATCHES",),
+    sections=("forcetorque.skin.section:PATCHES",),
 )
 
 __all__, __getattr__, __dir__ = lazy_names(

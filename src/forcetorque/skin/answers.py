@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, plus_minus, within
-from forcetorque.skin.contact.tracking import OFFERED
+from forcetorque.skin.contact.contact_tracking import OFFERED
 
 if TYPE_CHECKING:
     from forcetorque.skin.layout.check import SkinCheck
     from forcetorque.skin.taxels.calibrate import SkinCalibration
     from forcetorque.skin.wrench.known_weight import KnownWeight
-    from forcetorque.skin.wrench.wrench import SkinWrench
+    from forcetorque.skin.wrench.skin_wrench import SkinWrench
 
 _TWO_SIGMA = 1.96
 """Standard deviations of a bound that holds with 95 %, of normal noise."""

@@ -11,11 +11,11 @@ from forcetorque.results.terminal.command_from_signature import command_function
 from forcetorque.results.terminal.options import WholeSentences
 
 if TYPE_CHECKING:
-    from forcetorque.skin.experiment import PatchExperiment
     from forcetorque.skin.layout.check import SkinCheck
+    from forcetorque.skin.patches_of_experiment import PatchExperiment
     from forcetorque.skin.taxels.calibrate import SkinCalibration
     from forcetorque.skin.taxels.patch_calibration import PatchCalibration
-    from forcetorque.skin.wrench.wrench import SkinWrench
+    from forcetorque.skin.wrench.skin_wrench import SkinWrench
 
 _PATCH = Option("Name of the patch. Default: the only one.")
 
@@ -118,13 +118,13 @@ def calibrate_skin(
     Saved(
         flags=("--output", "-o"),
         help="File (CSV) of every contact of every frame.",
-        function="forcetorque.skin.wrench.wrench:save_contacts",
+        function="forcetorque.skin.wrench.skin_wrench:save_contacts",
         endings=(".csv",),
     ),
     Saved(
         flags=("--film",),
         help="GIF of the field of pressure over time.",
-        function="forcetorque.skin.film:save_skin_film",
+        function="forcetorque.skin.pressure_animation:save_skin_film",
         endings=(".gif",),
     ),
 )
@@ -175,7 +175,7 @@ def skin_wrench(
     Returns:
         Every contact of every frame.
     """
-    from forcetorque.skin.wrench.wrench import WrenchChoice, skin_wrench
+    from forcetorque.skin.wrench.skin_wrench import WrenchChoice, skin_wrench
 
     choice = WrenchChoice(
         method=method,

@@ -9,7 +9,7 @@ from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.results.document.content import Block, Figure, List, Picture, Section, Text
 from forcetorque.results.table import Table, table_of
 from forcetorque.skin.figures import skin_event_figure, skin_wrench_figure
-from forcetorque.skin.wrench.wrench import SkinWrench
+from forcetorque.skin.wrench.skin_wrench import SkinWrench
 
 _HEURISTIC = (
     "What a skinManager calls the force of a contact is a heuristic, -0.05 times the number of active taxels, their "

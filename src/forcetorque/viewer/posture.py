@@ -22,7 +22,7 @@ from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing,
 from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.experiment import PATCHES
+from forcetorque.skin.section import PATCHES
 from forcetorque.viewer import scene
 from forcetorque.viewer.geometry import flat
 

@@ -33,7 +33,8 @@ from forcetorque.results.result import Result
 from forcetorque.results.table import Table
 from forcetorque.robot.installed import urdf_file
 from forcetorque.robot.model import RobotModel
-from forcetorque.skin.experiment import BESIDE_M, PATCHES, is_skin_alone
+from forcetorque.skin.patches_of_experiment import BESIDE_M, is_skin_alone
+from forcetorque.skin.section import PATCHES
 from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.geometry import robot_geometry

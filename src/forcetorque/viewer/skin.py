@@ -13,10 +13,10 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.skin.contact.tracking import followed_places
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.contact.contact_tracking import followed_places
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.wrench.pressures_over_recording import AVERAGED
-from forcetorque.skin.wrench.wrench import PatchFrames, WrenchChoice, patch_frames
+from forcetorque.skin.wrench.skin_wrench import PatchFrames, WrenchChoice, patch_frames
 from forcetorque.viewer.arrays import Block, SceneDraft
 from forcetorque.viewer.scene import SkinContactFrames, SkinEventSeries, SkinPatch
 

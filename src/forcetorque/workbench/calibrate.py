@@ -11,9 +11,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, SensorError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.evaluation.acceptance import limits
+from forcetorque.evaluation.acceptance import acceptance_file as limits
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import OF_CALIBRATION, Bound, Criterion, Judged
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.matrix_checks import LEAST_POPULATION, matrix_checks, most_unusual, position_in_population
 from forcetorque.experiment.calibration.artefact import Calibration

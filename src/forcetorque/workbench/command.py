@@ -12,7 +12,7 @@ from forcetorque.results.number_text import amount
 
 if TYPE_CHECKING:
     from forcetorque.base.arrays import FloatArray
-    from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+    from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.workbench.recording import BenchRecording
     from forcetorque.workbench.result import BenchSensorRow, Workbench
 
@@ -51,7 +51,7 @@ def workbench(
     """
     from importlib.metadata import version
 
-    from forcetorque.evaluation.acceptance.limits import read_acceptance
+    from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
     from forcetorque.results.result import created_now
     from forcetorque.workbench.calibrate import workbench
     from forcetorque.workbench.recording import BenchRecording, read_bench

@@ -21,7 +21,7 @@ from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError,
 from forcetorque.calibration.calibrate import calibrate_for_file
 from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly_of_experiments
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.limits import read_acceptance
+from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.evaluation.commands import compare, evaluate, validate
 from forcetorque.experiment.calibration.artefact import read_calibration
 from forcetorque.inspection.draft.draft import draft_experiment

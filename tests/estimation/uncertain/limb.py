@@ -21,12 +21,12 @@ from forcetorque.robot.mechanics.question import Question, TorqueSum
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ContactTruth, SkinBody, contacts
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import TaxelResponses
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.patches import cylinder_patch
 from tests.skin.contact_trials import OFF_EDGE, chamber_table

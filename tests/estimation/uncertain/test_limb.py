@@ -28,8 +28,8 @@ from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from tests.cases import some_cases
 from tests.estimation.uncertain.limb import FRICTION, Draws, Shin, cylinder
 from tests.estimation.uncertain.limb_trials import (
@@ -42,13 +42,13 @@ from tests.estimation.uncertain.limb_trials import (
     normalised_errors,
     smallest_error,
 )
-from tests.skin.contact.test_contacts import frame_of
+from tests.skin.contact.test_contact_clusters import frame_of
 from tests.skin.contact_trials import leg_layout
 from tests.skin.layout.skins import plane_layout
 
 if TYPE_CHECKING:
     from forcetorque.experiment.experiment import Experiment
-    from forcetorque.skin.wrench.wrench import PatchFrames
+    from forcetorque.skin.wrench.skin_wrench import PatchFrames
 
 DRAWS = 60
 """Poses of the quick tests; each has some contacts and torques of several components."""

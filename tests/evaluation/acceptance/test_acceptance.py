@@ -16,8 +16,8 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import Acceptance, accept
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile, read_acceptance
 from forcetorque.evaluation.acceptance.static_checks import check
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces

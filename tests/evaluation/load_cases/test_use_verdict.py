@@ -14,7 +14,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.acceptance.acceptance import accept
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.load_cases.load_case import LOADS, LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.validation_evidence import (

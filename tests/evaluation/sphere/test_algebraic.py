@@ -10,8 +10,9 @@ from hypothesis import given, strategies as st
 from scipy.spatial.transform import Rotation
 
 from forcetorque.evaluation.sphere.algebraic_fit import Quadrics, direct_fit, gradient_weighted_fit, inverse_lengths
-from forcetorque.evaluation.sphere.cloud import QuadricMoments, whole
+from forcetorque.evaluation.sphere.cloud import QuadricMoments
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
+from forcetorque.evaluation.sphere.resampling import whole
 from tests.evaluation.sphere.clouds import DEFORMED, grid, on, whole_sphere
 
 AGREEMENT = 1e-7

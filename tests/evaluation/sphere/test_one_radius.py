@@ -8,8 +8,9 @@ import pytest
 from scipy.optimize import least_squares
 
 from forcetorque.evaluation.sphere.algebraic_fit import Spheres, gradient_weighted_spheres, least_squares_spheres
-from forcetorque.evaluation.sphere.cloud import QuadricMoments, whole
+from forcetorque.evaluation.sphere.cloud import QuadricMoments
 from forcetorque.evaluation.sphere.geometric_fit import refine_sphere
+from forcetorque.evaluation.sphere.resampling import whole
 from tests.evaluation.sphere.clouds import WEIGHT, grid, whole_sphere
 
 CENTRE = np.array([8.0, -20.0, 35.0])

@@ -10,9 +10,9 @@ import pytest
 
 from forcetorque.base.errors import FitError, ForceTorqueError, ShapeError
 from forcetorque.evaluation.sphere.affine_fit import fit_mapped
-from forcetorque.evaluation.sphere.cloud import jackknife_margin
 from forcetorque.evaluation.sphere.ellipsoid import TOLERANCE, Ellipsoid, ellipsoid_of_map
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, fit_with_own_centres, pool_trials
+from forcetorque.evaluation.sphere.resampling import jackknife_margin
 from forcetorque.evaluation.sphere.sensor_sphere import SphereAnalysis, analyse_sphere
 from tests.cases import some_cases
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, whole_sphere

@@ -10,11 +10,10 @@ import pytest
 from scipy.stats import t as student
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.evaluation.sphere.cloud import (
+from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent
+from forcetorque.evaluation.sphere.resampling import (
     BLOCKS,
-    QuadricMoments,
     Resampled,
-    extent,
     half_selections,
     resampled,
     split,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.skin.contact.tracking import PAUSE_S, REACH_M, ContactLives
+from forcetorque.skin.contact.contact_tracking import PAUSE_S, REACH_M, ContactLives
 
 PITCH_M = 0.0065
 SIZE = 40

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.layout.check import shape_findings
 from forcetorque.skin.layout.finding import Defect, LayoutFindingRow, shape_of
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import MODULE_TAXELS, placed_pads
+from forcetorque.skin.layout.triangular_modules import MODULE_TAXELS, placed_pads
 from tests.scenes.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules
 
 SOUND = cylinder_patch()

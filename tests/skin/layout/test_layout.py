@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.layout.modules import MODULE_PADS, MODULE_TAXELS, MODULE_THERMAL
+from forcetorque.skin.layout.triangular_modules import MODULE_PADS, MODULE_TAXELS, MODULE_THERMAL
 
 SOUND: dict[str, Any] = {
     "name": "palm",

@@ -11,8 +11,8 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import outward_of_boards
 from forcetorque.skin.layout.normals import patch_normals, rebuilt_normals
+from forcetorque.skin.layout.triangular_modules import outward_of_boards
 from forcetorque.skin.surface import skin_surface
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 

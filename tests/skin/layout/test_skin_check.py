@@ -16,14 +16,14 @@ from forcetorque.skin.layout.check import SkinCheck, check_patch
 from forcetorque.skin.layout.finding import Defect
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
-from forcetorque.skin.layout.modules import (
+from forcetorque.skin.layout.normals import module_planes, patch_normals
+from forcetorque.skin.layout.triangular_modules import (
     MODULE_TAXELS,
     PlannedModule,
     module_poses,
     outward_of_boards,
     placed_pads,
 )
-from forcetorque.skin.layout.normals import module_planes, patch_normals
 from forcetorque.skin.surface import skin_surface
 from tests.scenes.patches import collapsed, cylinder_patch
 

@@ -15,7 +15,7 @@ from forcetorque.skin.layout.finding import shape_of
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.formats.registry import describe_patch, read_layout
-from forcetorque.skin.layout.modules import MODULE_PADS, MODULE_TAXELS
+from forcetorque.skin.layout.triangular_modules import MODULE_PADS, MODULE_TAXELS
 from tests.scenes.patches import cylinder_patch
 
 PATCH = cylinder_patch(across=3, along=2)

@@ -15,7 +15,7 @@ from forcetorque.skin.layout.check import shape_findings
 from forcetorque.skin.layout.finding import shape_of
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch
-from forcetorque.skin.layout.modules import MODULE_TAXELS, module_poses, placed_pads
+from forcetorque.skin.layout.triangular_modules import MODULE_TAXELS, module_poses, placed_pads
 from tests.scenes.patches import cylinder_modules
 from tests.scenes.robots import robot_xml
 

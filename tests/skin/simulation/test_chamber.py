@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.taxels.faults import TaxelFault
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 from tests.scenes.chambers import HIGHEST_PA, TAXELS, chamber, responses
 
 

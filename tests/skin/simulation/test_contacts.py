@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import (
+from forcetorque.skin.simulation.objects_on_skin import (
     ClothStrip,
     FlatWeight,
     Palm,
@@ -23,8 +23,8 @@ from forcetorque.skin.simulation.contact import (
     contacts,
 )
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, REST_COUNTS, Loading, TaxelResponses, contact_recording
-from forcetorque.skin.simulation.surface import TrueSurface
 from forcetorque.skin.simulation.temperature import HeatResponses, MotorHeat
+from forcetorque.skin.simulation.true_surface import TrueSurface
 from tests.scenes.patches import cylinder_patch
 
 RADIUS_M: Final = 0.06
@@ -139,7 +139,7 @@ def test_contacts_are_drawn_alike_for_one_seed(leg: SkinBody) -> None:
 
 def test_where_there_is_no_room_nothing_is_drawn(leg: SkinBody, monkeypatch: pytest.MonkeyPatch) -> None:
     """More than the whole force cannot be on the skin."""
-    monkeypatch.setattr("forcetorque.skin.simulation.contact._MOST_TRIES", 3)
+    monkeypatch.setattr("forcetorque.skin.simulation.objects_on_skin._MOST_TRIES", 3)
     with pytest.raises(SkinError, match="expected room for a flat weight"):
         next(contacts(leg, np.random.default_rng(1), 1, on_skin=1.5))
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import FitError
-from forcetorque.skin.taxels.curve import CurveKind, fit_curve
-from forcetorque.skin.taxels.fit import calibrated_taxel
+from forcetorque.skin.taxels.curve_comparison import calibrated_taxel
+from forcetorque.skin.taxels.taxel_curve import CurveKind, fit_curve
 
 FALL = np.arange(0.0, 61.0)
 EXACT = 1e-6

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.taxels.recording import pressure_cycle
+from forcetorque.skin.taxels.pressure_cycles import pressure_cycle
 
 REST, UP, ROWS = 100, 500, 1200
 PRESSURE = 4e3 + 2e5 * np.clip(1.0 - np.abs(np.arange(ROWS) - 600) / UP, 0.0, 1.0)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.skin.taxels.faults import TaxelFault, taxel_faults
+from forcetorque.skin.taxels.taxel_faults import TaxelFault, taxel_faults
 
 RNG = np.random.default_rng(2)
 COUNTS = np.rint(240.0 - 40.0 * np.sin(np.linspace(0.0, np.pi, 2000)) + RNG.normal(0.0, 0.65, 2000))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SkinError
-from forcetorque.skin.taxels.faults import require_counts
+from forcetorque.skin.taxels.taxel_faults import require_counts
 
 MESSAGES = np.full((5, 3), 240.0)
 

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, SkinError
-from forcetorque.skin.taxels.curve import CurveKind
 from forcetorque.skin.taxels.patch_calibration import (
     CalibratedTaxel,
     PatchCalibration,
@@ -20,6 +19,7 @@ from forcetorque.skin.taxels.patch_calibration import (
     read_patch_calibration,
     write_pressure_table,
 )
+from forcetorque.skin.taxels.taxel_curve import CurveKind
 
 REST = np.array([240.0, 0.0, 241.5, 239.0])
 """The second column is no taxel, the last one is broken."""

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, FitError, SkinError
 from forcetorque.skin.simulation.recordings import REFERENCE_PA
 from forcetorque.skin.taxels.calibrate import SkinCalibration, calibrate_skin
-from forcetorque.skin.taxels.faults import TaxelFault
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 from tests.scenes.chambers import BROKEN, HIGHEST_PA, LATER, TAXELS, chamber, responses, write_chamber, write_chambers
 
 DRAWS = 12

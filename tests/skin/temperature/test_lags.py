@@ -12,19 +12,19 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
+from forcetorque.skin.contact.contact_tracking import PatchFollower
 from forcetorque.skin.contact.pressure_frame import PatchReader
-from forcetorque.skin.contact.tracking import PatchFollower
 from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
 from forcetorque.skin.temperature.pad_lags import PadFilter
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
 from forcetorque.skin.temperature.warm_up_calibration import _warnings, fit_warm_up
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of, late_pads
 from tests.skin.contact_trials import chamber_table
 
 if TYPE_CHECKING:
-    from forcetorque.skin.experiment import ExperimentPatch
+    from forcetorque.skin.patches_of_experiment import ExperimentPatch
 
 SHANK = WarmShank.drawn()
 LAYOUT = SHANK.layout

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.skin.simulation.contact import SkinBody
+from forcetorque.skin.simulation.objects_on_skin import SkinBody
 from forcetorque.skin.simulation.temperature import Warmth
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from tests.skin.contact_trials import leg_layout
 from tests.skin.temperature_trials import INSIDE, MINUTES, OUTSIDE, HeldContact, WarmPatch, share_within
 

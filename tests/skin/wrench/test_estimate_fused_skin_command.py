@@ -18,8 +18,8 @@ from forcetorque.estimation.skin_contacts import clock_stream, frames_of_patches
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.offsets import corrections_of
-from forcetorque.skin.experiment import force_patches
-from forcetorque.skin.wrench.wrench import PatchFrames
+from forcetorque.skin.section import force_patches
+from forcetorque.skin.wrench.skin_wrench import PatchFrames
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.moving_leg import CURRENT, DRIVEN, FILE, FT, RATE_HZ, SKIN, Faults, changed, write_moving_leg

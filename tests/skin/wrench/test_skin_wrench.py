@@ -11,9 +11,9 @@ import pytest
 
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.commands import skin_wrench
-from forcetorque.skin.simulation.contact import ContactTruth
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
-from forcetorque.skin.wrench.wrench import SkinWrench
+from forcetorque.skin.wrench.skin_wrench import SkinWrench
 from tests.cases import some_cases
 from tests.scenes.touched import write_table, write_touched
 

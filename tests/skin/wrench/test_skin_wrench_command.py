@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.skin.simulation.contact import ContactTruth
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth
 from forcetorque.skin.simulation.recordings import Loading
 from tests.app.outcome import Run
 from tests.report.drawing import size_of

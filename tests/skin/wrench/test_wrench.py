@@ -16,8 +16,8 @@ from forcetorque.base.errors import ShapeError, SkinError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.wrench.elements import POINTS, WEIGHTS
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.curved_elements import POINTS, WEIGHTS
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import LENGTH_M, WrenchMethod, kriging_shares
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 from tests.skin.layout.skins import plane_layout

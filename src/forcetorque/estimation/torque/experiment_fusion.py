@@ -25,8 +25,8 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
 from forcetorque.robot.model import JointType, RobotModel
-from forcetorque.skin.experiment import force_patches
-from forcetorque.skin.wrench.wrench import PatchFrames
+from forcetorque.skin.section import force_patches
+from forcetorque.skin.wrench.skin_wrench import PatchFrames
 
 FUSED = "fused"
 """Name of all sources together."""

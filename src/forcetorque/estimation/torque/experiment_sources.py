@@ -27,8 +27,8 @@ from forcetorque.robot.mechanics.measured_and_expected_wrench import pick_sample
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
-from forcetorque.skin.experiment import force_patches
-from forcetorque.skin.wrench.wrench import PatchFrames
+from forcetorque.skin.section import force_patches
+from forcetorque.skin.wrench.skin_wrench import PatchFrames
 
 SKIN_NOISE_SHARE: Final = 0.5
 """Share of the variance of skin that differs from sample to sample: curves of taxels, gaps between them and friction

@@ -11,8 +11,8 @@ from pydantic import Field, model_validator
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion, RecordingCriterion, Subject, criteria_of
-from forcetorque.evaluation.acceptance.limits import AcceptanceFile
 from forcetorque.evaluation.acceptance.static_checks import RecordingChecks, StaticChecks, check
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
 from forcetorque.experiment.additions import with_recording_notes

@@ -15,8 +15,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.summary import information_gains
-from forcetorque.evaluation.acceptance import limits
-from forcetorque.evaluation.acceptance.limits import Component
+from forcetorque.evaluation.acceptance import acceptance_file as limits
+from forcetorque.evaluation.acceptance.acceptance_file import Component
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.evaluation import CalibrationErrors, validation_errors
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict

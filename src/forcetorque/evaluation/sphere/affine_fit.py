@@ -15,7 +15,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.evaluation.sphere.algebraic_fit import inverse_lengths
-from forcetorque.evaluation.sphere.cloud import FEWEST_SAMPLES, Resampled, reach, resampled, sums_of_products, whole
+from forcetorque.evaluation.sphere.cloud import reach
 from forcetorque.evaluation.sphere.ellipsoid import (
     EllipsoidFit,
     beyond_measured_extent,
@@ -28,6 +28,7 @@ from forcetorque.evaluation.sphere.ellipsoid import (
     relative_margin,
 )
 from forcetorque.evaluation.sphere.model_free_fit import is_flat
+from forcetorque.evaluation.sphere.resampling import FEWEST_SAMPLES, Resampled, resampled, sums_of_products, whole
 from forcetorque.results.table import AxisValues, Row
 
 _ROUNDING = 1e-14

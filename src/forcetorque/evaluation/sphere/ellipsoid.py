@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays, read_only
 from forcetorque.base.errors import FitError
-from forcetorque.evaluation.sphere.cloud import Resampled
+from forcetorque.evaluation.sphere.resampling import Resampled
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -17,15 +17,7 @@ from forcetorque.evaluation.sphere.algebraic_fit import (
     inverse_lengths,
     least_squares_spheres,
 )
-from forcetorque.evaluation.sphere.cloud import (
-    FEWEST_SAMPLES,
-    QuadricMoments,
-    Resampled,
-    extent,
-    reach,
-    resampled,
-    whole,
-)
+from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent, reach
 from forcetorque.evaluation.sphere.ellipsoid import (
     Ellipsoid,
     EllipsoidFit,
@@ -41,6 +33,7 @@ from forcetorque.evaluation.sphere.ellipsoid import (
     relative_margin,
 )
 from forcetorque.evaluation.sphere.geometric_fit import refine_ellipsoid, refine_sphere
+from forcetorque.evaluation.sphere.resampling import FEWEST_SAMPLES, Resampled, resampled, whole
 
 _FLAT = 1e-5
 """Extent across a plane, relative to that along it, below which moments of the fourth degree see none."""

@@ -12,15 +12,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, read_only
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.affine_fit import image_of_sphere, inverse_lengths_of
 from forcetorque.evaluation.sphere.algebraic_fit import direct_shape_with_own_centres, inverse_lengths
-from forcetorque.evaluation.sphere.cloud import (
-    BLOCKS,
-    jackknife_margin,
-    monomials,
-    reach,
-    require_cloud,
-    resampled,
-    whole,
-)
+from forcetorque.evaluation.sphere.cloud import monomials, reach, require_cloud
 from forcetorque.evaluation.sphere.ellipsoid import (
     TOLERANCE,
     Ellipsoid,
@@ -40,6 +32,7 @@ from forcetorque.evaluation.sphere.geometric_fit import (
     ellipsoid_parameters,
 )
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, is_flat
+from forcetorque.evaluation.sphere.resampling import BLOCKS, jackknife_margin, resampled, whole
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

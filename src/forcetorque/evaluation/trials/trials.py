@@ -12,9 +12,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
 from forcetorque.evaluation.section import TRIAL
-from forcetorque.evaluation.sphere.cloud import BLOCKS
 from forcetorque.evaluation.sphere.ellipsoid import EllipsoidFit
 from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
+from forcetorque.evaluation.sphere.resampling import BLOCKS
 from forcetorque.evaluation.sphere.result import FailureRow, bounded
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
 from forcetorque.experiment.additions import added_to

@@ -11,7 +11,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.results.number_text import counted
 from forcetorque.skin.layout.finding import Defect, LayoutFindingRow, PatchShape, Side, finding_of
 from forcetorque.skin.layout.layout import UNIT_DIGITS, PatchDescription
-from forcetorque.skin.layout.modules import (
+from forcetorque.skin.layout.triangular_modules import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
     MODULE_SIDE_M,

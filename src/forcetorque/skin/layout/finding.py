@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import SkinError
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.layout.layout import SAME_PLACE_M, PatchDescription
-from forcetorque.skin.layout.modules import outward_of_boards
 from forcetorque.skin.layout.normals import surface_normals
+from forcetorque.skin.layout.triangular_modules import outward_of_boards
 from forcetorque.skin.surface import SkinSurface, skin_surface
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import outward_of_boards
+from forcetorque.skin.layout.triangular_modules import outward_of_boards
 from forcetorque.skin.surface import SkinSurface, skin_surface
 
 _REACH_M: Final = 0.012

@@ -15,8 +15,8 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.simulation.trace import EPOCH_NS
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ContactTruth
-from forcetorque.skin.taxels.faults import TaxelFault
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 
 REFERENCE_PA: Final = 50e3
 """Pressure up to which the patch of the thesis was calibrated."""

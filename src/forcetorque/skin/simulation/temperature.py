@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.recording.recording import Recording
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ContactTruth
+from forcetorque.skin.simulation.objects_on_skin import ContactTruth
 from forcetorque.skin.simulation.recordings import NOISE_COUNTS, REST_COUNTS, TaxelResponses, counts_recording
 
 COUNTS_PER_K: Final = 1.2

@@ -15,16 +15,16 @@ from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, optional_table, table_of
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
-from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.fit import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.section import load_patches
+from forcetorque.skin.taxels.curve_comparison import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
 from forcetorque.skin.taxels.patch_calibration import (
     CalibratedTaxel,
     PatchCalibration,
     PatchProvenance,
     write_pressure_table,
 )
-from forcetorque.skin.taxels.recording import PatchRecording, of_use, patch_recordings, same_patch
+from forcetorque.skin.taxels.pressure_cycles import PatchRecording, of_use, patch_recordings, same_patch
 from forcetorque.skin.taxels.result import (
     CandidateRow,
     SkinRecordingRow,
@@ -35,6 +35,7 @@ from forcetorque.skin.taxels.result import (
     taxel_picture,
     taxel_row,
 )
+from forcetorque.skin.taxels.taxel_curve import CurveKind, TaxelCurve
 from forcetorque.skin.temperature.warm_up_calibration import WarmUpRow, learn_warm_up, warm_up_row
 
 _SHOWN = 12

@@ -12,10 +12,10 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names
 from forcetorque.results.table import Row, Shown
-from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve
-from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel
-from forcetorque.skin.taxels.recording import PatchRecording
+from forcetorque.skin.taxels.pressure_cycles import PatchRecording
+from forcetorque.skin.taxels.taxel_curve import CurveKind, TaxelCurve
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 
 
 class SkinRecordingRow(Row):

@@ -15,7 +15,7 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import SkinError
 from forcetorque.base.stored_model import StoredTable
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.taxels.faults import taxel_faults
+from forcetorque.skin.taxels.taxel_faults import taxel_faults
 
 LEAST_CHANGE_COUNTS: Final = 4.0
 """Change of pads below which they show nothing of gains: noise of means over a second then is 5 % of it; counts."""

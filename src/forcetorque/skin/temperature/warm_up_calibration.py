@@ -14,11 +14,12 @@ from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.recording.recording import Use
 from forcetorque.results.table import Row, Shown
-from forcetorque.skin.contact.tracking import FASTER
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
+from forcetorque.skin.contact.contact_tracking import FASTER
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import rebuilt_normals
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.section import load_patches
 from forcetorque.skin.temperature.pad_lags import PadFilter, lagged, means_of, pad_lags
 from forcetorque.skin.temperature.taxel_temperature_drift import (
     LEAST_CHANGE_COUNTS,

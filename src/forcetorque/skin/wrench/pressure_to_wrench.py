@@ -23,7 +23,7 @@ from forcetorque.base.errors import SkinError
 from forcetorque.base.pose import cross
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.surface import SkinSurface
-from forcetorque.skin.wrench.elements import POINTS, WEIGHTS, SkinElements
+from forcetorque.skin.wrench.curved_elements import POINTS, WEIGHTS, SkinElements
 
 if TYPE_CHECKING:
     from scipy.spatial import Delaunay

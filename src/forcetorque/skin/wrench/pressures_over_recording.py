@@ -12,14 +12,14 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import SkinError, known_names
 from forcetorque.recording.alignment import seconds_since, usable_samples
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_tracking import ContactLife, ContactLives, PatchFollower, ReleaseRow
 from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
-from forcetorque.skin.contact.tracking import ContactLife, ContactLives, PatchFollower, ReleaseRow
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.faults import FULL_COUNTS, TaxelFault, require_counts, taxel_faults
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
+from forcetorque.skin.taxels.taxel_faults import FULL_COUNTS, TaxelFault, require_counts, taxel_faults
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, HeatRule, TaxelDrift, stuck_pads
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 
 _EXCLUDING: Final = (TaxelFault.WRAPS, TaxelFault.RAILS, TaxelFault.NOISE)
 """What makes a taxel useless in a recording of contacts; jumps may be blows, and many are never touched."""

@@ -15,11 +15,11 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Stream
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import AxisValues, FloatOrNull, Row, Shown, WrenchValues
-from forcetorque.skin.contact.contacts import SkinContacts, lobes
+from forcetorque.skin.contact.contact_clusters import SkinContacts, lobes
+from forcetorque.skin.contact.contact_tracking import ContactLife, followed_places
 from forcetorque.skin.contact.pressure_frame import PressureFrame
-from forcetorque.skin.contact.tracking import ContactLife, followed_places
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatRule
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressures_over_recording import SkinFrames
 
 

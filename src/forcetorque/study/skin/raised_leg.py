@@ -30,7 +30,14 @@ from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import BIPED_URDF
 from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.contact import ON_SKIN, ClothStrip, ContactTruth, FlatWeight, SkinBody, SkinContact
+from forcetorque.skin.simulation.objects_on_skin import (
+    ON_SKIN,
+    ClothStrip,
+    ContactTruth,
+    FlatWeight,
+    SkinBody,
+    SkinContact,
+)
 from forcetorque.skin.simulation.recordings import Loading, TaxelResponses, chamber_messages, contact_recording
 from forcetorque.skin.simulation.temperature import HeatResponses, MotorHeat, Warmth, warm_recording
 from forcetorque.skin.taxels.calibrate import calibrate_skin

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.evaluation.sphere.cloud import jackknife_margin
+from forcetorque.evaluation.sphere.resampling import jackknife_margin
 from forcetorque.results.number_text import number
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of

@@ -19,7 +19,7 @@ from forcetorque.experiment.offsets import corrections_of
 from forcetorque.results.table import Row
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.recordings import SIMPLE_AREA_M2, Loading
-from forcetorque.skin.wrench.wrench import WrenchChoice, skin_wrench
+from forcetorque.skin.wrench.skin_wrench import WrenchChoice, skin_wrench
 from forcetorque.study.skin.raised_leg import KNEE, LOADS, Load, LoadTruth, write_leg
 
 LOADING: Final = Loading(rest_s=10.0, ramp_s=1.0, hold_s=10.0)

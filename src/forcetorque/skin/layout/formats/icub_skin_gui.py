@@ -14,7 +14,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import read_text
 from forcetorque.base.units import parsed_numbers
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import (
+from forcetorque.skin.layout.triangular_modules import (
     LARGEST_MESSAGE,
     MODULE_COLUMNS,
     MODULE_THERMAL,

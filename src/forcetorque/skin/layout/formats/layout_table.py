@@ -16,7 +16,7 @@ from forcetorque.base.errors import FormatError, UnitError
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.units import parsed_number, si_factor
 from forcetorque.skin.layout.layout import PatchDescription, SkinLayout
-from forcetorque.skin.layout.modules import LARGEST_MESSAGE
+from forcetorque.skin.layout.triangular_modules import LARGEST_MESSAGE
 
 _PRESSURE, _THERMAL = "pressure", "thermal"
 _HEAD = ("patch", "frame", "columns")

@@ -23,8 +23,8 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import LARGEST_MESSAGE, MODULE_COLUMNS, modular_patch, module_poses
 from forcetorque.skin.layout.normals import rebuilt_normals
+from forcetorque.skin.layout.triangular_modules import LARGEST_MESSAGE, MODULE_COLUMNS, modular_patch, module_poses
 
 _SCHEMA = "forcetorque/module_frames/1"
 _NUMBER = "{module}"

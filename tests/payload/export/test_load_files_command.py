@@ -16,13 +16,13 @@ from forcetorque.app.python.experiment import load_experiment
 from forcetorque.base.errors import ExperimentError, OutputError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.payload.export.export import export_load, robot_load, write_load_file
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.load_parameters import RobotLoad
 from forcetorque.payload.load_warnings import overruled
-from forcetorque.payload.robot_files.export import export_load, robot_load, write_load_file
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.robot_load import RobotLoad
 from tests.app.outcome import Run
 from tests.cases import some_cases
-from tests.payload.robot_files.written_loads import read_ft_tools, read_mc_rtc
+from tests.payload.export.written_loads import read_ft_tools, read_mc_rtc
 from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
 
 POSTURES = Rotation.random(8, random_state=4)

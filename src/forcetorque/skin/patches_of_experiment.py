@@ -16,12 +16,10 @@ from forcetorque.base.errors import ExperimentError, MissingFileError, known_nam
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose
 from forcetorque.base.toml_file import Positive, Table, Text
-from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.file import ExperimentFile, parse_experiment
+from forcetorque.experiment.file import ExperimentFile
 from forcetorque.experiment.input_files import Inputs, stated_in
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
-from forcetorque.experiment.section import Loading, Section, StandIn
-from forcetorque.experiment.streams import read_streams
+from forcetorque.experiment.section import Loading
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import Joint, JointType, RobotModel
@@ -125,32 +123,13 @@ class PatchExperiment:
         raise ExperimentError(f"{self.file}: no patch is called {name!r}; {known_names(name or '', known)}")
 
 
-def load_patches(path: Path | str) -> PatchExperiment:
-    """Read the patches of an experiment file, and their recording.
-
-    Args:
-        path: TOML file; the paths in it are relative to its folder.
-
-    Returns:
-        The patches.
-
-    Raises:
-        MissingFileError: If a file is not there.
-        FormatError: If a file does not have its form.
-        ExperimentError: If the file has no patch, or contradicts itself or the recording.
-    """
-    file = Path(path)
-    parsed = parse_experiment(file)
-    if not parsed.table(PATCHES):
-        raise ExperimentError(f"{file}: expected [[patch]], a patch of skin, got none")
-    inputs = Inputs.of(file)
-    return read_patches(parsed, file, read_streams(parsed, file, None, inputs), inputs)
-
-
-def read_patches(parsed: ExperimentFile, file: Path, recording: Recording, inputs: Inputs) -> PatchExperiment:
+def match_patches(
+    patches: Iterable[Patch], parsed: ExperimentFile, file: Path, recording: Recording, inputs: Inputs
+) -> PatchExperiment:
     """Match the patches of a file to their streams.
 
     Args:
+        patches: Patches of the file.
         parsed: Content of the experiment file.
         file: The experiment file, for messages.
         recording: The recording.
@@ -162,17 +141,17 @@ def read_patches(parsed: ExperimentFile, file: Path, recording: Recording, input
     Raises:
         ExperimentError: If a name comes twice, or a patch contradicts its stream.
     """
-    table = parsed.table(PATCHES)
+    table = tuple(patches)
     names = [entry.name for entry in table]
     for index, name in enumerate(names):
         if name in names[:index]:
             raise ExperimentError(f"{file}: patch[{index}]: {name!r} is listed twice; keep one")
-    patches = tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(table))
+    matched = tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(table))
     return PatchExperiment(
         name=parsed.name,
         file=file,
         recording=recording,
-        patches=patches,
+        patches=matched,
         intervals=read_spans(parsed, file, recording),
         inputs_sha256=inputs.sha256(),
     )
@@ -199,7 +178,7 @@ def skin_of_robot(patches: Iterable[Patch], loading: Loading) -> PatchExperiment
                 f"{inputs.folder / table}: expected a calibration of taxels, there is none; `forcetorque skin "
                 "calibrate` makes one"
             )
-    skin = read_patches(parsed, file, loading.recording, inputs)
+    skin = match_patches(patches, parsed, file, loading.recording, inputs)
     return replace(
         skin, patches=tuple(patch if patch.table is None else _on_link(file, patch, model) for patch in skin.patches)
     )
@@ -328,49 +307,3 @@ def is_skin_alone(model: RobotModel) -> bool:
         Whether `links_side_by_side` made it.
     """
     return model.root_link == ROOT
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PatchSection(Section[tuple[Patch, ...], PatchExperiment | None]):
-    """The patches of an experiment; links that carry skin stand side by side where the file names no robot."""
-
-    def gives_forces(self, table: tuple[Patch, ...]) -> bool:  # noqa: D102
-        return any(patch.table for patch in table)
-
-    def stand_in(self, table: tuple[Patch, ...], loading: Loading) -> StandIn | None:  # noqa: D102
-        if loading.parsed.sensor:
-            return None
-        frames = skin_frames_of(table, loading.recording, loading.inputs)
-        return StandIn(model=links_side_by_side(frames)) if frames else None
-
-
-def _read(table: tuple[Patch, ...], loading: Loading) -> PatchExperiment | None:
-    if not table:
-        return None
-    return skin_of_robot(table, loading)
-
-
-PATCHES = PatchSection(
-    key="patch",
-    type=Annotated[tuple[Patch, ...], Field(min_length=1)],
-    default=(),
-    description="Patches of artificial skin; without these and sensors a file is about contacts that a skinManager "
-    "saw.",
-    read=_read,
-    empty=None,
-    of_robot=False,
-    without_sensors=("patches of skin only", "`forcetorque skin`, `inspect`, `view` and `report` read such a file"),
-)
-
-
-def force_patches(experiment: Experiment) -> tuple[ExperimentPatch, ...]:
-    """Give the patches whose contacts are sources of force.
-
-    Args:
-        experiment: The experiment.
-
-    Returns:
-        Those with a calibration of their taxels.
-    """
-    skin = experiment.section(PATCHES)
-    return () if skin is None else tuple(patch for patch in skin.patches if patch.table is not None)

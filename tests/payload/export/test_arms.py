@@ -17,10 +17,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.robot_files.arms import ARMS, READABLE_ARMS, read_arm_load
-from forcetorque.payload.robot_files.export import export_load
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.robot_load import FlangeLoad, RobotLoad, flange_load
+from forcetorque.payload.export.arm_controllers_and_simulators import ARMS, READABLE_ARMS, read_arm_load
+from forcetorque.payload.export.export import export_load
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.load_parameters import FlangeLoad, RobotLoad, flange_load
 from forcetorque.robot.urdf import read_urdf
 
 INERTIA = np.array([[0.004, -0.0008, 0.0003], [-0.0008, 0.005, 0.0006], [0.0003, 0.0006, 0.003]])

@@ -27,10 +27,10 @@ from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import rotation_from_rpy, rpy_from_rotation
 from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
 from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.load_parameters import FlangeLoad
+from forcetorque.payload.export.yaml_parameters import number
 from forcetorque.payload.identification.parameter_vector import six_of
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.robot_load import FlangeLoad
-from forcetorque.payload.robot_files.yaml_parameters import number
 from forcetorque.results.number_text import amount
 
 _MOST_UR = 133.0

@@ -18,7 +18,7 @@ from forcetorque.base.errors import SkinError
 from forcetorque.base.pose import cross
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.simulation.surface import SurfacePoints, TrueSurface
+from forcetorque.skin.simulation.true_surface import SurfacePoints, TrueSurface
 
 SKIN_STIFFNESS_PA_PER_M: Final = 2e7
 """Pressure of the skin's soft layer by how far it is pressed in: about 40 kPa at 2 mm."""

@@ -10,9 +10,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError, SkinError
-from forcetorque.skin.contact.contacts import NO_CONTACT, clusters, find_contacts, lobes
+from forcetorque.skin.contact.contact_clusters import NO_CONTACT, clusters, find_contacts, lobes
 from forcetorque.skin.contact.pressure_frame import PressureFrame
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.result import contact_rows
 from tests.skin.layout.skins import PITCH_M, plane_layout
 

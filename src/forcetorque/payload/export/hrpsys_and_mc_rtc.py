@@ -18,8 +18,8 @@ from __future__ import annotations
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.robot_files.robot_load import RobotLoad
-from forcetorque.payload.robot_files.yaml_parameters import number
+from forcetorque.payload.export.load_parameters import RobotLoad
+from forcetorque.payload.export.yaml_parameters import number
 
 HRPSYS_DIRECTION = MeasureDirection.CHILD_TO_PARENT
 """Who acts on whom in its readings."""

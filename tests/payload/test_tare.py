@@ -13,11 +13,11 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.robot_files.export import export_load, robot_load
-from forcetorque.payload.robot_files.formats import LoadFormat
+from forcetorque.payload.export.export import export_load, robot_load
+from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.tare_offset import tare
 from tests.page_scripts import unmarked
-from tests.payload.robot_files.written_loads import read_hrpsys
+from tests.payload.export.written_loads import read_hrpsys
 from tests.results.showing import require_shown
 from tests.scenes.experiments import OFFSET, PARQUET
 from tests.scenes.wrist_postures import BIAS, CENTRE, MASS, POSTURES, SLOW, weight, write_postures
@@ -96,7 +96,7 @@ def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None
 
 def test_the_script_of_its_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It writes the file that the page says."""
-    (code,) = unmarked((Path(__file__).parents[3] / "docs" / "payload" / "robot_load.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "payload" / "robot_load.md").read_text(encoding="utf-8"))
     path = write_postures(tmp_path, seed=4)
     path.write_text(path.read_text().replace('label = "first"', 'label = "still"'))
     monkeypatch.chdir(tmp_path)

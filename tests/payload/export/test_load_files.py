@@ -17,10 +17,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.robot_files.export import write_load_file
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.robot_load import RobotLoad
-from tests.payload.robot_files.written_loads import read_force_torque_tools, read_ft_tools, read_hrpsys, read_mc_rtc
+from forcetorque.payload.export.export import write_load_file
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.load_parameters import RobotLoad
+from tests.payload.export.written_loads import read_force_torque_tools, read_ft_tools, read_hrpsys, read_mc_rtc
 
 POSES = Rotation.random(8, random_state=2)
 """Of the sensor in the world, z up."""

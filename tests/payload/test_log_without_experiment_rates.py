@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.errors import FitError, FormatError
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_of_log import described_log, experiment_of_description
+from forcetorque.payload.log_without_experiment import described_log, experiment_of_description
 from forcetorque.payload.result import WeighedLoad
 from tests.formats.franka.states import write_states
 from tests.formats.ur_rtde.recordings import write_text

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.skin.contact.pressure_frame import PressureFrame
 from forcetorque.skin.surface import SkinSurface
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod, WrenchOperator
 
 FEWEST: Final = 2

@@ -18,17 +18,18 @@ from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, optional_table, table_of
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_tracking import OFFERED, ReleaseRow
 from forcetorque.skin.contact.pressure_frame import PressureFrame
-from forcetorque.skin.contact.tracking import OFFERED, ReleaseRow
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.skin.layout.formats.registry import describe_patch
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.layout.normals import patch_normals
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.section import load_patches
 from forcetorque.skin.surface import unrolled
 from forcetorque.skin.taxels.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.wrench.known_weight import KnownWeight, known_weight
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod
 from forcetorque.skin.wrench.pressures_over_recording import FrameChoice, SkinFrames, patch_messages, skin_frames
 from forcetorque.skin.wrench.result import (

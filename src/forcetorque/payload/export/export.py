@@ -17,23 +17,23 @@ from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.export.arm_controllers_and_simulators import ARMS, arm_text, not_held
+from forcetorque.payload.export.formats import LoadFormat
+from forcetorque.payload.export.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
+from forcetorque.payload.export.load_parameters import RobotLoad, flange_load
+from forcetorque.payload.export.ros2_control_and_ft_tools import (
+    broadcaster_text,
+    force_torque_tools_text,
+    ft_tools_text,
+    gravity_filter_text,
+)
+from forcetorque.payload.held_load import held_load
 from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.identify import weigh_load, weighing_sensor
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overruled, overweight_loads, reason_to_withhold
 from forcetorque.payload.loads_on_robot_links import link_loads
 from forcetorque.payload.result import WeighedLoad
-from forcetorque.payload.robot_files.arms import ARMS, arm_text, not_held
-from forcetorque.payload.robot_files.formats import LoadFormat
-from forcetorque.payload.robot_files.held_load import held_load
-from forcetorque.payload.robot_files.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
-from forcetorque.payload.robot_files.robot_load import RobotLoad, flange_load
-from forcetorque.payload.robot_files.ros import (
-    broadcaster_text,
-    force_torque_tools_text,
-    ft_tools_text,
-    gravity_filter_text,
-)
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import amount
 

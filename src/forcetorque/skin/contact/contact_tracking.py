@@ -13,11 +13,11 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import Row, Shown
-from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader, PressureFrame
 from forcetorque.skin.temperature.pad_lags import PadFilter
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, TaxelDrift
-from forcetorque.skin.wrench.patch import SkinPatch
+from forcetorque.skin.wrench.patch_sensor import SkinPatch
 
 RELEASED_SHARE: Final = 0.5
 """Share of its force that a contact loses at once when it is let go; drift takes minutes for that."""

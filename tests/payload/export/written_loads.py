@@ -10,7 +10,7 @@ import yaml
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.robot_files.robot_load import RobotLoad
+from forcetorque.payload.export.load_parameters import RobotLoad
 
 
 def _load(mass: float, centre: FloatArray, bias: FloatArray, direction: MeasureDirection, frame: str) -> RobotLoad:

@@ -16,7 +16,7 @@ from forcetorque.skin.figures import draw_field, draw_forces
 
 if TYPE_CHECKING:
     from forcetorque.skin.wrench.result import SkinWrenchPicture
-    from forcetorque.skin.wrench.wrench import SkinWrench
+    from forcetorque.skin.wrench.skin_wrench import SkinWrench
 
 MOST_IMAGES: Final = 200
 """Images of a film; of a longer recording some frames are left out."""

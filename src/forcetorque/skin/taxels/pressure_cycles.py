@@ -14,8 +14,8 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.intervals import RecordedSpan
 from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
 from forcetorque.recording.recording import Use
-from forcetorque.skin.experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.faults import TaxelFault, require_counts, taxel_faults
+from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
+from forcetorque.skin.taxels.taxel_faults import TaxelFault, require_counts, taxel_faults
 
 REST_SHARE = 0.03
 """Share of the highest pressure below which a patch rests."""

@@ -28,8 +28,8 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import read_text
 from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.robot_files.robot_load import RobotLoad
-from forcetorque.payload.robot_files.yaml_parameters import number, numbers, word
+from forcetorque.payload.export.load_parameters import RobotLoad
+from forcetorque.payload.export.yaml_parameters import number, numbers, word
 
 CONTROLLER = "force_torque_sensor_broadcaster"
 """Name of the controller, as its examples have it; it is free."""

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.payload.load_of_log import refuse_a_log_twice
+from forcetorque.payload.log_without_experiment import refuse_a_log_twice
 from forcetorque.results.answer import MOST_LINES
 from tests.app.outcome import Run
 from tests.formats.franka.states import CENTRE, MASS, states, write_states, write_table

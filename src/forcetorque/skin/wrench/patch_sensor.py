@@ -14,7 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, read_only, require_sh
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.surface import SkinSurface, edge_taxels, rim_strip, skin_surface
-from forcetorque.skin.wrench.elements import SkinElements, skin_elements
+from forcetorque.skin.wrench.curved_elements import SkinElements, skin_elements
 from forcetorque.skin.wrench.pressure_to_wrench import (
     PredictedPressures,
     WrenchMethod,

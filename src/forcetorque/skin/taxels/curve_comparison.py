@@ -12,11 +12,11 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.skin.taxels.curve import CurveKind, TaxelCurve, fit_curve
-from forcetorque.skin.taxels.faults import TaxelFault
 from forcetorque.skin.taxels.patch_calibration import ROWS, CalibratedTaxel
-from forcetorque.skin.taxels.recording import REST_SHARE, TOP_SHARE, PatchRecording
+from forcetorque.skin.taxels.pressure_cycles import REST_SHARE, TOP_SHARE, PatchRecording
 from forcetorque.skin.taxels.result import CandidateRow, in_kPa, recording_name
+from forcetorque.skin.taxels.taxel_curve import CurveKind, TaxelCurve, fit_curve
+from forcetorque.skin.taxels.taxel_faults import TaxelFault
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
