@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
+from scipy.special import ndtri
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.recording.alignment import gap_limit_ns, usable_samples
@@ -31,10 +32,15 @@ STUCK_NOISY_SECONDS = 0.2
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
-_GLITCH_SHARE, _GLITCH_SIZE, _GLITCH_REACH = 0.05, 0.05, 10.0
-_GLITCH_LENGTH, _GLITCH_AT_ENDS = 10, 3
-"""Values beyond ten times the distance from the median within which 95 % of them lie, or half of their size, are
-glitches if they come and go by jumps of as much, for at most ten samples; three at an end of the log."""
+_GLITCH_SHARE, _GLITCH_SHARE_AT_REST, _GLITCH_SHARE_TO_SEE = 0.25, 0.05, 0.5
+"""Most values that may be glitches; of a column that rests, which may change by single steps of its resolution; and
+that are seen to be too many to tell."""
+_GLITCH_REACH, _GLITCH_SIZE = 12.0, 0.5
+"""Standard deviations, by the distances from the median of all values that are no glitches, and part of the median
+beyond which a value is a glitch, if it comes and goes by a jump of as much."""
+_GLITCH_LENGTH, _GLITCH_AT_ENDS, _SHORTEST_HOLD = 10, 3, 0.1
+"""Values in a row that may be glitches, three at an end of the log; and quantile of the lengths of runs of equal rows
+that is the length for which a log holds one value."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -115,31 +121,50 @@ def _reported_saturation(stream: Stream) -> list[Finding]:
     return [over("saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)]
 
 
-def glitched_values(values: FloatArray) -> BoolArray:
+def glitched_values(values: FloatArray) -> tuple[BoolArray, int]:
     """Find values that a quantity takes for a moment and that are nowhere near its others, such as a failed conversion.
+
+    A value that the log holds over several rows counts as one.
 
     Args:
         values: One column in the order of the log; shape (n,); NaN where it is missing.
 
     Returns:
-        Which they are; shape (n,).
+        Which they are; shape (n,). Number of others that come and go as they do, too many to tell which are wrong.
     """
     seen = np.flatnonzero(np.isfinite(values))
-    glitched = np.isinf(values)
+    glitched, known = np.isinf(values), values[seen]
     if len(seen) < 2 * _GLITCH_AT_ENDS:
-        return glitched
-    known = values[seen]
+        return glitched, 0
     away = np.abs(known - np.median(known))
-    reach = float(np.quantile(away, 1.0 - _GLITCH_SHARE, method="higher"))
-    # a reading that rests may yet move by steps of its resolution
-    limit = _GLITCH_REACH * max(reach, _GLITCH_SIZE * abs(float(np.median(known))))
+    deviation = _deviation(away, _GLITCH_SHARE) or _deviation(away, _GLITCH_SHARE_AT_REST)
+    apart = _brief(known, away, deviation)
+    glitched[seen[apart]] = True
+    of_half = _deviation(away, _GLITCH_SHARE_TO_SEE)
+    more = int(np.count_nonzero(_brief(known, away, of_half) & ~apart)) if of_half > 0.0 else 0
+    return glitched, more if more > _GLITCH_SHARE_AT_REST * len(known) else 0
+
+
+def _deviation(away: FloatArray, share: float) -> float:
+    """Standard deviation of normal values, of which this share of the largest distances says nothing."""
+    return float(np.quantile(away, 1.0 - share, method="higher") / ndtri(1.0 - share / 2.0))
+
+
+def _brief(known: FloatArray, away: FloatArray, deviation: float) -> BoolArray:
+    """Values beyond the limit that come and go by a jump of as much; shape (n,)."""
+    brief = np.zeros(len(known), dtype=bool)
+    limit = max(_GLITCH_REACH * deviation, _GLITCH_SIZE * abs(float(np.median(known))))
+    if limit == 0.0:
+        return brief
     steps = np.abs(np.diff(known))
-    for first, last in true_runs(away > limit) if limit > 0.0 else ():
+    rows = np.diff(np.flatnonzero(np.concatenate([[True], steps > 0.0, [True]])))
+    held = int(np.quantile(rows, _SHORTEST_HOLD, method="lower")) if len(rows) >= 2 * _GLITCH_LENGTH else 1
+    for first, last in true_runs(away > limit):
         ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
-        longest = _GLITCH_LENGTH if len(ends) == 2 else _GLITCH_AT_ENDS
+        longest = held * (_GLITCH_LENGTH if len(ends) == 2 else _GLITCH_AT_ENDS)
         if min(ends) > limit and last - first < longest:
-            glitched[seen[first : last + 1]] = True
-    return glitched
+            brief[first : last + 1] = True
+    return brief
 
 
 def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
