@@ -14,7 +14,7 @@ from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import BiasTestRow, DriftRow, six
 from forcetorque.payload.identification.measurement_model import expected, masses
 from forcetorque.payload.identification.parameter_vector import Kind, places
-from forcetorque.payload.identification.robust_fit import Fit, fit, plain_fit
+from forcetorque.payload.identification.robust_fit import Fit, fit, in_best_shapes, plain_fit
 from forcetorque.results.number_text import finite_or_none
 
 
@@ -176,13 +176,10 @@ def strongest_jump(fitted: Fit) -> tuple[int, int] | None:
     from scipy.special import ndtri  # here because importing it takes longer than most commands
 
     rows = fitted.problem.rows
-    # what a step leaves of itself is counted in one noise, so the covariance is that of this noise too
-    basis, covariance = fitted.basis, fitted.estimate.of_best_shapes
+    covariance = fitted.estimate.of_best_shapes
     jump, largest, tried = (0, 0), 0.0, 0
-    pairs = zip(fitted.groups, fitted.estimate.shapes, fitted.estimate.variances, strict=True)
-    for number, (group, noise, variance) in enumerate(pairs):
-        known = group.line.solve(group.design @ basis, noise)[0] / variance
-        left = group.line.solve(group.values[:, None], noise)[0][:, 0] / variance
+    weighed = in_best_shapes(fitted.groups, fitted.basis, fitted.estimate)
+    for number, (group, noise, variance, known, left) in enumerate(weighed):
         for axis in range(3):
             for session in np.unique(rows.session):
                 mine = np.flatnonzero(rows.session[group.order[: len(rows)]] == session)
