@@ -12,7 +12,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
-from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
+from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up, warm_up_row
 from tests.scenes.warmed import WARM_UP, WarmShank, counts_of
 
 SHANK = WarmShank.drawn()
@@ -54,6 +54,37 @@ def test_rates_are_those_of_the_first_minute() -> None:
     steepest = in_a_minute * over_tens / 60.0
     np.testing.assert_allclose(rates, steepest, atol=RATE_TOLERANCE)
     assert steepest.max() > 5.0 * RATE_TOLERANCE
+
+
+def test_a_warm_up_is_the_same_whenever_its_log_begins() -> None:
+    """An hour later nothing changes but times of day; its length is that of the messages."""
+    first, later = (fit_warm_up("warm", SECONDS + begin, COUNTS, LAYOUT) for begin in (0.0, 4096.0))
+    assert first.seconds == SECONDS[-1] - SECONDS[0] == pytest.approx(later.seconds)
+    np.testing.assert_allclose(
+        [gain.gain for one in later.taxels for gain in one.gains],
+        [gain.gain for one in first.taxels for gain in one.gains],
+        rtol=1e-9,
+    )
+    for name in ("rate_counts_per_s", "misfit_counts", "unexplained_counts"):
+        values = [[getattr(one, name) or 0.0 for one in learned.taxels] for learned in (first, later)]
+        np.testing.assert_allclose(values[1], values[0], rtol=1e-6, err_msg=name)
+    assert later.pad_change_counts == pytest.approx(first.pad_change_counts)
+
+
+def test_the_row_of_a_warm_up_is_in_its_units() -> None:
+    """Minutes, counts by minute, medians of the taxels' means over their pads."""
+    learned = _learned(COUNTS)
+    row = warm_up_row(learned)
+    gains = [np.mean([gain.gain for gain in one.gains]) for one in learned.taxels]
+    rates = np.array([one.rate_counts_per_s for one in learned.taxels], dtype=float)
+    assert row.minutes == pytest.approx(float(SECONDS[-1] - SECONDS[0]) / 60.0)
+    assert (row.taxels, row.pads, row.dead_pads) == (len(LAYOUT), len(PADS), 0)
+    assert (row.gain, row.gain_sd) == (pytest.approx(np.median(gains)), pytest.approx(np.std(gains)))
+    assert row.rate_counts_per_min == pytest.approx(60.0 * np.median(rates))
+    pads = COUNTS[: len(COUNTS) // 100 * 100, PADS].reshape(-1, 100, len(PADS)).mean(axis=1)
+    assert row.pad_change_counts == pytest.approx(np.median(np.ptp(pads, axis=0)), rel=0.01)
+    assert row.misfit_counts == pytest.approx(np.median([one.misfit_counts for one in learned.taxels]))
+    assert row.unexplained_counts == max(one.unexplained_counts for one in learned.taxels)
 
 
 def _railed(counts: FloatArray, pads: slice) -> None:
