@@ -11,9 +11,17 @@ import pytest
 from scipy.stats import f, t
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
 from forcetorque.formats.franka.kinematics import joint_frames
-from forcetorque.formats.logged_torques import LoggedTorques, holding_torques
-from forcetorque.payload.load_by_joint_torques import TorqueLoad, _loads_differ, _stays, load_of_torques
+from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques, holding_torques
+from forcetorque.payload.load_by_joint_torques import (
+    TorqueLoad,
+    _loads_differ,
+    _postures,
+    _require_postures,
+    _stays,
+    load_of_torques,
+)
 from tests.payload.simulated_panda import GRAVITY
 
 SAME = 1e-9
@@ -214,3 +222,37 @@ def test_loads_differ_where_the_f_test_and_the_residual_say_so(count: int, chanc
     assert 0 < sum(told) < 40
     first = told.index(True)
     assert decided[first - 1] == ((False, True) if chance_decides else (True, False))
+
+
+@pytest.mark.parametrize(("apart", "count"), [(0.0195, 6), (0.0205, 12)])
+def test_postures_within_twenty_milliradians_are_one(apart: float, count: int) -> None:
+    """Where one joint stands by less than that elsewhere, whether the arm goes there at once or comes back later."""
+    rng = np.random.default_rng(71)
+    first = rng.uniform(-1.5, 1.5, (6, 7))
+    for order in (np.repeat(np.arange(6), 2), np.tile(np.arange(6), 2)):
+        again = np.array([np.count_nonzero(order[:k] == one) for k, one in enumerate(order)])
+        position = first[order] + apart * again[:, None] * np.eye(7)[3]
+        log = replace(_many(12, rng, np.full(7, 0.01)), position=position)
+        assert len(_postures(_stays(log)).torque) == count
+
+
+def test_four_postures_are_enough_and_three_are_refused() -> None:
+    """Three leave nothing to estimate an error from."""
+    rng = np.random.default_rng(72)
+    assert _weighed(_many(4, rng, np.full(7, 1e-3))).postures == 4
+    with pytest.raises(FitError, match="at least 4 postures at rest, .*, got 3"):
+        _weighed(_many(3, rng, np.full(7, 1e-3)))
+
+
+@pytest.mark.parametrize(("share", "is_open"), [(0.9e-3, True), (1.2e-3, False)])
+def test_a_load_is_open_where_postures_change_its_torques_by_a_thousandth(share: float, is_open: bool) -> None:
+    """Of one unknown over the root of its squares, which is named; the others are as they were."""
+    rng = np.random.default_rng(73)
+    unit = rng.normal(size=(20, 7, 4))
+    mean, change = unit[:, :, 2].mean(axis=0), unit[:, :, 2] - unit[:, :, 2].mean(axis=0)
+    unit[:, :, 2] = mean + change * share * np.linalg.norm(mean) * np.sqrt(20.0) / np.linalg.norm(change)
+    if is_open:
+        with pytest.raises(FitError, match=f"leave open {UNKNOWNS[2]}"):
+            _require_postures(unit, "log")
+    else:
+        _require_postures(unit, "log")

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is named, and what is said to be hardly told, on either side of its limit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
+from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
+from forcetorque.payload.identification.frame_unit_and_clock_errors import (
+    _lag,
+    _moves,
+    _of_nothing,
+    _reversed,
+    unexplained,
+)
+from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.identification.parameter_vector import Kind
+from forcetorque.payload.identification.robust_fit import fit, plain_fit, scales
+from forcetorque.payload.identification.unobservable_parameters import _vague, spanned_directions
+from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
+
+COUNT = 40
+DOWN = poses(COUNT, np.random.default_rng(91))
+NOISE = SIZES * np.random.default_rng(92).normal(size=(COUNT, 6))
+
+
+def _about_down(share: float) -> FloatArray:
+    """Gravity that is off its mean by a share of itself, root mean square; m/s2."""
+    angle = np.arcsin(share)
+    turns = np.linspace(0.0, 2.0 * np.pi, COUNT, endpoint=False)
+    ring = [np.sin(angle) * np.cos(turns), np.sin(angle) * np.sin(turns), np.full(COUNT, np.cos(angle))]
+    return GRAVITY * np.stack(ring, axis=1)
+
+
+@pytest.mark.parametrize(("share", "moves"), [(0.0099, False), (0.0101, True)])
+def test_a_load_moves_from_a_hundredth_of_gravity_on(share: float, moves: bool) -> None:
+    """About its mean in every power-up; between power-ups it may be anywhere. Another load on the hook moves too."""
+    down = _about_down(share)
+    assert _moves(problem_of(weight(down), down).rows) == moves
+    two, session = np.vstack([down, down @ Rotation.from_rotvec([1.0, 0.0, 0.0]).as_matrix()]), np.repeat([0, 1], COUNT)
+    assert _moves(problem_of(weight(two), two, session=session, block=session).rows) == moves
+    loads = (Load(name="tool"), Load(name="weight"))
+    assert _moves(problem_of(weight(down), down, load=np.repeat([0, 1], COUNT // 2), loads=loads).rows)
+
+
+def _mass_in_half_widths(count: float, down: FloatArray) -> LoadProblem:
+    """Readings of a mass whose estimate is so many of its half-widths; what noise makes of it is taken off."""
+    alone = fit(problem_of(NOISE, down), drift=False)
+    (k,) = alone.guess.index[Kind.MASS, 0]
+    mass = count * alone.half_width[k] - alone.guess.values[k]
+    return problem_of(weight(down, mass, np.zeros(3)) + NOISE, down)
+
+
+@pytest.mark.parametrize(("count", "names"), [(-2.02, ["reversed direction"]), (-1.98, []), (2.02, [])])
+def test_a_mass_two_half_widths_below_zero_reverses_the_sense(count: float, names: list[str]) -> None:
+    """By the estimate and its interval."""
+    assert [row.name for row in _reversed(fit(_mass_in_half_widths(count, DOWN), drift=False))] == names
+
+
+@pytest.mark.parametrize(
+    ("count", "share", "names"),
+    [
+        (0.98, 1.0, ["no load"]),
+        (-0.98, 1.0, ["no load"]),
+        (1.02, 1.0, []),
+        (0.98, 0.101, ["no load"]),
+        (0.98, 0.099, []),
+    ],
+)
+def test_nothing_hangs_where_gravity_turns_and_no_mass_is_told(count: float, share: float, names: list[str]) -> None:
+    """Within one half-width of 0, with gravity that is a tenth of itself off its mean."""
+    down = DOWN if share == 1.0 else _about_down(share)
+    fitted = fit(_mass_in_half_widths(count, down), drift=False)
+    assert [row.name for row in _of_nothing(fitted)] == names
+
+
+def _accounts(factor: float, noise: float = 0.0, **fields: Any) -> list[HypothesisRow]:
+    load = (Load(name="tool", mass=MASS, centre_of_mass=CENTRE),)
+    reading = weight(DOWN) * np.repeat([factor, 1.0], 3) + noise * NOISE
+    problem = problem_of(reading, DOWN, loads=load, **fields)
+    return list(scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True))
+
+
+@pytest.mark.parametrize(
+    ("factor", "name"),
+    [
+        (1.99, None),
+        (2.01, "another size"),
+        (0.503, None),
+        (0.497, "another size"),
+        (4.4482216 * 1.019, "mixed units"),
+        (4.4482216 * 0.981, "mixed units"),
+        (4.4482216 * 1.021, "another size"),
+        (4.4482216 * 0.979, "another size"),
+    ],
+)
+def test_readings_are_of_another_size_beyond_a_factor_of_two_and_of_a_unit_within_two_percent(
+    factor: float, name: str | None
+) -> None:
+    """Of forces alone, without noise; moments are as they should be."""
+    assert [row.name for row in _accounts(factor)] == ([] if name is None else [name])
+
+
+def test_another_size_is_four_standard_errors_beyond_the_factor() -> None:
+    """By the scatter of the readings about the multiple, in closed form."""
+    for beyond, is_named in ((3.9, False), (4.1, True)):
+        flat = (weight(DOWN) - weight(DOWN).mean(axis=0))[:, :3]
+        noise = (NOISE - NOISE.mean(axis=0))[:, :3] * 40.0
+        noise -= flat * (flat * noise).sum() / (flat**2).sum()  # the multiple itself is exact
+        error = np.sqrt((noise**2).sum() / (3 * COUNT - 4) / (flat**2).sum())
+        reading = weight(DOWN)
+        reading[:, :3] = (2.0 + beyond * error) * reading[:, :3] + noise
+        problem = problem_of(reading, DOWN, loads=(Load(name="tool", mass=MASS, centre_of_mass=CENTRE),))
+        rows = list(scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True))
+        assert bool(rows) == is_named
+
+
+def test_what_is_left_of_the_change_of_the_readings_is_that_of_forces_and_moments_alike() -> None:
+    """By hand: 30 % of the forces and 40 % of the moments are 35 % in root mean square; a constant is no change."""
+    reading = weight(DOWN) + [100.0, 0.0, -50.0, 3.0, 1.0, 2.0]
+    rows = problem_of(reading, DOWN).rows
+    left = (reading - reading.mean(axis=0)) * np.repeat([0.3, 0.4], 3)
+    assert unexplained(rows, left) == pytest.approx(np.sqrt(0.5 * (0.3**2 + 0.4**2)), rel=1e-12)
+
+
+def _swinging(largest: float, lag: float = 0.5) -> LoadProblem:
+    """Gravity that turns by a share of itself from row to row where it turns fastest, and readings that lag it."""
+    time = 0.5 * np.arange(60.0)
+    rate = np.pi * (1.0 + np.sin(0.7 * time))
+    step = 2.0 * np.arcsin(0.5 * largest)
+
+    def down(at: FloatArray) -> FloatArray:
+        angle = np.interp(at, time, np.cumsum(rate) / rate.max() * step)
+        return GRAVITY * np.stack([np.cos(angle), np.sin(angle) * 0.0, np.sin(angle)], axis=1)
+
+    return problem_of(weight(down(time - lag)), down(time), time_s=time)
+
+
+@pytest.mark.parametrize(("largest", "names"), [(0.49, ["lag"]), (0.51, [])])
+def test_a_lag_is_looked_for_where_gravity_turns_by_less_than_half_of_itself(largest: float, names: list[str]) -> None:
+    """From one row to the next; poses one after the other have none."""
+    problem = _swinging(largest)
+    assert [row.name for row in _lag(problem, plain_fit(problem, drift=False)[1], drift=False)] == names
+
+
+def test_few_rows_name_no_axis() -> None:
+    """With four rows beyond the unknowns of an axis a gain is looked for, with fewer any cause explains them."""
+    rng = np.random.default_rng(93)
+    for count, is_named in ((5, False), (6, True)):
+        down = poses(count, rng)
+        reading = weight(down) + 1e-6 * SIZES * rng.normal(size=(count, 6))
+        reading[:, 2] *= 1.3
+        fitted = fit(problem_of(reading, down), drift=False)
+        # ten unknowns of six axes are 1.7 rows
+        assert bool(list(axis_errors(fitted, permuted=False, drift=False))) == is_named
+
+
+@pytest.mark.parametrize(("count", "told"), [(1.98, False), (2.02, True), (-2.02, True)])
+def test_a_mass_is_told_from_two_half_widths_on(count: float, told: bool) -> None:
+    """Its interval is as wide as half of it, of either sign."""
+    fitted = fit(_mass_in_half_widths(count, DOWN), drift=False)
+    assert any(words.startswith("the mass of 'tool' is told only to") for words in _vague(fitted)) != told
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.98, True), (1.02, False)])
+def test_a_centre_of_mass_is_told_to_five_centimetres(share: float, told: bool) -> None:
+    """Half-width of the first moment over the mass, of a stated mass and of an estimated one, along each axis."""
+    for loads in ((Load(name="tool", mass=MASS),), (Load(name="tool"),)):
+        once = fit(problem_of(weight(DOWN) + NOISE, DOWN, loads=loads), drift=False)
+        places = once.guess.index[Kind.FIRST_MOMENT, 0]
+        factor = share * 0.05 * MASS / once.half_width[places].max()
+        noise = NOISE * np.repeat([1.0, factor], 3)
+        fitted = fit(problem_of(weight(DOWN) + noise, DOWN, loads=loads), drift=False)
+        named = [words for words in _vague(fitted) if words.startswith("the centre of mass of 'tool' along")]
+        assert bool(named) != told
+        assert told or "is told only to 51 mm" in named[0]
+
+
+@pytest.mark.parametrize(("share", "count"), [(1.02e-3, 2), (0.98e-3, 1)])
+def test_a_direction_of_wrench_is_spanned_from_a_thousandth_of_the_strongest(share: float, count: int) -> None:
+    """About the mean of every power-up."""
+    signs = np.array([1.0, -1.0, 1.0, -1.0]), np.array([1.0, 1.0, -1.0, -1.0])
+    wrench = np.zeros((4, 6))
+    wrench[:, 1], wrench[:, 2] = 50.0 * signs[0], 50.0 * share * signs[1]
+    assert spanned_directions(wrench, np.zeros(4, dtype=np.int64)) == count
+    assert spanned_directions(wrench + 7.0, np.zeros(4, dtype=np.int64)) == count
