@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -185,3 +186,23 @@ def test_idle_taxels_are_followed_in_half_a_minute_and_touched_ones_counted() ->
     np.testing.assert_allclose(follower.touched_s, [3.0, 0.0, 0.0, 2.0])
     follower._keep(4.0, ~touched, np.zeros(4))
     np.testing.assert_allclose(follower.touched_s, [0.0, 4.0, 4.0, 6.0])
+
+
+def test_heating_is_the_steepest_minute_over_that_of_the_warm_up() -> None:
+    """Of the median taxel, by what is compared every ten seconds; taxels without a rate, or not live, do not count."""
+    follower = object.__new__(PatchFollower)
+    follower.heating, follower._heats = 0.0, deque()
+    rates = np.array([0.05, 0.1, 0.2, 0.0, 0.1])
+    follower.reader = SimpleNamespace(live=np.array([True, True, True, True, False]))  # type: ignore[assignment]
+    follower.heat = SimpleNamespace(rates=rates)  # type: ignore[assignment]
+    share = np.array([0.5, 1.5, 3.0, 7.0, 9.0])
+    for seconds in np.arange(0.0, 55.0, 5.0):
+        follower._take_rate(float(seconds), -share * rates * seconds)
+    assert follower.heating == 0.0  # no minute has passed
+    for seconds in np.arange(55.0, 125.0, 5.0):
+        follower._take_rate(float(seconds), -share * rates * seconds)
+    assert follower.heating == pytest.approx(1.5)
+    # it stays where the heat goes on more slowly
+    for seconds in np.arange(125.0, 300.0, 5.0):
+        follower._take_rate(float(seconds), -share * rates * 125.0)
+    assert follower.heating == pytest.approx(1.5)

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
+from forcetorque.payload.identification.bias_drift_and_jumps import _places
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.frame_unit_and_clock_errors import (
     _lag,
@@ -108,15 +109,20 @@ def test_readings_are_of_another_size_beyond_a_factor_of_two_and_of_a_unit_withi
 
 
 def test_another_size_is_four_standard_errors_beyond_the_factor() -> None:
-    """By the scatter of the readings about the multiple, in closed form."""
+    """By the scatter of five readings in each of two power-ups about the multiple, in closed form."""
+    down, session = DOWN[:10], np.repeat([0, 1], 5)
+    flat, noise = (
+        np.concatenate([part - part.mean(axis=0) for part in (one[:5, :3], one[5:, :3])])
+        for one in (weight(down), 20.0 * NOISE[:10])
+    )
+    noise -= flat * (flat * noise).sum() / (flat**2).sum()  # the multiple itself is exact
+    # thirty values, six biases and a multiple
+    error = np.sqrt((noise**2).sum() / 23.0 / (flat**2).sum())
     for beyond, is_named in ((3.9, False), (4.1, True)):
-        flat = (weight(DOWN) - weight(DOWN).mean(axis=0))[:, :3]
-        noise = (NOISE - NOISE.mean(axis=0))[:, :3] * 40.0
-        noise -= flat * (flat * noise).sum() / (flat**2).sum()  # the multiple itself is exact
-        error = np.sqrt((noise**2).sum() / (3 * COUNT - 4) / (flat**2).sum())
-        reading = weight(DOWN)
+        reading = weight(down)
         reading[:, :3] = (2.0 + beyond * error) * reading[:, :3] + noise
-        problem = problem_of(reading, DOWN, loads=(Load(name="tool", mass=MASS, centre_of_mass=CENTRE),))
+        load = (Load(name="tool", mass=MASS, centre_of_mass=CENTRE),)
+        problem = problem_of(reading, down, loads=load, session=session, block=session)
         rows = list(scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True))
         assert bool(rows) == is_named
 
@@ -190,3 +196,11 @@ def test_a_direction_of_wrench_is_spanned_from_a_thousandth_of_the_strongest(sha
     wrench[:, 1], wrench[:, 2] = 50.0 * signs[0], 50.0 * share * signs[1]
     assert spanned_directions(wrench, np.zeros(4, dtype=np.int64)) == count
     assert spanned_directions(wrench + 7.0, np.zeros(4, dtype=np.int64)) == count
+
+
+def test_a_jump_is_looked_for_from_the_third_row_to_the_third_last() -> None:
+    """Not at the first and last two, which any row that disagrees would be; at 400 places of a long recording."""
+    for count in (6, 20, 400):
+        np.testing.assert_array_equal(_places(count), np.arange(3, count - 2))
+    assert 400 <= len(_places(1000)) < 800
+    assert np.ptp(np.diff(_places(1000))) == 0

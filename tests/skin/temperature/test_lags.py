@@ -261,3 +261,30 @@ def test_smallest_and_common_lags(sign: float) -> None:
         if has_one:
             assert np.median(found) == pytest.approx(sign * lag, abs=1.0)
             assert np.count_nonzero(found == np.median(found)) >= 10
+
+
+@pytest.mark.parametrize(
+    ("found", "expected"),
+    [
+        ([(2.05, 0.01)] * 4, [2.05] * 4),  # 2 s is a lag
+        ([(1.95, 0.01)] * 4, [0.0] * 4),
+        ([(-1.95, 0.01), (-2.05, 0.01)] * 2, [0.0, -2.05] * 2),
+        # one that differs from the median by more than four deviations is its own
+        ([(10.0, 1.0), (10.0, 1.0), (10.0, 1.0), (14.1, 1.0)], [10.0, 10.0, 10.0, 14.1]),
+        ([(10.0, 1.0), (10.0, 1.0), (10.0, 1.0), (13.9, 1.0)], [10.0] * 4),
+        # a median counts from four of its deviations on, 1.2533 times those of a mean of four
+        ([(4.0 * 1.2533 * 2.0 / 2.0 + 0.01, 2.0)] * 4, [4.0 * 1.2533 + 0.01] * 4),
+        ([(4.0 * 1.2533 * 2.0 / 2.0 - 0.01, 2.0)] * 4, [0.0] * 4),
+    ],
+)
+def test_a_lag_is_its_own_or_that_of_all_pads(
+    monkeypatch: pytest.MonkeyPatch, found: list[tuple[float, float]], expected: list[float]
+) -> None:
+    """By the lag and deviation of each pad; a pad that no taxel follows has none."""
+    estimates = iter([*found, (50.0, 1.0)])
+    monkeypatch.setattr("forcetorque.skin.temperature.pad_lags._lag", lambda *_: next(estimates))
+    values = np.random.default_rng(4).normal(size=(60, 5))
+    follows = np.eye(5, dtype=bool)
+    follows[4, 4] = False
+    lags = pad_lags(np.arange(60.0), values, values, follows, averaged=10)
+    np.testing.assert_allclose(lags, [*expected, 0.0])
