@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.skin.layout.check import shape_findings
 from forcetorque.skin.layout.finding import Defect, shape_of
 from forcetorque.skin.layout.layout import PatchDescription
-from forcetorque.skin.layout.modules import MODULE_PADS, MODULE_TAXELS, template_misfit
+from forcetorque.skin.layout.modules import MODULE_PADS, MODULE_TAXELS, _neighbours, template_misfit
 from tests.scenes.patches import cylinder_patch, moved_module
 
 SOUND = cylinder_patch()
@@ -111,3 +111,25 @@ def test_one_normal_for_each_module_is_coarse_from_two_degrees_on(faceted: bool,
     for k, mean in zip(own, means, strict=True):
         normals[k] = mean
     assert _found(replace(patch, normals=normals)) == ([Defect.FACETED] if faceted else [])
+
+
+@pytest.mark.parametrize(
+    ("drawn_m", "real_m", "joined"),
+    [
+        (0.020, 1.3 * 0.020 + 0.00199, True),
+        (0.020, 1.3 * 0.020 + 0.00201, False),
+        (1.3 * 0.020 + 0.00199, 0.020, True),
+        (1.3 * 0.020 + 0.00201, 0.020, False),
+        (0.0499, 0.045, True),
+        (0.0501, 0.045, False),
+        (0.045, 0.0501, False),
+        (0.0, 0.001, False),
+    ],
+)
+def test_modules_are_neighbours_that_are_as_far_on_paper_as_on_the_link(
+    drawn_m: float, real_m: float, joined: bool
+) -> None:
+    """To a factor of 1.3 and the 2 mm of a plan in whole millimetres, up to 5 cm; a module is none of itself."""
+    turn = np.array([0.6, -0.8])
+    found = _neighbours(drawn_m * turn[None], real_m * np.array([[0.0, 0.6, 0.8]]))
+    assert found.tolist() == [joined]
