@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
+from forcetorque.payload.identification.axis_and_mount_errors import _gain_words, _mount_words, axis_errors
 from forcetorque.payload.identification.bias_drift_and_jumps import _places
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.frame_unit_and_clock_errors import (
@@ -24,6 +26,7 @@ from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.identification.parameter_vector import Kind
 from forcetorque.payload.identification.robust_fit import fit, plain_fit, scales
 from forcetorque.payload.identification.unobservable_parameters import _vague, spanned_directions
+from forcetorque.robot.mounting import rotation_vector
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 
 COUNT = 40
@@ -204,3 +207,50 @@ def test_a_jump_is_looked_for_from_the_third_row_to_the_third_last() -> None:
         np.testing.assert_array_equal(_places(count), np.arange(3, count - 2))
     assert 400 <= len(_places(1000)) < 800
     assert np.ptp(np.diff(_places(1000))) == 0
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_gain_is_named_from_two_of_its_half_widths_on(sign: float) -> None:
+    """By the fit of one coefficient that is free; gains on either side are found from its estimate at two others."""
+
+    def refit(gain: float) -> tuple[LoadProblem, float]:
+        reading = weight(DOWN) + NOISE
+        reading[:, 2] *= 1.0 + gain
+        problem = problem_of(reading, DOWN)
+        prior = np.tile(1e-12 * np.eye(6), (6, 1, 1))
+        prior[2, 2, 2] = 1.0
+        fitted = fit(replace(problem, matrix_prior=prior), drift=False)
+        place = fitted.guess.index[Kind.MATRIX, 2][2]
+        return problem, float(fitted.guess.values[place] / fitted.half_width[place])
+
+    cause: Any = SimpleNamespace(axes=(2,), words="fz changes by {gain}")
+    none, some = refit(0.0)[1], refit(0.02 * sign)[1]
+    for count, is_named in ((1.95, False), (2.05, True)):
+        gain = 0.02 * sign * (sign * count - none) / (some - none)
+        problem, ratio = refit(gain)
+        assert ratio == pytest.approx(sign * count, abs=0.045)
+        assert (_gain_words(problem, cause, drift=False) is not None) == is_named
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_a_mount_is_named_from_two_of_its_half_widths_on(axis: int) -> None:
+    """In the component of its rotation that is surest."""
+    cause: Any = SimpleNamespace(words="turned by {turn}", problem=None)
+    squares = np.ones(6), np.ones(6)
+    rotation = np.eye(3)[axis]
+
+    def surest(angle: float) -> tuple[LoadProblem, float]:
+        turned = Rotation.from_rotvec(angle * rotation).apply(DOWN)
+        problem = replace(problem_of(weight(turned) + NOISE, DOWN), mount=True)
+        fitted = fit(problem, drift=False)
+        own = fitted.guess.index[Kind.MOUNT, 0]
+        return problem, float(np.abs(rotation_vector(fitted.guess.rotation) / fitted.half_width[own]).max())
+
+    angles = np.array([0.01, 0.06])
+    ratios = np.array([surest(float(angle))[1] for angle in angles])
+    for count, is_named in ((1.95, False), (2.05, True)):
+        angle = float(angles[0] + (count - ratios[0]) / (ratios[1] - ratios[0]) * (angles[1] - angles[0]))
+        problem, ratio = surest(angle)
+        assert ratio == pytest.approx(count, abs=0.045)
+        cause.problem = problem
+        assert (_mount_words(cause, squares, drift=False) is not None) == is_named
