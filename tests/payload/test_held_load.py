@@ -23,6 +23,7 @@ from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.export.export import export_load, robot_load
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.export.load_parameters import RobotLoad
+from forcetorque.payload.held_load import _posture
 from forcetorque.payload.identify import weigh_load
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import Joint, JointType, RobotModel, SensorFrame
@@ -150,6 +151,29 @@ def _stilled(run: SensorRun, move: float = 0.0) -> SensorRun:
     streams = {**run.experiment.recording.streams, stream.name: still}
     recording = replace(run.experiment.recording, streams=streams)
     return SensorRun(replace(run.experiment, recording=recording), run.sensor)
+
+
+@pytest.mark.parametrize(("unit", "range_"), [("rad", 5e-3), ("m", 5e-4)])
+def test_a_joint_stands_still_within_its_range(arm: Path, unit: str, range_: float) -> None:
+    """Of 5 mrad, or of half a millimetre where it slides; its position is the middle."""
+    run = _run(arm)
+    for share, is_still in ((0.99, True), (1.05, False)):
+        experiment = _stilled(run, move=share * range_).experiment
+        stream, signal = experiment.recording.joint_signals("position")["elbow"]
+        other = replace(signal, units=(unit,) * len(signal.columns))
+        moved = replace(stream, signals={**stream.signals, "position": other})
+        recording = replace(experiment.recording, streams={**experiment.recording.streams, stream.name: moved})
+        tree = build_tree(experiment.model, "base")
+        elbow = [
+            one.coordinate for one in tree.bodies if one.coordinate is not None and one.coordinate.joint == "elbow"
+        ]
+        if not is_still:
+            with pytest.raises(ExperimentError, match="got 'elbow' beyond it, which move"):
+                _posture(replace(experiment, recording=recording), "arm_ft", elbow)
+            continue
+        (row,) = _posture(replace(experiment, recording=recording), "arm_ft", elbow)
+        assert (row.joint, row.unit) == ("elbow", unit)
+        assert row.position == pytest.approx(_POSTURE["elbow"] + 0.5 * share * range_, abs=2e-2 * range_)
 
 
 def test_joints_that_stand_still_are_part_of_the_load(arm: Path, tmp_path: Path) -> None:

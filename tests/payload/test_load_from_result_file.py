@@ -5,13 +5,24 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError
-from forcetorque.payload.load_from_result_file import SCHEMA, read_load_from_file
+from forcetorque.base.errors import ExperimentError, FormatError
+from forcetorque.base.inertia import Inertia
+from forcetorque.payload.export.load_parameters import require_rigid
+from forcetorque.payload.identification.estimation_problem import Load
+from forcetorque.payload.identification.parameter_vector import six_of
+from forcetorque.payload.load_from_result_file import (
+    SCHEMA,
+    _of_usual_size,
+    read_load_from_file,
+    read_wrist_load_from_file,
+)
 
 INERTIAL = [1.5, 0.03, 0.0, 0.15, 4e-3, 0.0, 0.0, 4e-3, 0.0, 3e-3]
 
@@ -46,3 +57,51 @@ def test_a_matrix_that_is_no_covariance_is_refused(tmp_path: Path, covariance: F
     """Negative, or without symmetry."""
     with pytest.raises(FormatError, match="covariance: expected a symmetric positive matrix of 'tool'"):
         read_load_from_file(_written(tmp_path, covariance), "tool", "hand")
+
+
+@pytest.mark.parametrize("mass", [0.4, 3.0])
+def test_a_load_stands_for_a_stated_one_where_its_mass_is_known_to_a_twentieth(tmp_path: Path, mass: float) -> None:
+    """Half of its interval over it, for light and heavy ones; its centre is kept."""
+    for share, is_known in ((0.049, True), (0.051, False)):
+        load = {"load": "tool", "estimated": True, "mass_kg": mass, "mass_half_width_95_kg": share * mass}
+        load |= {"centre_of_mass_m": [0.0, 0.01, 0.05], "inertia_kgm2": None}
+        file = tmp_path / "payload.json"
+        content = {"schema": SCHEMA, "serial": "FT1", "frame": "wrist", "loads": [load]}
+        file.write_text(json.dumps(content), encoding="utf-8")
+        if is_known:
+            found = read_wrist_load_from_file(file, "tool", "wrist").load
+            assert found.mass == mass
+            np.testing.assert_array_equal(found.centre_of_mass, [0.0, 0.01, 0.05])
+        else:
+            with pytest.raises(ExperimentError, match=r"expected a mass that is known to 5 % \(95 %\)"):
+                read_wrist_load_from_file(file, "tool", "wrist")
+
+
+def test_a_load_of_usual_size_is_a_body_of_a_tenth_of_a_metre_about_its_centre() -> None:
+    """By the parallel axis theorem, component by component, and its deviation by the square of the radius."""
+    mass, (x, y, z) = 2.5, (centre := np.array([0.1, -0.2, 0.3]))
+    point = Inertia.about_centre_of_mass(mass=mass, centre_of_mass=centre, second_moment=np.zeros((3, 3)))
+    estimate: Any = SimpleNamespace(mass=mass, centre_of_mass=centre)
+    load = _of_usual_size(Load(name="tool", inertia="unknown"), estimate)
+    assert load.expected is not None
+    assert load.precision is not None
+    own = [y * y + z * z, x * x + z * z, x * x + y * y, -x * y, -x * z, -y * z]
+    np.testing.assert_allclose(load.expected, [0.0] * 4 + [mass * one for one in own], rtol=1e-12)
+    np.testing.assert_allclose(load.expected[4:], six_of(point.second_moment), rtol=1e-12)
+    np.testing.assert_allclose(np.diag(load.precision), [0.0] * 4 + [1.0 / (mass * 0.1**2) ** 2] * 6, rtol=1e-12)
+    assert not (load.precision - np.diag(np.diag(load.precision))).any()
+
+
+@pytest.mark.parametrize(
+    ("moments", "is_rigid"),
+    [((1.0, 2.0, 2.999), True), ((1.0, 2.0, 3.001), False), ((1e-9, 1.0, 1.0), True), ((-1e-9, 1.0, 1.0), False)],
+)
+def test_a_rigid_body_has_no_moment_above_the_sum_of_the_others(moments: tuple[float, ...], is_rigid: bool) -> None:
+    """Nor one below zero, along any axes."""
+    axes = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+    inertia = axes @ np.diag(moments) @ axes.T
+    if is_rigid:
+        require_rigid(inertia, "tool")
+    else:
+        with pytest.raises(FormatError, match="tool: expected an inertia of a rigid body"):
+            require_rigid(inertia, "tool")

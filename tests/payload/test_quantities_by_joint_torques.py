@@ -8,11 +8,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.stats import f, t
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import FitError
 from forcetorque.formats.franka.kinematics import joint_frames
-from forcetorque.formats.logged_torques import LoggedTorques, holding_torques
-from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques
+from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques, holding_torques
+from forcetorque.payload.load_by_joint_torques import (
+    TorqueLoad,
+    _loads_differ,
+    _postures,
+    _require_postures,
+    _stays,
+    load_of_torques,
+)
 from tests.payload.simulated_panda import GRAVITY
 
 SAME = 1e-9
@@ -135,3 +144,115 @@ def test_logs_of_two_loads_are_told_by_what_they_leave() -> None:
     (words,) = _weighed(_log(1, noise=1e-4), _log(2, mass=1.5 * MASS, noise=1e-4)).warnings
     assert words.endswith("a load of each log leaves 0 % of the residual")
     assert not _weighed(_log(1), _log(2)).warnings
+
+
+def test_half_widths_are_those_of_the_dense_regression() -> None:
+    """Of 80 postures whose joints have known errors of seven sizes: within a tenth, and residuals are these sizes."""
+    sizes = np.array([0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1])
+    rng = np.random.default_rng(21)
+    log = _many(80, rng, sizes)
+    weighed = _weighed(log)
+    values, half, centre_half = _dense(log, sizes)
+    np.testing.assert_allclose(weighed.load.mass_half_width_95_kg, half, rtol=0.1)
+    np.testing.assert_allclose(weighed.load.centre_of_mass_half_width_95_m, centre_half, rtol=0.1)
+    assert abs((weighed.load.mass_kg or 0.0) - values[0]) < 0.1 * half
+    np.testing.assert_allclose([row.residual_rms_Nm for row in weighed.joints], sizes, rtol=0.25)
+
+
+def _many(count: int, rng: np.random.Generator, sizes: FloatArray, mass: float = MASS) -> LoggedTorques:
+    """Single samples in postures that are all others."""
+    log = _log(int(rng.integers(1 << 30)), mass=mass, noise=0.0)
+    position = rng.uniform(-1.5, 1.5, (count, 7))
+    frames, flange = joint_frames(position)
+    unit = holding_torques(frames[:, :, :3, 2], frames[:, :, :3, 3], flange, np.array([0.0, 0.0, -GRAVITY]))
+    torque = unit @ np.append(mass, mass * CENTRE) + BIAS + sizes * rng.normal(size=(count, 7))
+    return replace(
+        log,
+        stamp_ns=10_000_000 * np.arange(count),
+        position=position,
+        is_still=np.ones(count, dtype=bool),
+        torque=torque,
+        unit_torque=unit,
+        declared_mass=np.zeros(count),
+        declared_centre=np.zeros((count, 3)),
+    )
+
+
+def _design(unit: FloatArray) -> FloatArray:
+    """Columns of the load, and one for the bias of each joint; a row for every torque."""
+    return np.hstack([unit.reshape(-1, unit.shape[2]), np.tile(np.eye(7), (len(unit), 1))])
+
+
+def _dense(log: LoggedTorques, sizes: FloatArray) -> tuple[FloatArray, float, FloatArray]:
+    design, weight = _design(log.unit_torque), np.tile(1.0 / sizes, len(log.torque))
+    covariance = np.linalg.inv((design * weight[:, None]).T @ (design * weight[:, None]))
+    values = covariance @ (design.T @ (weight**2 * log.torque.ravel()))
+    # by a difference of the quotient
+    load, steps = values[:4], 1e-6 * np.eye(4)
+    change = np.array([((load + one)[1:] / (load + one)[0] - load[1:] / load[0]) / 1e-6 for one in steps]).T
+    error = np.sqrt(np.diag(change @ covariance[:4, :4] @ change.T))
+    quantile = float(t.ppf(0.975, len(log.torque) - 1))
+    return load, quantile * float(np.sqrt(covariance[0, 0])), quantile * error
+
+
+@pytest.mark.parametrize(("count", "chance_decides"), [(2, True), (8, False)])
+def test_loads_differ_where_the_f_test_and_the_residual_say_so(count: int, chance_decides: bool) -> None:
+    """By the F test of nested regressions with a bias of each joint, 1 in 1000, and by less than 0.7 of the residual.
+
+    Second loads that are heavier step by step: the first one that is told is the first one that both limits let pass.
+    With two postures of each the chance decides, with eight the residual.
+    """
+    sizes, told, decided = np.full(7, 0.05), [], []
+    for mass in MASS * np.geomspace(1.001, 1.5, 40):
+        logs = [_many(count, np.random.default_rng(40 + k), sizes, own) for k, own in enumerate((MASS, mass))]
+        parts = [_stays(log) for log in logs]
+        torque = np.concatenate([log.torque for log in logs]).ravel() / 0.05
+        unit = np.concatenate([log.unit_torque for log in logs]) / 0.05
+        own = np.repeat([0, 1], count)
+        both = np.concatenate([unit * (own == k)[:, None, None] for k in range(2)], axis=2)
+        squares = [
+            float(((torque - one @ np.linalg.pinv(one) @ torque) ** 2).sum()) for one in map(_design, (unit, both))
+        ]
+        freedom = torque.size - 7 - 8
+        chance = f.sf((squares[0] - squares[1]) / 4 / (squares[1] / freedom), 4, freedom)
+        share = np.sqrt(squares[1] / squares[0])
+        told.append(bool(list(_loads_differ(parts, sizes))))
+        decided.append((chance < 1e-3, share < 0.7))
+        assert told[-1] == all(decided[-1])
+    assert 0 < sum(told) < 40
+    first = told.index(True)
+    assert decided[first - 1] == ((False, True) if chance_decides else (True, False))
+
+
+@pytest.mark.parametrize(("apart", "count"), [(0.0195, 6), (0.0205, 12)])
+def test_postures_within_twenty_milliradians_are_one(apart: float, count: int) -> None:
+    """Where one joint stands by less than that elsewhere, whether the arm goes there at once or comes back later."""
+    rng = np.random.default_rng(71)
+    first = rng.uniform(-1.5, 1.5, (6, 7))
+    for order in (np.repeat(np.arange(6), 2), np.tile(np.arange(6), 2)):
+        again = np.array([np.count_nonzero(order[:k] == one) for k, one in enumerate(order)])
+        position = first[order] + apart * again[:, None] * np.eye(7)[3]
+        log = replace(_many(12, rng, np.full(7, 0.01)), position=position)
+        assert len(_postures(_stays(log)).torque) == count
+
+
+def test_four_postures_are_enough_and_three_are_refused() -> None:
+    """Three leave nothing to estimate an error from."""
+    rng = np.random.default_rng(72)
+    assert _weighed(_many(4, rng, np.full(7, 1e-3))).postures == 4
+    with pytest.raises(FitError, match="at least 4 postures at rest, .*, got 3"):
+        _weighed(_many(3, rng, np.full(7, 1e-3)))
+
+
+@pytest.mark.parametrize(("share", "is_open"), [(0.9e-3, True), (1.2e-3, False)])
+def test_a_load_is_open_where_postures_change_its_torques_by_a_thousandth(share: float, is_open: bool) -> None:
+    """Of one unknown over the root of its squares, which is named; the others are as they were."""
+    rng = np.random.default_rng(73)
+    unit = rng.normal(size=(20, 7, 4))
+    mean, change = unit[:, :, 2].mean(axis=0), unit[:, :, 2] - unit[:, :, 2].mean(axis=0)
+    unit[:, :, 2] = mean + change * share * np.linalg.norm(mean) * np.sqrt(20.0) / np.linalg.norm(change)
+    if is_open:
+        with pytest.raises(FitError, match=f"leave open {UNKNOWNS[2]}"):
+            _require_postures(unit, "log")
+    else:
+        _require_postures(unit, "log")

@@ -15,7 +15,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.export.export import export_load, robot_load
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.tare_offset import tare
+from forcetorque.payload.tare_offset import STILL, TaredSensor, tare
 from tests.page_scripts import unmarked
 from tests.payload.export.written_loads import read_hrpsys
 from tests.results.showing import require_shown
@@ -113,3 +113,14 @@ def test_its_interval_holds_the_bias(tmp_path: Path) -> None:
         held.append(np.abs(row.offset + BIAS) <= row.half_width_95)
     coverage = np.mean(held, axis=0)
     assert ((coverage >= 0.90) & (coverage <= 0.98)).all(), coverage
+
+
+@pytest.mark.parametrize("weight_N", [0.5, 40.0])
+def test_a_load_moves_from_its_share_of_the_weight_on(weight_N: float) -> None:
+    """On either side of it, for light loads and heavy ones; the bias is what is taken off."""
+    load = np.array([0.6 * weight_N, 0.0, -0.8 * weight_N, 1.0, 2.0, 3.0])
+    for share, moves in ((0.99, False), (1.01, True)):
+        row = TaredSensor.model_construct(load=load, load_moves_N=share * STILL * weight_N, offset=np.arange(6.0))
+        assert row.weight_N == pytest.approx(weight_N)
+        assert row.load_moves == moves
+        np.testing.assert_array_equal(row.bias, -np.arange(6.0))

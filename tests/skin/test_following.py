@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -155,3 +157,52 @@ def test_the_noise_from_one_message_to_the_next_is_its_standard_deviation() -> N
     np.testing.assert_allclose(noise, [0.4, 1.2], rtol=4.0 * np.sqrt(0.75 / 4000))
     counts[2000:] += 80.0
     np.testing.assert_allclose(_short_noise(counts), noise, rtol=0.02)
+
+
+@pytest.mark.parametrize(("step", "seen"), [(2.4, False), (2.6, True)])
+@pytest.mark.parametrize("when_s", [3.0, 12.0])
+def test_a_change_of_two_and_a_half_counts_is_a_touch(
+    table: PressureTable, when_s: float, step: float, seen: bool
+) -> None:
+    """Down within the rest, or up after it by as much beyond the rest, of two taxels of a quiet patch."""
+    seconds = np.arange(500) / 25.0
+    counts = np.full((len(seconds), table.columns), 240.0)
+    pushed = table.taxels[table.live][[4, 5]]
+    counts[np.ix_(seconds >= when_s, pushed)] += step * (1.0 if when_s > 6.0 else -1.0)
+    reader = replace(PatchReader.at_rest(table, counts[seconds < 6.0]), rest=np.full(table.columns, 240.0))
+    found = touched_at_rest(reader, seconds, counts, rest_s=6.0)
+    np.testing.assert_array_equal(found, pushed if seen else [])
+
+
+def test_idle_taxels_are_followed_in_half_a_minute_and_touched_ones_counted() -> None:
+    """By the exponential of 30 s, but for a contact and one ring; time falls again as fast as it grew."""
+    follower = object.__new__(PatchFollower)
+    surface = SimpleNamespace(with_ring=lambda touched: touched | np.roll(touched, 1))
+    follower.patch = SimpleNamespace(surface=surface)  # type: ignore[assignment]
+    follower.baseline, follower.touched_s = np.zeros(4), np.array([0.0, 0.0, 0.0, 5.0])
+    touched = np.array([True, False, False, False])
+    follower._keep(3.0, touched, np.full(4, 2.0))
+    np.testing.assert_allclose(follower.baseline, 2.0 * (1.0 - np.exp(-0.1)) * np.array([0.0, 0.0, 1.0, 1.0]))
+    np.testing.assert_allclose(follower.touched_s, [3.0, 0.0, 0.0, 2.0])
+    follower._keep(4.0, ~touched, np.zeros(4))
+    np.testing.assert_allclose(follower.touched_s, [0.0, 4.0, 4.0, 6.0])
+
+
+def test_heating_is_the_steepest_minute_over_that_of_the_warm_up() -> None:
+    """Of the median taxel, by what is compared every ten seconds; taxels without a rate, or not live, do not count."""
+    follower = object.__new__(PatchFollower)
+    follower.heating, follower._heats = 0.0, deque()
+    rates = np.array([0.05, 0.1, 0.2, 0.0, 0.1])
+    follower.reader = SimpleNamespace(live=np.array([True, True, True, True, False]))  # type: ignore[assignment]
+    follower.heat = SimpleNamespace(rates=rates)  # type: ignore[assignment]
+    share = np.array([0.5, 1.5, 3.0, 7.0, 9.0])
+    for seconds in np.arange(0.0, 55.0, 5.0):
+        follower._take_rate(float(seconds), -share * rates * seconds)
+    assert follower.heating == 0.0  # no minute has passed
+    for seconds in np.arange(55.0, 125.0, 5.0):
+        follower._take_rate(float(seconds), -share * rates * seconds)
+    assert follower.heating == pytest.approx(1.5)
+    # it stays where the heat goes on more slowly
+    for seconds in np.arange(125.0, 300.0, 5.0):
+        follower._take_rate(float(seconds), -share * rates * 125.0)
+    assert follower.heating == pytest.approx(1.5)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader
 from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.wrench.pressures_over_recording import stuck_taxels
 from tests.skin.layout.skins import plane_layout
 
 TAXELS: Final = 2000
@@ -90,3 +92,25 @@ def test_what_does_not_belong_is_refused(reader: PatchReader) -> None:
         reader.frame(np.zeros(TAXELS + 3))
     with pytest.raises(SkinError, match="every patch has its own table"):
         reader.require_layout(plane_layout())
+
+
+@pytest.mark.parametrize(("number", "noise", "is_stuck"), [(100, 0.52, True), (99, 0.52, False), (100, 0.48, False)])
+def test_a_taxel_is_stuck_where_the_others_are_too_noisy_for_chance(number: int, noise: float, is_stuck: bool) -> None:
+    """From 100 messages and a median noise of 0.5 counts on; one that is not live is not named."""
+    counts = messages(0.0, number)
+    counts[:, [3 + 5, 3 + 7]] = 240.0
+    reader = PatchReader.at_rest(TABLE, counts)
+    others = np.arange(TAXELS + 3) != 3 + 5
+    reader = replace(reader, noise=np.where(others, noise, 1.0 / np.sqrt(12.0)))
+    assert stuck_taxels(reader, counts).tolist() == ([3 + 5] if is_stuck else [])
+
+
+@pytest.mark.parametrize(("sure", "wakes"), [(3.75, False), (3.85, True)])
+def test_a_taxel_wakes_at_its_deviations(sure: float, wakes: bool) -> None:
+    """Of its noise, of the mean of ten messages and of the rest together: 3.8 of them, one in 14 000 by chance."""
+    reader = replace(PatchReader.at_rest(TABLE, messages(0.0, 100)), noise=np.full(TAXELS + 3, 2.0))
+    deviation = 2.0 * np.sqrt(1.0 / 10.0 + 1.0 / 100.0)
+    counts = np.tile(reader.rest - sure * deviation, (10, 1))
+    active = reader.frame(counts).active
+    assert active.any() == wakes
+    assert active.sum() in (0, TAXELS - 1)

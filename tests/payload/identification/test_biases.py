@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.payload.identification.bias_drift_and_jumps import bias_tests, choose_drift, strongest_jump
+from forcetorque.payload.identification.bias_drift_and_jumps import _chance, bias_tests, choose_drift, strongest_jump
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.robust_fit import fit
 from forcetorque.payload.identification.solve import load_estimates, session_estimates, solve
@@ -76,6 +76,44 @@ def _as_one(problem: LoadProblem) -> LoadProblem:
     time = np.arange(float(len(problem.rows)))
     rows = replace(problem.rows, session=np.zeros(len(problem.rows), dtype=np.int64), time_s=time)
     return replace(problem, rows=rows, sessions=("all",))
+
+
+@pytest.mark.parametrize(
+    ("count", "degrees"),
+    [(1, [15.0] * 6), (3, [33.0] * 6), (2, [18.0, 18.0, 18.0, 300.0, 300.0, 300.0]), (1, [3000.0] * 6)],
+)
+def test_the_chance_of_differences_is_that_of_draws(count: int, degrees: list[float]) -> None:
+    """Of normal differences over the noise of six axes, each estimated by a third of the degrees of its group.
+
+    An F distribution of equal moments is exact for many degrees; of five it says up to a third too much.
+    """
+    rng, draws = np.random.default_rng(9), 200_000
+    own = np.array(degrees) / 3.0
+    noise = rng.chisquare(own, size=(draws, 6)) / own
+    squares = (rng.chisquare(count, size=(draws, 6)) / noise).sum(axis=1)
+    for chance, most in ((0.02, 0.35), (0.05, 0.35), (0.5, 0.05)):
+        square = float(np.quantile(squares, 1.0 - chance))
+        found = _chance(square, count, np.array(degrees)) / chance
+        assert 0.9 < found < 1.0 + (most if min(degrees) < 1000.0 else 0.05)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("rows", "power_ups"), [(4, 2), (6, 4)])
+def test_few_rows_differ_by_chance_as_often_as_said(rows: int, power_ups: int) -> None:
+    """Of 60 problems with equal biases at most 9 are below 0.05, 20 to 44 below one half.
+
+    Of a right test 3 in 1000 such sets are outside. With the degrees of freedom of all rows together one in five is
+    below 0.05 where there are four rows.
+    """
+    p_values = []
+    for seed in range(60):
+        rng = np.random.default_rng(7100 + seed)
+        gravity, number = poses(rows * power_ups, rng), np.repeat(np.arange(power_ups), rows)
+        same = problem_of(weight(gravity) + SIZES * rng.normal(size=(len(number), 6)), gravity, session=number)
+        (sessions,) = bias_tests(fit(same, drift=False), drift=False)
+        p_values.append(sessions.p_value)
+    assert np.sum(np.array(p_values) < 0.05) <= 9
+    assert 20 <= np.sum(np.array(p_values) < 0.5) <= 44
 
 
 @pytest.mark.long

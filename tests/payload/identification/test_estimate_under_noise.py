@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
 from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.payload.identification.estimate_under_noise import estimate, groups_of, noise_sizes
 from forcetorque.payload.identification.estimation_problem import LoadRows
+from forcetorque.payload.identification.robust_fit import row_distances
 from forcetorque.payload.identification.solve import solve
 from tests.payload.identification.payloads import SIZES, poses, problem_of, slow, weight
 
@@ -126,3 +128,49 @@ def test_the_unit_of_time_does_not_change_what_slow_noise_makes_of_a_load() -> N
     mixed = np.concatenate([rng.permutation(20), 20 + rng.permutation(20)])
     other = solve(problem_of(reading[mixed], gravity[mixed], time_s=time, **fields)).loads[0]
     assert abs(other.mass_half_width / first.mass_half_width - 1.0) > 0.01
+
+
+def test_the_distance_of_a_row_is_that_of_its_values_from_what_all_others_foretell() -> None:
+    """By leaving out one value at a time of the dense covariance: with slow noise, a prior and rows that count less.
+
+    The value that is left out counts as one of full weight, so that a row is as far whatever it counted.
+    """
+    rng = np.random.default_rng(8)
+    count, unknowns = 12, 3
+    design, time = rng.normal(size=(count, 6, unknowns)), np.arange(float(count))
+    values = rng.normal(size=(count, 6)) + np.column_stack([2.0 * slow(count, 3.0, rng) for _ in range(6)])
+    share = rng.uniform(0.5, 1.0, count)
+    rows = LoadRows.of_poses(np.zeros((count, 6)), rng.normal(size=(count, 3)), time_s=time, share=share)
+    prior = np.diag([0.0, 1.0, 4.0]), np.array([0.0, 2.0, -3.0])
+    shapes = (WHITE, SlowNoise(time_constant_s=3.0, ratio=1.0))
+    weight = np.where(np.arange(count) % 4 == 1, 0.02, 1.0)
+    result = estimate(groups_of(rows, design, values, np.ones(6), weight), np.eye(unknowns), prior, shapes)
+    assert len(result.weights) > 1
+    left = groups_of(rows, design, values - design @ result.mean, np.ones(6), weight)
+    distance = row_distances(left, np.eye(unknowns), result, weight)
+
+    flat = [np.moveaxis(one, 0, 1).reshape(6 * count, -1) for one in (design, values)]
+    columns, read = flat[0], flat[1][:, 0]
+    lag = np.abs(np.subtract.outer(time, time))
+    slow_part = [np.exp(-lag / max(one.time_constant_s, 1e-9)) * one.ratio for one in result.shapes]
+    variance = np.repeat(result.variances, 3)
+    noise = np.zeros((6 * count, 6 * count))
+    full = np.zeros(6 * count)
+    for axis in range(6):
+        own = slice(axis * count, (axis + 1) * count)
+        noise[own, own] = variance[axis] * (np.diag(1.0 / (share * weight)) + slow_part[axis // 3])
+        full[own] = variance[axis] * (1.0 / share + np.diag(slow_part[axis // 3]))
+    wanted = np.zeros(6 * count)
+    for place in range(6 * count):
+        others = np.delete(np.arange(6 * count), place)
+        inverse = np.linalg.inv(noise[np.ix_(others, others)])
+        x, y = columns[others], read[others]
+        covariance = np.linalg.inv(prior[0] + x.T @ inverse @ x)
+        mean = covariance @ (prior[1] + x.T @ inverse @ y)
+        along = noise[place, others] @ inverse
+        change = columns[place] - along @ x
+        foretold = columns[place] @ mean + along @ (y - x @ mean)
+        spread = full[place] - along @ noise[others, place] + change @ covariance @ change
+        wanted[place] = (read[place] - foretold) ** 2 / spread
+    total = wanted.reshape(6, count).sum(axis=0)
+    np.testing.assert_allclose(distance, total * chi2.median(6.0) / np.median(total), rtol=1e-4)

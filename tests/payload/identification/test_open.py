@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.payload.identification.estimation_problem import Load
 from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.identification.unobservable_parameters import spanned_directions
+from forcetorque.payload.identification.unobservable_parameters import spanned_directions, vector_words
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 
 
@@ -125,3 +125,13 @@ def test_a_moment_counts_as_its_force_at_a_tenth_of_a_metre(moment_Nm: float, co
     """Beside forces of 10 N along all axes: from a thousandth of them on, which is 1 mN m."""
     wrench = np.diag([10.0, 10.0, 10.0, moment_Nm, moment_Nm, moment_Nm])
     assert spanned_directions(np.vstack([wrench, -wrench]), np.zeros(12, dtype=np.int64)) == count
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_direction_is_named_by_its_axis_or_its_unit_vector(size: float) -> None:
+    """Whatever its length and sense; within 1.8 degrees of an axis it is that axis."""
+    assert vector_words(size * np.array([0.0, -1.0, 0.0])) == "y"
+    assert vector_words(size * np.array([0.03, 0.0, 1.0])) == "z"
+    assert vector_words(size * np.array([0.034, 0.0, 1.0])) == "(0.03, 0.00, 1.00)"
+    assert vector_words(size * np.array([-3.0, 0.0, 4.0])) == "(-0.60, 0.00, 0.80)"
+    assert vector_words(size * np.array([3.0, 0.0, -4.0])) == "(-0.60, 0.00, 0.80)"

@@ -197,3 +197,52 @@ def test_frames_of_another_patch_or_with_nonsense_are_refused() -> None:
     with pytest.raises(SkinError, match="at the 2th from 0"):
         PressureFrame(pressures=np.array([0.0, 1.0, np.nan]), active=np.zeros(3, dtype=bool))
     PressureFrame(pressures=np.array([0.0, np.nan]), active=np.zeros(2, dtype=bool), live=np.array([True, False]))
+
+
+def test_the_covariance_is_that_of_noise_of_what_is_between_taxels_and_of_the_shape() -> None:
+    """Of exact taxels: 30.3 % of what neighbours do not foretell, each by itself, and 3.1 % of the wrench at once."""
+    pressures = hill(MIDDLE) * np.random.default_rng(3).uniform(0.2, 1.8, len(PLATE))
+    (covariance,) = find_contacts(PATCH, frame_of(pressures)).covariance
+    taxels = np.flatnonzero(PATCH.surface.with_ring(pressures > 0.0))
+    between = 0.303 * PATCH.predicted_pressures(EVERY).residual(pressures, taxels)
+    weights = PATCH.operator().weights[:, taxels]
+    wrench = PATCH.operator().wrench(pressures)
+    np.testing.assert_allclose(
+        covariance, (weights * between**2) @ weights.T + 0.031**2 * np.outer(wrench, wrench), rtol=1e-9, atol=1e-18
+    )
+    # each part is seen
+    assert 0.1 < 0.031**2 * wrench[2] ** 2 / covariance[2, 2] < 0.99
+
+
+@pytest.mark.parametrize(
+    ("beyond", "active", "flagged"), [(True, True, True), (True, False, False), (False, True, False)]
+)
+def test_one_taxel_beyond_its_range_flags_its_contact_alone(beyond: bool, active: bool, flagged: bool) -> None:
+    """If it is active; of two contacts the other is none of it."""
+    far = MIDDLE + [0.0, 0.035, 0.0]
+    pressures = hill(MIDDLE) + hill(far)
+    taxel = int(np.linalg.norm(PLATE.positions - far, axis=1).argmin())
+    awake = pressures > 0.0
+    awake[taxel] = active
+    over = np.zeros(len(PLATE), dtype=bool)
+    over[taxel] = beyond
+    contacts = find_contacts(PATCH, PressureFrame(pressures=pressures, active=awake, beyond_range=over))
+    if len(contacts) == 2:
+        own = contacts.contact[taxel]
+        assert contacts.beyond_range.tolist() == [flagged and number == own for number in range(2)]
+    else:
+        assert contacts.beyond_range.tolist() == [flagged]
+
+
+@pytest.mark.parametrize(("saddle", "hills"), [(0.15, 2), (0.30, 2), (0.45, 2), (0.60, 2), (0.70, 1)])
+def test_hills_are_two_where_the_pressure_between_falls_below_two_thirds(saddle: float, hills: int) -> None:
+    """Of the peak; one that falls less far is one."""
+    rows = np.round((PLATE.positions[:, 0] - MIDDLE[0]) / (0.5 * PITCH_M)).astype(int)
+    across = np.abs(PLATE.positions[:, 1] - MIDDLE[1]) < 2.1 * PITCH_M
+    near = np.abs(rows) <= 6
+    height = np.where(np.abs(rows) <= 1, saddle, 1.0)
+    pressures = np.where(across & near, 2e4 * height, 0.0)
+    frame = frame_of(pressures)
+    contacts = find_contacts(PATCH, frame)
+    assert len(contacts) == 1
+    assert lobes(PATCH.surface, contacts, frame.pressures).tolist() == [hills]

@@ -3,13 +3,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
+from scipy.interpolate import BPoly
+from scipy.optimize import least_squares
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.skin.taxels.curve_comparison import calibrated_taxel
-from forcetorque.skin.taxels.taxel_curve import CurveKind, fit_curve
+from forcetorque.skin.taxels.taxel_curve import CurveKind, _capacitor, _logarithmic, fit_curve
 
 FALL = np.arange(0.0, 61.0)
 EXACT = 1e-6
@@ -87,3 +93,80 @@ def test_hysteresis_and_error_are_told_apart() -> None:
     assert response.hysteresis_share == pytest.approx(2.0 / 50.0, rel=1e-6)
     assert response.error_pa < EXACT * 1e5
     assert response.rmse_pa == pytest.approx(4e3 / np.sqrt(2.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("form", [_capacitor, _logarithmic])
+@pytest.mark.parametrize("q", [0.0, 5e-5, 0.02, 0.8, 5.0])
+def test_forms_change_with_their_curvature_as_differences_say(
+    form: Callable[[FloatArray, float], tuple[FloatArray, FloatArray]], q: float
+) -> None:
+    """Central ones; at rest a form has the slope 1, whatever its curvature, and none is bent at 0."""
+    u = np.linspace(0.0, 1.5, 16)
+    step = 1e-5
+    above, below = (form(u, q + side * step)[0] for side in (1.0, -1.0))
+    # a capacitor and the first terms of an exponential go on below 0
+    np.testing.assert_allclose(form(u, q)[1], (above - below) / (2.0 * step), rtol=1e-5, atol=1e-8)
+    assert form(np.array([1e-7]), q)[0] == pytest.approx(1e-7, rel=1e-5)
+    np.testing.assert_allclose(form(u, 0.0)[0], u, rtol=1e-12)
+
+
+def test_the_exponential_goes_on_where_it_is_written_by_its_first_terms() -> None:
+    """On both sides of the least curvature they are the same to what the next term makes, a part in 1e9."""
+    u = np.linspace(0.0, 2.0, 9)
+    for part in range(2):
+        below, above = (_logarithmic(u, q)[part] for q in (1e-4 * (1.0 - 1e-9), 1e-4 * (1.0 + 1e-9)))
+        np.testing.assert_allclose(below, above, rtol=2e-8)
+
+
+def test_the_default_is_a_curve_of_bernstein_and_then_a_line() -> None:
+    """By scipy's Bernstein polynomials with a first coefficient of 0; beyond the range by the slope of all samples."""
+    rng = np.random.default_rng(5)
+    fall = np.rint(rng.uniform(0.0, 66.0, 900))
+    pressure = 5e3 * fall + 20.0 * fall**2 + 2e3 * rng.normal(size=900)
+    curve = fit_curve(CurveKind.MONOTONE, fall, pressure, range_counts=60.0)
+    inside = np.linspace(0.0, 60.0, 13)
+    printed = BPoly(np.array([0.0, *curve.coefficients[:5]])[:, None], [0.0, 60.0])
+    np.testing.assert_allclose(curve.pressure(inside), printed(inside), rtol=1e-9, atol=1e-6)
+    slope = np.polyfit(fall, pressure, 1)[0]
+    beyond = curve.pressure(np.array([60.0, 61.0, 70.0]))
+    np.testing.assert_allclose((beyond[1:] - beyond[0]) / [1.0, 10.0], slope, rtol=1e-9)
+
+    # no other curve of this kind is nearer: along each coefficient the sum of squares rises
+    def cost(change: FloatArray) -> float:
+        coefficients = np.concatenate(
+            [np.cumsum(np.diff([0.0, *curve.coefficients[:5]]) + change), curve.coefficients[5:]]
+        )
+        return float(((replace(curve, coefficients=coefficients).pressure(fall) - pressure) ** 2).mean())
+
+    assert (np.diff([0.0, *curve.coefficients[:5]]) > 1e-2 * slope * 60.0 / 5.0).all()  # none is held at its least
+    for change in np.eye(5):
+        ends = [cost(side * 50.0 * change) for side in (-1.0, 0.0, 1.0)]
+        assert ends[1] < min(ends[0], ends[2])
+        assert abs(ends[2] - ends[0]) < 0.02 * (ends[0] + ends[2] - 2.0 * ends[1])
+
+
+def test_a_curve_that_would_fall_rises_by_the_least_share() -> None:
+    """Each coefficient by a thousandth of what a straight line rises from one to the next."""
+    fall = np.tile(np.arange(61.0), 3)
+    falling = np.where(fall < 20.0, 1e4 * fall, 2e5 - 10.0 * (fall - 20.0)) + 1e3 * fall
+    curve = fit_curve(CurveKind.MONOTONE, fall, falling, range_counts=60.0)
+    least = 1e-3 * np.polyfit(fall, falling, 1)[0] * 60.0 / 5.0
+    steps = np.diff([0.0, *curve.coefficients[:5]])
+    assert steps.min() == pytest.approx(least, rel=1e-6)
+
+
+def test_least_squares_weigh_each_message_alike() -> None:
+    """Of a bent form: no other scale and curvature is nearer to all samples, however often a level is repeated."""
+    rng = np.random.default_rng(6)
+    fall = np.rint(60.0 * rng.uniform(0.0, 1.0, 800) ** 2)
+    pressure = 6e3 * fall / (1.0 + 0.004 * fall) * rng.uniform(0.95, 1.05, 800)
+    for kind, form in ((CurveKind.CAPACITOR, _capacitor), (CurveKind.LOGARITHMIC, _logarithmic)):
+        curve = fit_curve(kind, fall, pressure if kind is CurveKind.CAPACITOR else pressure**1.3, range_counts=60.0)
+        wanted = pressure if kind is CurveKind.CAPACITOR else pressure**1.3
+
+        def left(numbers: FloatArray, form=form, wanted=wanted) -> FloatArray:  # type: ignore[no-untyped-def]
+            return (numbers[0] * form(fall / 60.0, float(numbers[1]))[0] - wanted) / wanted.max()
+
+        best = least_squares(left, [wanted.max(), 0.5], x_scale=[wanted.max(), 1.0], xtol=1e-14, ftol=1e-14).x
+        np.testing.assert_allclose(curve.coefficients, best, rtol=1e-4)
+        assert best[1] > 0.05

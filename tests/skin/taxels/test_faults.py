@@ -49,3 +49,45 @@ def test_limits_are_as_stated() -> None:
     assert jumps == (TaxelFault.JUMPS,)
     quiet = np.full((100, 2), 200.0)
     assert taxel_faults(quiet, np.array([4.9, 5.0])) == ((TaxelFault.NEVER_MOVES,), ())
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "fault"),
+    [
+        (250.0, 1.0, TaxelFault.JUMPS),  # 7 counts across the end are a jump by 249
+        (250.0, 0.0, TaxelFault.WRAPS),  # 6 are none
+        (1.0, 254.0, TaxelFault.WRAPS),
+        (1.0, 20.0, None),
+        (1.0, 22.0, TaxelFault.JUMPS),
+    ],
+)
+def test_a_step_across_the_end_of_the_range_wraps(low: float, high: float, fault: TaxelFault | None) -> None:
+    """By up to 6 counts, from 255 to 0 or back; what is farther is a jump."""
+    counts = np.where(np.arange(400) < 200, low, high)[:, None]
+    (found,) = taxel_faults(counts, np.array([FALL]))
+    assert set(found) - {TaxelFault.RAILS} == ({fault} if fault else set())
+
+
+@pytest.mark.parametrize(("deviation", "is_noisy"), [(2.85, False), (3.15, True)])
+def test_a_taxel_is_noisy_from_three_counts(deviation: float, is_noisy: bool) -> None:
+    """Standard deviation of one message from the next; of 20 000 it is known to 1 %; a slope is no noise."""
+    rng = np.random.default_rng(4)
+    counts = 128.0 + np.linspace(-40.0, 40.0, 20_000) + deviation * rng.normal(size=20_000)
+    (found,) = taxel_faults(counts[:, None], np.array([FALL]))
+    assert found == ((TaxelFault.NOISE,) if is_noisy else ())
+
+
+@pytest.mark.parametrize(("value", "is_railed"), [(0.0, True), (1.0, False), (254.0, False), (255.0, True)])
+def test_a_rail_is_an_end_of_the_range(value: float, is_railed: bool) -> None:
+    """0 and 255, in one message alone."""
+    counts = np.full((300, 1), value + (1.0 if value < 128.0 else -1.0))
+    counts[17] = value
+    (found,) = taxel_faults(counts, np.array([FALL]))
+    assert (TaxelFault.RAILS in found) == is_railed
+
+
+@pytest.mark.parametrize(("fall", "rises"), [(-4.9, False), (-5.0, True)])
+def test_a_taxel_rises_from_five_counts(fall: float, rises: bool) -> None:
+    """Less is none that moves."""
+    (found,) = taxel_faults(np.full((100, 1), 200.0), np.array([fall]))
+    assert found == ((TaxelFault.RISES,) if rises else (TaxelFault.NEVER_MOVES,))

@@ -16,7 +16,7 @@ from forcetorque.skin.contact.contact_tracking import PatchFollower
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.simulation.temperature import Warmth
 from forcetorque.skin.taxels.patch_calibration import PressureTable
-from forcetorque.skin.temperature.pad_lags import PadFilter
+from forcetorque.skin.temperature.pad_lags import LAGS_S, PadFilter, _lag, _squares, lagged, pad_lags
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
 from forcetorque.skin.temperature.warm_up_calibration import _warnings, fit_warm_up
 from forcetorque.skin.wrench.patch_sensor import SkinPatch
@@ -171,3 +171,120 @@ def test_warmth_is_that_of_the_scene() -> None:
     warm = Warmth(hold_s=600.0, inside_s=60.0)
     ends = [counts_of(late_pads(SHANK, warm, lag))[1][-50:, LAYOUT.thermal_pads].mean(axis=0) for lag in (0.0, 15.0)]
     np.testing.assert_allclose(ends[0], ends[1], atol=0.7)
+
+
+@pytest.mark.parametrize("lag", [-30.0, -10.0, 0.0])
+def test_pads_that_do_not_lag_are_averaged_by_a_first_order_lag(lag: float) -> None:
+    """Of 2 s, or of as long as they lead: a step follows the exponential."""
+    constant = max(2.0, -lag)
+    pads = PadFilter(np.array([lag]))
+    pads.follow(0.5, np.zeros(1))
+    told = np.array([pads.follow(0.5, np.ones(1))[0] for _ in range(100)])
+    np.testing.assert_allclose(told, 1.0 - np.exp(-0.5 * np.arange(1, 101) / constant), rtol=1e-9)
+
+
+def test_pads_that_lag_are_averaged_and_continued() -> None:
+    """Twice over 1.25 sqrt(lag), and the trend makes up for the lag: a filter of two equal poles, by its first step."""
+    lags, passed = np.array([4.0, 16.0, 64.0]), 0.1
+    constants = 1.25 * np.sqrt(lags)
+    pads = PadFilter(lags)
+    pads.follow(passed, np.zeros(3))
+    share = 1.0 - np.exp(-passed / constants)
+    behind = passed * (1.0 - share) / share
+    expected = share + (1.0 + lags / behind) * share * (1.0 - share)
+    np.testing.assert_allclose(pads.follow(passed, np.ones(3)), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("constant", [3.0, 40.0])
+def test_a_lag_of_a_ramp_is_that_of_the_differential_equation(constant: float) -> None:
+    """`c y' = x - y` from equilibrium: behind a ramp by c, less what the start has left; with no lag the values."""
+    seconds = np.concatenate([np.arange(0.0, 50.0, 0.5), np.arange(50.0, 200.0, 1.0)])
+    ramp = 3.0 + 0.2 * seconds[:, None] * [1.0, -2.0]
+    exact = ramp - 0.2 * constant * (1.0 - np.exp(-seconds / constant))[:, None] * [1.0, -2.0]
+    # a ramp over a step counts as its mean: an error of a share of the step squared
+    np.testing.assert_allclose(lagged(seconds, ramp, constant), exact, atol=0.4 * 1.0**2 / (6.0 * constant))
+    np.testing.assert_array_equal(lagged(seconds, ramp, 0.0), ramp)
+
+
+def test_the_best_lag_is_that_of_the_parabola_with_its_deviation() -> None:
+    """Through the three lags about the least: `sqrt(left / number / bend)`; at an end of the grid it is that end."""
+    grid = np.array(LAGS_S)
+    for truth, bend in ((7.3, 0.02), (-22.0, 0.5), (0.8, 1e-3)):
+        more = bend * (grid - truth) ** 2 - 0.3
+        lag, sd = _lag(more + 1.0, more, 50)
+        assert lag == pytest.approx(truth, rel=1e-6)
+        assert sd == pytest.approx(np.sqrt((more.min() + 1.0) / 50.0 / bend), rel=1e-6)
+    assert _lag(grid + 100.0, grid, 50) == (-90.0, 0.0)
+    assert _lag(100.0 - grid, -grid, 50) == (90.0, 0.0)
+
+
+def test_what_is_left_beyond_noise_is_nothing_where_taxels_follow() -> None:
+    """White noise of both is taken off what pads leave, with and without a lag: of 400 draws within 4 standard errors.
+
+    Without a lag it is the noise of means of ten of taxels, and of pads times the square of the gain.
+    """
+    rng, count, averaged, gain = np.random.default_rng(61), 400, 10, 1.5
+    instants = np.arange(600.0)
+    heat = 10.0 * (1.0 - np.exp(-instants / 150.0))
+    for lag in (0.0, 15.0, -15.0):
+        late = lagged(instants, heat, abs(lag))
+        pad, taxel = (late, heat) if lag > 0.0 else (heat, late)
+        pads = pad[:, None] + 0.4 * rng.normal(size=(600, count))
+        taxels = gain * taxel[:, None] + 0.8 * rng.normal(size=(600, count))
+        left, more = _squares(instants, taxels, pads, np.eye(count, dtype=bool), lag, averaged).T
+        noise = (0.8**2 + (gain * 0.4) ** 2) / averaged
+        # heat that changes from one mean to the next counts as noise; a mean and a gain are fitted to sixty of them
+        heats = 0.5 * gain**2 * (np.mean(np.diff(pad) ** 2) + np.mean(np.diff(taxel) ** 2)) / averaged
+        near = 4.0 * more.std() / 20.0
+        assert -heats - noise * 2.0 / 60.0 - near < more.mean() < near
+        assert lag != 0.0 or left.mean() == pytest.approx(noise * 58.0 / 60.0, rel=0.03)
+        assert lag == 0.0 or 0.4 * noise < left.mean() < 0.9 * noise
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_smallest_and_common_lags(sign: float) -> None:
+    """Pads that lag by 8 s have their median, few differ by chance; those that lag by 1 s have no lag."""
+    rng = np.random.default_rng(62)
+    instants = np.arange(900.0)
+    heat = 10.0 * (1.0 - np.exp(-instants / 120.0))
+    for lag, has_one in ((1.0, False), (8.0, True)):
+        late = lagged(instants, heat, lag)
+        pads, taxels = (heat, late) if sign < 0.0 else (late, heat)
+        found = pad_lags(
+            instants,
+            taxels[:, None] + 0.1 * rng.normal(size=(900, 12)),
+            pads[:, None] + 0.1 * rng.normal(size=(900, 12)),
+            np.eye(12, dtype=bool),
+            averaged=10,
+        )
+        assert found.any() == has_one
+        if has_one:
+            assert np.median(found) == pytest.approx(sign * lag, abs=1.0)
+            assert np.count_nonzero(found == np.median(found)) >= 10
+
+
+@pytest.mark.parametrize(
+    ("found", "expected"),
+    [
+        ([(2.05, 0.01)] * 4, [2.05] * 4),  # 2 s is a lag
+        ([(1.95, 0.01)] * 4, [0.0] * 4),
+        ([(-1.95, 0.01), (-2.05, 0.01)] * 2, [0.0, -2.05] * 2),
+        # one that differs from the median by more than four deviations is its own
+        ([(10.0, 1.0), (10.0, 1.0), (10.0, 1.0), (14.1, 1.0)], [10.0, 10.0, 10.0, 14.1]),
+        ([(10.0, 1.0), (10.0, 1.0), (10.0, 1.0), (13.9, 1.0)], [10.0] * 4),
+        # a median counts from four of its deviations on, 1.2533 times those of a mean of four
+        ([(4.0 * 1.2533 * 2.0 / 2.0 + 0.01, 2.0)] * 4, [4.0 * 1.2533 + 0.01] * 4),
+        ([(4.0 * 1.2533 * 2.0 / 2.0 - 0.01, 2.0)] * 4, [0.0] * 4),
+    ],
+)
+def test_a_lag_is_its_own_or_that_of_all_pads(
+    monkeypatch: pytest.MonkeyPatch, found: list[tuple[float, float]], expected: list[float]
+) -> None:
+    """By the lag and deviation of each pad; a pad that no taxel follows has none."""
+    estimates = iter([*found, (50.0, 1.0)])
+    monkeypatch.setattr("forcetorque.skin.temperature.pad_lags._lag", lambda *_: next(estimates))
+    values = np.random.default_rng(4).normal(size=(60, 5))
+    follows = np.eye(5, dtype=bool)
+    follows[4, 4] = False
+    lags = pad_lags(np.arange(60.0), values, values, follows, averaged=10)
+    np.testing.assert_allclose(lags, [*expected, 0.0])

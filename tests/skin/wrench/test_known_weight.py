@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.stats import t
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import SkinError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.skin.answers import _weight
-from forcetorque.skin.wrench.known_weight import Agreement, KnownWeight, known_weight
+from forcetorque.skin.wrench.known_weight import Agreement, KnownWeight, agreement_of, known_weight
 
 MASS_KG, FRAME_S, REST_S, HOLD_S = 0.8, 0.2, 2.0, 8.0
 SCATTER = 0.04
@@ -77,6 +78,53 @@ def test_a_light_touch_is_no_placement() -> None:
     assert (len(result.placements), result.agreement) == (4, "agrees")
     assert "left out: 12.0-19.8 s, less than half of the median" in _weight(result)
     assert _of(np.array([0.6, 1.0, 0.61])).left_out == ()
+
+
+@pytest.mark.parametrize(
+    ("middle", "spread", "agreement"),
+    [
+        (1.05, 0.049, "agrees"),
+        (1.05, 0.051, "inconclusive"),
+        (0.95, 0.049, "agrees"),
+        (0.95, 0.051, "inconclusive"),
+        (1.151, 0.05, "too much"),
+        (1.149, 0.05, "inconclusive"),
+        (0.849, 0.05, "too little"),
+        (0.851, 0.05, "inconclusive"),
+    ],
+)
+def test_a_weight_agrees_within_a_tenth_by_its_interval(middle: float, spread: float, agreement: Agreement) -> None:
+    """Of four placements whose interval by Student's t has a given half-width, on either side of each limit."""
+    quantile = float(t.ppf(0.975, 3))
+    shares = np.array([-1.0, -1.0, 1.0, 1.0])
+    shares = middle + spread / quantile * shares / (shares.std(ddof=1) / 2.0)
+    mean, half, said = agreement_of(shares)
+    assert (mean, half) == (pytest.approx(middle), pytest.approx(spread, rel=1e-9))
+    assert said == agreement
+
+
+def test_times_of_a_placement_are_those_of_its_frames() -> None:
+    """From first to last contact; the force is the median of the middle half, whatever the ends read."""
+    seconds, force, touched = _frames(np.array([1.0, 1.0]))
+    start, end = (int(k) for k in np.flatnonzero(np.diff(touched.astype(int)))[:2])
+    quarter = (end - start) // 4
+    force = force.copy()
+    force[start + 1 : start + 1 + quarter] *= 3.0
+    force[end + 1 - quarter : end + 1] *= 0.3
+    first, second = known_weight(MASS_KG, seconds, force, touched).placements
+    assert (first.from_s, first.to_s) == (seconds[start + 1], seconds[end])
+    assert (first.share, second.share) == (pytest.approx(1.0), pytest.approx(1.0))
+    assert first.force_N == pytest.approx(MASS_KG * STANDARD_GRAVITY)
+    assert (first.settled_s, second.settled_s) == (pytest.approx(quarter * FRAME_S), 0.0)
+
+
+def test_placements_are_parted_by_a_second() -> None:
+    """Nine tenths of it are a contact that was lost, eleven are not."""
+    for gap_s, count in ((0.9, 1), (1.1, 2)):
+        touched = np.ones(200, dtype=bool)
+        touched[100 : 100 + round(gap_s / 0.05) - 1] = False
+        found = known_weight(MASS_KG, 0.05 * np.arange(200), np.full(200, 10.0), touched)
+        assert len(found.placements) == count
 
 
 def test_what_is_no_weight_is_refused() -> None:

@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 from scipy.special import gamma, kv
 
 from forcetorque.base.arrays import FloatArray
@@ -153,6 +154,9 @@ def test_the_thesis_counts_holes_and_no_edge() -> None:
     live = np.linalg.norm(plane - plane.mean(axis=0), axis=1) > 0.012
     holed = SkinPatch.of(layout, "thesis", plane=plane).operator(live)
     np.testing.assert_allclose(holed.areas.sum(), whole.areas.sum(), rtol=1e-9)
+    turns = np.pi / 4.0 * np.arange(8)
+    discs = plane[:, None] + 0.0022 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    np.testing.assert_allclose(whole.areas.sum(), ConvexHull(discs.reshape(-1, 2)).volume, rtol=1e-9)
     assert whole.areas.sum() < SkinPatch.of(layout).operator().areas.sum()
 
 

@@ -264,8 +264,10 @@ def descend(
         if now is None or np.abs(here[3:]).max() > _OPEN * size or damping > _LARGEST_DAMPING:
             break
         step = -np.linalg.solve(now.hessian + damping * np.diag(np.diag(now.hessian) + 1e-300), now.gradient)
-        # what a step promises: below the rounding of the sum itself there is nothing to gain
-        converged = bool(np.abs(step).max() < _CONVERGED * size or -(now.gradient @ step) <= _ROUNDING * now.cost)
+        # what a step promises: below the rounding of the sum itself there is nothing to gain. A step that is short
+        # because it is damped promises nothing: it counts as if it were not
+        full = (1.0 + damping) * step
+        converged = bool(np.abs(full).max() < _CONVERGED * size or -(now.gradient @ full) <= _ROUNDING * now.cost)
         if converged:
             break
         ahead = equations(here + step)

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of biases: whether one would do, whether they drift, whether one jumps within a power cycle."""
+"""Checks of biases: whether one would do, whether they drift, whether one jumps within a power cycle.
+
+References:
+[1] M. G. Kenward, J. H. Roger, Small sample inference for fixed effects from restricted maximum likelihood,
+    Biometrics 53, 1997.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +19,7 @@ from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import BiasTestRow, DriftRow, six
 from forcetorque.payload.identification.measurement_model import expected, masses
 from forcetorque.payload.identification.parameter_vector import Kind, places
-from forcetorque.payload.identification.robust_fit import Fit, fit, plain_fit
+from forcetorque.payload.identification.robust_fit import Fit, fit, in_best_shapes, plain_fit
 from forcetorque.results.number_text import finite_or_none
 
 
@@ -60,8 +65,6 @@ def _sessions_of_blocks(problem: LoadProblem, finer: np.ndarray) -> LoadProblem:
 
 def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float | None, ...]) -> BiasTestRow:
     """Test that biases of one group are equal; groups by the number of the session; shape (sessions,)."""
-    from scipy.special import fdtrc  # here because importing it takes longer than most commands
-
     listed, values, covariance = fitted.guess.parameters, fitted.guess.values, fitted.covariance
     first: dict[int, list[int]] = {}
     contrasts = []
@@ -78,16 +81,45 @@ def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float | None
     difference = matrix @ values
     touched = (matrix != 0.0).any(axis=0)
     of_biases = covariance[np.ix_(touched, touched)]
-    degrees = float(fitted.estimate.degrees_of_freedom[touched].sum())  # all tell the one noise
-    if not np.isfinite(of_biases).all() or degrees <= 0.0:
+    components = np.array([one.component for one in listed])[touched]
+    degrees = np.array([fitted.estimate.degrees_of_freedom[touched][components == k].mean() for k in range(6)])
+    if not np.isfinite(of_biases).all() or not degrees.min() > 0.0:
         p_value = None
     else:
         spread = matrix[:, touched] @ of_biases @ matrix[:, touched].T
         size = np.sqrt(np.diag(spread))
         square = float(difference / size @ np.linalg.solve(spread / np.outer(size, size), difference / size))
-        p_value = finite_or_none(float(fdtrc(len(difference), degrees, square / len(difference))))
+        p_value = finite_or_none(_chance(square, len(difference) // 6, degrees))
     largest = np.abs(difference.reshape(-1, 6)).max(axis=0)
     return BiasTestRow(of=of, p_value=p_value, largest_difference=six(largest), plain_mass_with_one_bias_kg=plain)
+
+
+_LEAST_FREEDOM = 4.2
+"""Degrees of freedom of an axis that are reckoned with at least: of 4 an F distribution has no variance."""
+
+
+def _chance(square: float, count: int, degrees: FloatArray) -> float:
+    """Probability of a larger sum of squares of differences of biases, if there are none.
+
+    The noise of every axis is estimated by itself, so the sum is one of six F distributions. One with the same mean and
+    variance takes its place, as in [1].
+
+    Args:
+        square: Sum of the squares over their variances.
+        count: Differences of each axis.
+        degrees: Degrees of freedom of the three axes of the group of each axis together; shape (6,).
+
+    Returns:
+        The probability.
+    """
+    from scipy.special import fdtrc  # here because importing it takes longer than most commands
+
+    own, total = np.maximum(degrees / 3.0, _LEAST_FREEDOM), 6 * count
+    mean = float((own / (own - 2.0)).mean())
+    variances = 2.0 * own**2 * (count + own - 2.0) / (count * (own - 2.0) ** 2 * (own - 4.0))
+    relative = float(variances.sum()) / 36.0 / (2.0 * mean**2)
+    freedom = 4.0 + (total + 2.0) / (total * relative - 1.0)
+    return float(fdtrc(total, freedom, square / total * freedom / (mean * (freedom - 2.0))))
 
 
 def _plain_masses(problem: LoadProblem, *, drift: bool) -> tuple[float | None, ...]:
@@ -176,13 +208,10 @@ def strongest_jump(fitted: Fit) -> tuple[int, int] | None:
     from scipy.special import ndtri  # here because importing it takes longer than most commands
 
     rows = fitted.problem.rows
-    # what a step leaves of itself is counted in one noise, so the covariance is that of this noise too
-    basis, covariance = fitted.basis, fitted.estimate.of_best_shapes
+    covariance = fitted.estimate.of_best_shapes
     jump, largest, tried = (0, 0), 0.0, 0
-    pairs = zip(fitted.groups, fitted.estimate.shapes, fitted.estimate.variances, strict=True)
-    for number, (group, noise, variance) in enumerate(pairs):
-        known = group.line.solve(group.design @ basis, noise)[0] / variance
-        left = group.line.solve(group.values[:, None], noise)[0][:, 0] / variance
+    weighed = in_best_shapes(fitted.groups, fitted.basis, fitted.estimate)
+    for number, (group, noise, variance, known, left) in enumerate(weighed):
         for axis in range(3):
             for session in np.unique(rows.session):
                 mine = np.flatnonzero(rows.session[group.order[: len(rows)]] == session)

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.noise.slow_noise import SHAPES
+from forcetorque.base.noise.slow_noise import SHAPES, SlowNoise
 from forcetorque.base.units import MAD_TO_DEVIATION, SI_FACTORS
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.payload.identification.estimate_under_noise import (
@@ -41,6 +41,29 @@ _EXACT = 1e-12
 """Distances below this are of rows without noise, which leave rounding only."""
 
 
+def in_best_shapes(
+    groups: tuple[Group, Group], basis: FloatArray, estimate: Estimate
+) -> Iterator[tuple[Group, SlowNoise, float, FloatArray, FloatArray]]:
+    """Weigh what the fit leaves by the covariance of the best shape of the noise.
+
+    What the best shapes alone would have estimated is taken off, not the mean of all shapes: only then is the
+    covariance of what is left that of these shapes, less what `estimate.of_best_shapes` takes.
+
+    Args:
+        groups: Forces and moments, at the estimate.
+        basis: Directions that were estimated; shape (p, r).
+        estimate: What was estimated.
+
+    Yields:
+        Each group with the shape of its noise V and the variance s of the white part; `V^-1 X / s` of the directions,
+        shape (3 n, r); and `V^-1 e / s` of what is left, shape (3 n,).
+    """
+    for group, noise, variance in zip(groups, estimate.shapes, estimate.variances, strict=True):
+        known = group.line.solve(group.design @ basis, noise)[0] / variance
+        left = group.line.solve(group.values[:, None], noise)[0][:, 0] / variance
+        yield group, noise, variance, known, left - known @ estimate.apart[0]
+
+
 def row_distances(groups: tuple[Group, Group], basis: FloatArray, estimate: Estimate, weight: FloatArray) -> FloatArray:
     """Hold every row against what all others, and the slow noise around it, say of it.
 
@@ -48,23 +71,22 @@ def row_distances(groups: tuple[Group, Group], basis: FloatArray, estimate: Esti
         groups: Forces and moments, at the estimate.
         basis: Directions that were estimated; shape (p, r).
         estimate: What was estimated.
-        weight: What every row counted; shape (n,): that makes it less sure, not less far.
+        weight: What every row counted; shape (n,). A distance does not depend on that of its own row.
 
     Returns:
         Squared distances over what they are of sound rows in the middle of six axes, chi-squared of six degrees; shape
         (n,).
     """
     total = np.zeros(len(groups[0].values) // 3)
-    for group, noise, variance in zip(groups, estimate.shapes, estimate.variances, strict=True):
-        known, _ = group.line.solve(group.design @ basis, noise)
-        left, _ = group.line.solve(group.values[:, None], noise)
+    for group, noise, variance, known, left in in_best_shapes(groups, basis, estimate):
         alone = group.line.precision_diagonal(noise) / variance
-        fitted = np.einsum("nr,rs,ns->n", known, estimate.covariance, known) / variance**2
-        own = alone - fitted
+        own = alone - np.einsum("nr,rs,ns->n", known, estimate.of_best_shapes, known)
         checked = own > _LEAST_LEFT * alone
-        square = np.where(checked, (left[:, 0] / variance) ** 2 / np.where(checked, own, 1.0), 0.0)
-        np.add.at(total, group.order, square)
-    total /= weight
+        own = np.where(checked, own, 1.0)
+        # `left / own` is the error when all others foretell the value, of variance `1 / own` with its weight
+        counted, white = weight[group.order], variance / group.line.share
+        expected_square = np.maximum(1.0 / own - (1.0 - counted) * white, counted * white)
+        np.add.at(total, group.order, np.where(checked, (left / own) ** 2 / expected_square, 0.0))
     middle = float(np.median(total)) / _MEDIAN
     return total / middle if middle > _EXACT else np.zeros_like(total)
 

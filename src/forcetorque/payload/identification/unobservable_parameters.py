@@ -143,7 +143,7 @@ def vector_words(vector: FloatArray) -> str:
     k = int(np.abs(unit).argmax())
     if abs(unit[k]) > 0.9995:
         return AXES[k]
-    return "({:.2f}, {:.2f}, {:.2f})".format(*(unit * np.sign(unit[k])))
+    return "({:.2f}, {:.2f}, {:.2f})".format(*(np.round(unit * np.sign(unit[k]), 2) + 0.0))  # no -0.00
 
 
 def _vague(fitted: Fit) -> list[str]:

@@ -372,6 +372,10 @@ def contacts(
 ) -> Iterator[ContactTruth]:
     """Rest objects on a skin, one after the other; kinds take turns.
 
+    Masses are drawn evenly in their logarithm, from 0.2, of cloth from 1, to 3 kg. Weights have radii of 15 to 35 mm
+    and slopes of 0.02, balls radii of 40 to 120 mm. Palms are 60 to 90 by 50 to 70 mm, follow 70 to 95 % of the mean
+    bend, and have six bulges of up to 1 mm, 12 to 20 mm wide. Cloth is 15 to 30 mm wide and covers 50 to 110 degrees.
+
     Args:
         body: The skin.
         rng: Source of kinds, masses, sizes and places.

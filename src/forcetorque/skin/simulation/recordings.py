@@ -71,6 +71,9 @@ class TaxelResponses(ArrayRecord):
     def drawn(cls, number: int, rng: np.random.Generator) -> Self:
         """Draw taxels as they come from one batch.
 
+        Rest is within half a count, the logarithm of the fall has a deviation of 0.15, bend is up to 0.5, and
+        hysteresis is 2 to 7 %.
+
         Args:
             number: How many.
             rng: Source of their differences.

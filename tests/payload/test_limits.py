@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Limits behind what is said of a load: on either side of each, by numbers of a result."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.payload.identification.load_estimates import BiasTestRow
+from forcetorque.payload.load_warnings import behind_flange, payload_doubts, torque_doubt
+from forcetorque.payload.result import LoadRow
+
+
+def _row(half_kg: float, half_m: float) -> LoadRow:
+    return LoadRow(
+        load="tool",
+        estimated=True,
+        mass_kg=2.0,
+        mass_half_width_95_kg=half_kg,
+        centre_of_mass_m=(0.0, 0.0, 0.1),
+        centre_of_mass_half_width_95_m=(0.0, half_m, 0.0),
+        inertia_kgm2=None,
+        inertia_half_width_95_kgm2=None,
+    )
+
+
+@pytest.mark.parametrize(
+    ("half_kg", "half_m", "word"),
+    [(0.39, 0.0195, None), (0.41, 0.0, "mass"), (0.0, 0.0205, "centre of mass")],
+)
+def test_a_load_by_torques_is_told_to_a_fifth_and_to_two_centimetres(half_kg: float, half_m: float, word: str) -> None:
+    """Of its mass, and of its centre along any axis."""
+    doubt = torque_doubt(_row(half_kg, half_m))
+    assert doubt is None if word is None else doubt is not None and f"leave the {word} " in doubt
+
+
+@pytest.mark.parametrize(
+    ("height_m", "half_m", "named"), [(-0.029, 0.02, False), (-0.031, 0.02, True), (0.1, 0.0, False)]
+)
+def test_a_centre_surely_a_centimetre_behind_the_flange_is_named(height_m: float, half_m: float, named: bool) -> None:
+    """By its interval, and only in the frame of the flange."""
+    load: Any = SimpleNamespace(
+        centre_of_mass=np.array([0.0, 0.0, height_m]),
+        centre_of_mass_half_width=np.full(3, half_m),
+        estimated=True,
+        is_determined=True,
+        mass=1.0,
+        mass_half_width=0.1,
+    )
+    assert bool(list(behind_flange(FLANGE, [load]))) == named
+    assert not list(behind_flange("wrist", [load]))
+
+
+@pytest.mark.parametrize(
+    ("of", "p_value", "named"), [("intervals", 0.0099, True), ("intervals", 0.0101, False), ("sessions", 1e-9, False)]
+)
+def test_biases_of_intervals_that_differ_by_a_chance_of_one_in_hundred_are_named(
+    of: str, p_value: float, named: bool
+) -> None:
+    """Those of sessions differ by nature."""
+    test = BiasTestRow(of=of, p_value=p_value, largest_difference=(1.0,) * 6, plain_mass_with_one_bias_kg=(1.0,))
+    weighed: Any = SimpleNamespace(
+        hypotheses=(),
+        bias_tests=(test,),
+        loads=(_row(0.1, 0.01),),
+        disagreements=(),
+        left_out=0,
+        disagreeing=(),
+        validation=(),
+    )
+    assert any("one bias for a session is wrong" in words for words in payload_doubts(weighed)) == named
