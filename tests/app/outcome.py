@@ -7,6 +7,7 @@ import csv
 import io
 import json
 import logging
+import signal
 import sys
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
@@ -83,3 +84,8 @@ def typed(*words: object, columns: int = 120) -> Outcome:
 def _written(stream: io.TextIOWrapper) -> str:
     stream.seek(0)
     return stream.read()
+
+
+def heed_interrupts() -> None:
+    """Let a process that is begun heed Ctrl-C, which a shell has what runs in the background ignore."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -24,7 +24,7 @@ from forcetorque.formats.ros.wrench_message import read_wrench
 from forcetorque.live.figure import live_figure
 from forcetorque.live.result import KeptSamples
 from forcetorque.results.terminal.output import drawn_to
-from tests.app.outcome import Run
+from tests.app.outcome import Run, heed_interrupts
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.live.drawn_figures import run_of
 from tests.scenes.calibrations import make_calibration
@@ -131,6 +131,7 @@ def test_a_process_ends_cleanly(fitted: Path, ending: str) -> None:
     with subprocess.Popen(
         [sys.executable, "-m", "forcetorque", *words],
         cwd=fitted, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=heed_interrupts,
     ) as process:  # fmt: skip
         assert process.stdin is not None
         assert process.stdout is not None

@@ -21,7 +21,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.viewer.packing import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
-from tests.app.outcome import Run
+from tests.app.outcome import Run, heed_interrupts
 from tests.scenes.experiments import PARQUET, edit, snapshot
 
 SAMPLE = {"sample": 5, "time_s": 0.1, "mark": "point", "label": "here", "use": "ignore"}
@@ -293,7 +293,7 @@ def test_a_real_process_stops_at_the_first_interrupt(arm: Path) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        preexec_fn=_heed_interrupts,
+        preexec_fn=heed_interrupts,
     )
     try:
         assert process.stdout is not None
@@ -308,11 +308,6 @@ def test_a_real_process_stops_at_the_first_interrupt(arm: Path) -> None:
         process.wait()
     assert (process.returncode, out) == (0, "")
     assert all(line.startswith("INFO: ") for line in err.splitlines())
-
-
-def _heed_interrupts() -> None:
-    """A shell starts what runs in the background with interrupts ignored, and processes inherit that."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def test_an_interrupt_before_the_command_waits_ends_it_in_good_order(
