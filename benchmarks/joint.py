@@ -21,8 +21,8 @@ from forcetorque.recording.recording import Use
 from forcetorque.robot.mechanics.sub_model_equations import part_equations
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.simulation.recordings import write_scenario
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 
 BLOCK = 6000
 """Samples whose equations fit into memory at a time."""

@@ -11,15 +11,15 @@ import pytest
 
 import forcetorque
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.contests.entries import read_entries
+from forcetorque.contests.contest_file import read_entries
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.locomotion.torque_control.file import read_torque_loop
-from forcetorque.report.sources import sort_sources
-from forcetorque.simulation.scenario.file import bundled_scenario
+from forcetorque.locomotion.torque_control.torque_loop_file import read_torque_loop
+from forcetorque.report.sorted_input_files import sort_sources
 from forcetorque.simulation.scenario.scenario import load_scenario
-from forcetorque.workbench.recording import read_bench
+from forcetorque.simulation.scenario.scenario_file import bundled_scenario
+from forcetorque.workbench.bench_recording import read_bench
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import edit, snapshot, write_sharing

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.contests.ranking import Contest
+from forcetorque.contests.contest_scores import Contest
 from forcetorque.report.sections import result_figures
 from forcetorque.results.document.content import Figure
 from tests.app.outcome import Run

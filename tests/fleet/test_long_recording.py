@@ -20,16 +20,16 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.contact_windows import Disagreeing
 from forcetorque.calibration.moments import SegmentedMoments
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.long_recording import joined_findings, recorded_segments
 from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
 from forcetorque.fleet.stored_validation_data import evaluated_variables
 from forcetorque.recording.recording import Finding, Interval, Use

@@ -15,7 +15,7 @@ import pytest
 
 from forcetorque.base.errors import MissingExtraError, install_line
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.study import figures as study_figures
 from forcetorque.study.study import SensorStudy

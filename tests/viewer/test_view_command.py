@@ -18,7 +18,7 @@ import pytest
 
 from forcetorque import load_experiment
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.viewer.packing import unpack
+from forcetorque.viewer.packed_arrays import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
@@ -203,7 +203,7 @@ def test_too_many_samples_are_refused_before_they_are_computed(
     assert reached == ["computed"]
     assert not (arm / "view.html").exists()
     assert "GB of memory" not in run("view", PARQUET, "--no-browser").err
-    monkeypatch.setattr("forcetorque.viewer.command._LARGE_BYTES", 1)
+    monkeypatch.setattr("forcetorque.viewer.commands._LARGE_BYTES", 1)
     assert re.search(
         r"\d+ samples are shown at once, in about 0\.3 GB of memory; where", run("view", PARQUET, "--no-browser").err
     )

@@ -32,8 +32,7 @@ from forcetorque.calibration.summary import (
     learnt_words,
 )
 from forcetorque.calibration.thesis.calibrate import thesis_calibration
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.calibration.robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
@@ -41,6 +40,7 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.long_recording import is_long, segment_runs, segments_of_run
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use

@@ -11,8 +11,7 @@ import typer
 
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, require_known
 from forcetorque.base.units import parsed_number
-from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
-from forcetorque.results.terminal.output import (
+from forcetorque.results.terminal.command_output import (
     Format,
     drawn_to,
     end_with,
@@ -20,6 +19,7 @@ from forcetorque.results.terminal.output import (
     show,
     start_logging,
 )
+from forcetorque.results.terminal.options import DetailsOption, ForceOption, FormatOption, SensorOption
 
 if TYPE_CHECKING:
     import logging
@@ -111,10 +111,10 @@ def calibrate(
     from forcetorque.calibration.calibrate_jointly_command import calibrate_together, refuse_beside_jointly
     from forcetorque.calibration.corrected_urdf import write_corrected_urdf
     from forcetorque.calibration.reduced_recordings import store_moments
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.results.result import created_now
-    from forcetorque.results.terminal.input import campaign_of, readable_experiments, stored_moments
-    from forcetorque.results.terminal.output import refuse_figure
+    from forcetorque.results.terminal.command_inputs import campaign_of, readable_experiments, stored_moments
+    from forcetorque.results.terminal.command_output import refuse_figure
 
     log = start_logging()
     refuse_standard_output("--output", output)
@@ -253,7 +253,7 @@ def _sensors(
     contents: Mapping[Path, Experiment], stored: Mapping[Path, RecordingMoments], wanted: Sequence[str] | None
 ) -> list[tuple[str, str]]:
     """Names and serial numbers of the sensors that are meant: those of the first file, or of the moments."""
-    from forcetorque.results.terminal.input import sensors_named
+    from forcetorque.results.terminal.command_inputs import sensors_named
 
     for content in contents.values():
         sensors = [(sensor.name, sensor.serial) for sensor in sensors_named(content, wanted)]

@@ -13,8 +13,8 @@ from forcetorque.base.output_file import declare_outputs
 from forcetorque.calibration.corrected_urdf import write_corrected_urdf
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.results.result import created_now
-from forcetorque.results.terminal.input import read_experiments, sensors_named
-from forcetorque.results.terminal.output import Format, drawn_to, show
+from forcetorque.results.terminal.command_inputs import read_experiments, sensors_named
+from forcetorque.results.terminal.command_output import Format, drawn_to, show
 
 
 def refuse_beside_jointly(options: Mapping[str, object]) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.experiment.calibration.artefact import JOINT, Calibration, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import JOINT, Calibration, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.capability import named

@@ -135,7 +135,7 @@ class DatasetCheck(DrawnResult):
 
     answered_by: ClassVar[str | None] = "forcetorque.dataset.result:check_answer"
 
-    drawn_by: ClassVar[str] = "forcetorque.dataset.figure:episodes_figure"
+    drawn_by: ClassVar[str] = "forcetorque.dataset.figures:episodes_figure"
 
     @property
     def passed(self) -> bool:

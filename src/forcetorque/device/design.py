@@ -14,10 +14,10 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceFile
+from forcetorque.device.excitation import DeviceSpan, device_span
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.requirements import Verdict
-from forcetorque.device.spanned_directions import DeviceSpan, device_span
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of

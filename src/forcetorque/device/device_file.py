@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, read_toml
 from forcetorque.device.components import Device
 from forcetorque.device.motion import Sequence, YawReturn, twelve_steps
-from forcetorque.simulation.scenario.file import Imu, Sensors
+from forcetorque.simulation.scenario.scenario_file import Imu, Sensors
 
 
 class DevicePosture(Table):

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, Section
 
 

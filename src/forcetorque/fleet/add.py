@@ -19,12 +19,12 @@ from pydantic import Field
 from forcetorque.base.errors import ChangingFileError, ExperimentError, MissingFileError
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.base.stored_model import StoredTable, read_stored_table
+from forcetorque.base.stored_table import StoredTable, read_stored_table
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
-from forcetorque.fleet.dataset import Dataset, RecordFile, require_folder
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.fleet.parquet_dataset import Dataset, RecordFile, require_folder
+from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.sensor_record import AddOptions, path_digest, recording_digest, sensor_records
-from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, typed
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import Result

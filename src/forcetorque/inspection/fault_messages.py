@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.inspection.comparison import Comparison
+from forcetorque.inspection.comparison_with_model import Comparison
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 
 

@@ -17,14 +17,14 @@ from forcetorque.calibration.report_blocks import (
     origin_words,
     uncertainty_blocks,
 )
-from forcetorque.contests.figure import contest_figure
-from forcetorque.contests.ranking import Contest, ContestLoadRow
+from forcetorque.contests.contest_scores import Contest, ContestLoadRow
+from forcetorque.contests.figures import contest_figure
 from forcetorque.estimation.report_blocks import torque_section
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.evaluation import ERROR_WORDS, error_tables
 from forcetorque.evaluation.sphere.sphere import interval_table, mass_table, moment_table
 from forcetorque.evaluation.validation.contact_force_errors import WORTH, constant_contact_table
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.inspection.inspect import finding_table
 from forcetorque.report import record_tables as tables
@@ -34,10 +34,10 @@ from forcetorque.report.sensor_assessment import Assessment
 from forcetorque.results.document.content import Block, Document, Figure, List, Page, Picture, Section, Text
 from forcetorque.results.number_text import counted
 from forcetorque.results.table import Table, short_names, table_of, without_vague
-from forcetorque.sensor.bandwidth.bandwidth import Response
+from forcetorque.sensor.bandwidth.response import Response
 from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.report_blocks import skin_section
-from forcetorque.viewer.packing import packed
+from forcetorque.viewer.packed_arrays import packed
 from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene_builder import scene_of
 

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from forcetorque.base.errors import MissingExtraError
 from forcetorque.base.output_file import new_folder, write_bytes_atomically
-from forcetorque.experiment.calibration.artefact import write_calibration
+from forcetorque.experiment.calibration.calibration_file import write_calibration
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_fits import Study

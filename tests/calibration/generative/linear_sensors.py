@@ -17,7 +17,7 @@ from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.quadratic_correction import LinearityTest
-from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting
 from forcetorque.study.candidate_errors import push_error
 from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, hanging, read_by
 

@@ -17,7 +17,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError, OutputError
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading

@@ -12,7 +12,7 @@ from forcetorque.results.command import Option, Saved, command
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.calibration.export.export import Export
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
 
 
 @command(
@@ -25,7 +25,7 @@ def export_calibrations(
         Option(
             "Calibration files or folders of them; one calibration for icub-matrix, numpy.",
             typed=list[Path],
-            reads="forcetorque.results.terminal.input:read_calibrations",
+            reads="forcetorque.results.terminal.command_inputs:read_calibrations",
         ),
     ],
     to: Annotated[
@@ -55,7 +55,7 @@ def export_calibrations(
         Option(
             "Calibration that the stream is already made with. Default: the prior matrix alone.",
             typed=Path,
-            reads="forcetorque.experiment.calibration.artefact:read_calibration",
+            reads="forcetorque.experiment.calibration.calibration_file:read_calibration",
         ),
     ] = None,
     progress: Annotated["Progress", Option("Called with a line on every offset in the file.")] = lambda _: None,

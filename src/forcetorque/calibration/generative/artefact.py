@@ -20,7 +20,7 @@ from forcetorque.calibration.generative.agreement import disagreements
 from forcetorque.calibration.generative.design import session_means
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.thesis.calibrate import validity_of
-from forcetorque.experiment.calibration.artefact import (
+from forcetorque.experiment.calibration.calibration_file import (
     GENERATIVE,
     CalibratedVariable,
     Calibration,

@@ -13,7 +13,7 @@ from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.untouched_interval import JointInterval, required_prior
 from forcetorque.calibration.thesis.calibrate import validity_of
-from forcetorque.experiment.calibration.artefact import (
+from forcetorque.experiment.calibration.calibration_file import (
     JOINT,
     CalibratedVariable,
     Calibration,
@@ -34,7 +34,7 @@ from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, R
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.sensor_samples import logged_content
+from forcetorque.experiment.interval_samples import logged_content
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
 

@@ -16,7 +16,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
 from forcetorque.calibration.joint.unknowns import JointFit
-from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.joint_posterior import JointPosterior
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_correction import place_in_urdf

@@ -15,7 +15,7 @@ from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.calibration.joint.nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
 from forcetorque.calibration.joint.windows import part_windows, window_means
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.long_recording import forget_recording, segment_experiments

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.formats.kept_parts import parts_kept
+from forcetorque.formats.decoded_parts_cache import parts_kept
 from forcetorque.formats.log_format import LogContext, LogDescription, LoggedRobot, LogReading, StreamReading
 from forcetorque.formats.logged_wrist import BAG
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag

@@ -35,7 +35,7 @@ from forcetorque.formats.logged_wrist import (
     repeats_finding,
     weight_of,
 )
-from forcetorque.formats.ur_rtde.consistency import (
+from forcetorque.formats.ur_rtde.moment_point_axes_and_gravity import (
     agreeing_point,
     is_about_other_point,
     require_gravity_as_felt,

@@ -8,7 +8,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
-from forcetorque.inspection.draft.edits import Edit, edit_between, key_edit, table_blocks
+from forcetorque.inspection.draft.toml_edits import Edit, edit_between, key_edit, table_blocks
 from forcetorque.inspection.draft.toml_lines import line, tables_of, toml_value
 from forcetorque.inspection.fault_messages import motion_name
 
