@@ -238,7 +238,7 @@ class Contest(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.contests.figures:contest_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
-    answered_by: ClassVar[str | None] = "forcetorque.contests.commands:contest_answer"
+    answered_by: ClassVar[str | None] = "forcetorque.contests.answers:contest_answer"
 
     schema_name: Literal["forcetorque/contest/2"] = Field(default="forcetorque/contest/2", alias="schema")
     """Form of the result."""

@@ -222,7 +222,7 @@ class EstimateSummary(EstimatedRecording, DrawnResult):
 
     schema_name: Literal["forcetorque/estimate/2"] = Field(default="forcetorque/estimate/2", alias="schema")
     """Form of the result."""
-    answered_by: ClassVar[str | None] = "forcetorque.estimation.commands:estimate_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.estimation.answers:estimate_answers"
 
     recordings: tuple[EstimatedRecording, ...] = ()
     """The estimates of each of several recordings; none where there is one recording."""

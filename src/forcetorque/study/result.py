@@ -323,7 +323,7 @@ class Studies(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.study.figures:studies_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
-    answered_by: ClassVar[str | None] = "forcetorque.study.commands:study_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.study.answers:study_answers"
 
     interval_uses = ()
 

@@ -284,7 +284,7 @@ class Workbench(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.workbench.figures:bench_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
-    answered_by: ClassVar[str | None] = "forcetorque.workbench.commands:workbench_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.workbench.answers:workbench_answers"
 
     schema_name: Literal["forcetorque/workbench/2"] = Field(default="forcetorque/workbench/2", alias="schema")
     """Form of the result."""

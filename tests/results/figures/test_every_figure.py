@@ -29,10 +29,7 @@ some_figures = some_cases("name", [*FEW, *(name for name in FIGURES if name not 
 
 ROOT = Path(forcetorque.__file__).parent
 FILES = sorted(
-    path
-    for pattern in ("figures.py", "figures/*.py")
-    for path in ROOT.rglob(pattern)
-    if "results" not in path.parts
+    path for pattern in ("figures.py", "figures/*.py") for path in ROOT.rglob(pattern) if "results" not in path.parts
 )
 """Files of figures, by their names."""
 TOUCHING_PIXELS = 2.0

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.labelled_arrays import wrench_array, xarray_dataset
 from forcetorque.base.lazy import LazyMethod
-from forcetorque.collisions import command as _collisions
+from forcetorque.collisions import commands as _collisions
 from forcetorque.evaluation import commands as _evaluation
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.experiment.calibration.calibration_file import Calibration

@@ -110,7 +110,7 @@ class ComparedRow(Row):
 class SkinStudy(DrawnResult):
     """Forces and torques by skin on a simulated leg, as in thesis 7.3."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.study.commands:skin_study_answer"
+    answered_by: ClassVar[str | None] = "forcetorque.study.answers:skin_study_answer"
     drawn_by: ClassVar[str] = "forcetorque.study.figures:skin_study_figure"
 
     schema_name: Literal["forcetorque/study_skin/1"] = Field(default="forcetorque/study_skin/1", alias="schema")
