@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.formats.arm_log import LoggedTorques, holding_torques
 from forcetorque.formats.franka.kinematics import joint_frames
-from forcetorque.formats.logged_torques import LoggedTorques, holding_torques
 from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques
 from tests.payload.simulated_panda import GRAVITY
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answer of `inspect` in a few lines: findings grouped to events in time, and what of the time is usable."""
+"""The answers of `inspect`: findings grouped to events in time, and a sensor by its log alone."""
 
 from __future__ import annotations
 

@@ -12,8 +12,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.base.pose import split_pose
+from forcetorque.formats.arm_log import DeclaredLoad, LoggedWrist
 from forcetorque.formats.log_format import FixedFrame, LoggedRobot, RobotLoggingFormat
-from forcetorque.formats.logged_wrist import DeclaredLoad, LoggedWrist
 from forcetorque.formats.registry import format_named, recognised_format
 from forcetorque.inspection.draft.drafted_streams import DraftedStream
 from forcetorque.inspection.draft.sensors_and_supports import DraftedMount, DraftedSensor

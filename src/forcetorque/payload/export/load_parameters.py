@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
-from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.formats.arm_log import FLANGE
 from forcetorque.robot.mount_estimate import quarter_turns
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors for stated loads, ranked, what each sensing principle reads of the largest load."""
+"""Sensors for stated loads, ranked, and what each sensing principle reads of the largest load."""
 
 from __future__ import annotations
 
