@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.contests.contest_scores import Contest
-from forcetorque.report.sections import result_figures
+from forcetorque.report.report_sections import result_figures
 from forcetorque.results.document.content import Figure
 from tests.app.outcome import Run
 from tests.page_scripts import unmarked

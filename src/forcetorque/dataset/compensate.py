@@ -28,7 +28,7 @@ from forcetorque.dataset.tool_load import KnownLoad, Tool, ToolSamples, identifi
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.named_files import stated_in
 from forcetorque.formats.lerobot.dataset import INFO, Episode, LeRobotDataset
-from forcetorque.formats.signals import even_stamps
+from forcetorque.formats.specified_signals import even_stamps
 from forcetorque.payload.identification.load_estimates import three
 from forcetorque.payload.result import LoadRow
 from forcetorque.recording.frozen_and_saturated_samples import white_variance

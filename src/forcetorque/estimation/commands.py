@@ -85,7 +85,7 @@ def estimate(
     from forcetorque.experiment.kept_experiments import experiment_finished
     from forcetorque.experiment.loading import Purpose
     from forcetorque.experiment.named_files import file_of_each, stated_in
-    from forcetorque.formats.sample_table import SUFFIXES
+    from forcetorque.formats.sample_table_writing import SUFFIXES
     from forcetorque.results.terminal.command_inputs import read_calibrations, read_experiment
     from forcetorque.results.terminal.command_output import refuse_ending, refuse_figure
 

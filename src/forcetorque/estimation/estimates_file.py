@@ -14,7 +14,7 @@ from forcetorque.estimation.estimate import IntervalEstimates
 from forcetorque.estimation.torque.experiment_fusion import IntervalFusion
 from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.formats.sample_table import Column, SampleSpan, write_samples
+from forcetorque.formats.sample_table_writing import Column, SampleSpan, write_samples
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot.model import JointType, RobotModel
 

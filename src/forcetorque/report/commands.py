@@ -62,7 +62,7 @@ def report(
     from forcetorque.experiment.applicability import read_population
     from forcetorque.experiment.loading import Purpose
     from forcetorque.report.report import report, require_writable
-    from forcetorque.report.sections import viewer_section
+    from forcetorque.report.report_sections import viewer_section
     from forcetorque.report.sensor_assessment import Demands
     from forcetorque.report.sorted_input_files import assign_calibrations, sort_sources
     from forcetorque.results.result import created_now

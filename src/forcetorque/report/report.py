@@ -21,7 +21,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.report.decision_page import all_sensors_page, decision_page
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.report.pooled_verdicts import NextSteps, Undecided, decide_uses, next_steps, sensor_key, sensor_keys
-from forcetorque.report.sections import report_document
+from forcetorque.report.report_sections import report_document
 from forcetorque.report.sensor_assessment import Demands
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.document.content import Document, Section, html_bytes

@@ -71,10 +71,10 @@ def study(
     from forcetorque.experiment.named_files import stated_in
     from forcetorque.results.result import created_now
     from forcetorque.study.candidate_selection import SWEEP_LAMBDAS
-    from forcetorque.study.folder import write_study_folder
     from forcetorque.study.result import Studies, studied_sensor, study_warnings
     from forcetorque.study.study import study_sensor
     from forcetorque.study.study_data import read_study_data
+    from forcetorque.study.study_folder import write_study_folder
 
     if folder is not None:
         refuse_existing(Path(folder))

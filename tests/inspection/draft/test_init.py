@@ -23,7 +23,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.log_format import SketchedColumns
-from forcetorque.formats.signals import OrientationTable
+from forcetorque.formats.specified_signals import OrientationTable
 from forcetorque.inspection.draft.column_matches import array_groups, column_matches, is_estimated
 from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows

@@ -15,7 +15,7 @@ from forcetorque.formats.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUA
 from forcetorque.formats.ros.robot_topics import is_description, is_static, robot_of_bag
 from forcetorque.formats.ros.specified_topics import RosLog, RosOrientation, RosStream, read_specified
 from forcetorque.formats.ros.wrist_of_bag import describe_wrist
-from forcetorque.formats.signals import SPECIFY_SENSE
+from forcetorque.formats.specified_signals import SPECIFY_SENSE
 from forcetorque.recording.orientation import OrientationSense
 from forcetorque.recording.recording import Finding
 

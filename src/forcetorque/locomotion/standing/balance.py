@@ -19,7 +19,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_reading import Correction
-from forcetorque.formats.sample_table import SampleSpan, write_samples
+from forcetorque.formats.sample_table_writing import SampleSpan, write_samples
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, balance_of_forces, balance_of_sensors
 from forcetorque.locomotion.standing.ground_wrenches_by_motion import balance_by_motion, unused_forces
 from forcetorque.locomotion.standing.interval_balance import BalanceOptions, IntervalBalance
