@@ -24,7 +24,7 @@ from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import record
-from forcetorque.viewer.packed_arrays import packed
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import ASSETS, BUNDLE, DATA_URL, MOST_SAMPLES, ViewerServer, page_of, write_page
 from forcetorque.viewer.scene import scene_json
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene

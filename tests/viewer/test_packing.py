@@ -14,7 +14,7 @@ from hypothesis.extra.numpy import arrays
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.progress import TimeLeft
-from forcetorque.viewer.packed_arrays import (
+from forcetorque.viewer.packing import (
     LEAST_STEPS,
     NOISE_SHARE,
     POSE_STEP,
@@ -163,7 +163,7 @@ def test_progress_is_told_of_a_scene_that_takes_long(built: BuiltScene, monkeypa
     lines: list[str] = []
     packed(built, lines.append)
     assert lines == []
-    monkeypatch.setattr("forcetorque.viewer.packed_arrays.TimeLeft", partial(TimeLeft, every_s=0.0))
+    monkeypatch.setattr("forcetorque.viewer.packing.TimeLeft", partial(TimeLeft, every_s=0.0))
     packed(built, lines.append)
     assert len(lines) > 3
     assert all(re.fullmatch(r"packing the page: \d+ %, \d+ s left", line) for line in lines)

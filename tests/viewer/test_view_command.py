@@ -18,7 +18,7 @@ import pytest
 
 from forcetorque import load_experiment
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.viewer.packed_arrays import unpack
+from forcetorque.viewer.packing import unpack
 from forcetorque.viewer.page import ASSETS, BUNDLE, ViewerServer
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packed arrays, unpacked block by block when they are first looked at; `viewer/packed_arrays.py` describes their form.
+// Packed arrays, unpacked block by block when they are first looked at; `viewer/packing.py` describes their form.
 
 import { inflateSync } from "fflate";
 

@@ -9,7 +9,7 @@ export interface ArrayRef {
   readonly shape: readonly number[];
   /** Its type. */
   readonly dtype: "float32" | "float64" | "uint32";
-  /** Length of its packed form, as `viewer/packed_arrays.py` describes it; null where it is stored as it is. */
+  /** Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is. */
   readonly packed_bytes: number | null;
   /** Array of the same shape (n, c) that `matrix` multiplies, and what is stored is added to; or null. */
   readonly base: ArrayRef | null;

@@ -37,7 +37,7 @@ from forcetorque.results.table import Table, short_names, table_of, without_vagu
 from forcetorque.sensor.bandwidth.response import Response
 from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.report_blocks import skin_section
-from forcetorque.viewer.packed_arrays import packed
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene_builder import scene_of
 

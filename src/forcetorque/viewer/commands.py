@@ -158,7 +158,7 @@ def _refuse_contradictions(output: Path | None, port: int | None, video: Path | 
 def _serve(
     path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format, *, details: bool
 ) -> None:
-    from forcetorque.viewer.packed_arrays import packed
+    from forcetorque.viewer.packing import packed
     from forcetorque.viewer.page import ANNOTATIONS_URL, DATA_URL, Session, ViewerServer, open_in_browser, page_of
     from forcetorque.viewer.scene_builder import View
 

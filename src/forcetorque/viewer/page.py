@@ -28,7 +28,7 @@ from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress
 from forcetorque.base.toml_file import first_error
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
-from forcetorque.viewer.packed_arrays import packed
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.scene import scene_json
 from forcetorque.viewer.scene_builder import BuiltScene
 

@@ -23,7 +23,7 @@ class ArrayRef:
     dtype: Literal["float32", "float64", "uint32"]
     """Its type."""
     packed_bytes: int | None = None
-    """Length of its packed form, as `viewer/packed_arrays.py` describes it; null where it is stored as it is."""
+    """Length of its packed form, as `viewer/packing.py` describes it; null where it is stored as it is."""
     base: ArrayRef | None = None
     """Array of the same shape (n, c) that `matrix` multiplies, and what is stored is added to; or null."""
     matrix: tuple[float, ...] | None = None

@@ -64,7 +64,7 @@ def write_view(path: Path, built: BuiltScene, progress: Progress = lambda _: Non
     Args:
         path: File to write or to replace.
         built: The scene.
-        progress: As of `viewer.packed_arrays.packed`, for the page.
+        progress: As of `viewer.packing.packed`, for the page.
 
     Returns:
         Size of the file; bytes.

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from forcetorque.viewer.packed_arrays import packed
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import DATA_URL, ViewerServer, page_of
 from forcetorque.viewer.scene_arrays import read_array
 from tests.firefox import FirefoxPage, firefox_page

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from forcetorque.viewer.packed_arrays import packed
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene_builder import View
 from tests.browser import Visit

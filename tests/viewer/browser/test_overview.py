@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.viewer import overview
-from forcetorque.viewer.packed_arrays import packed
+from forcetorque.viewer.packing import packed
 from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import arm_scene

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.viewer.packed_arrays import packed, unpack
+from forcetorque.viewer.packing import packed, unpack
 from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene_arrays import read_array
 from tests.browser import Visit
