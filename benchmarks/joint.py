@@ -13,9 +13,9 @@ import numpy as np
 
 from benchmarks.harness import arguments, write_result
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.robust_fit import UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.untouched_interval import joint_interval
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Use
 from forcetorque.robot.mechanics.sub_model_equations import part_equations

@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.commands import export_calibrations
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept

@@ -19,7 +19,7 @@ from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.contact_windows import Disagreeing
-from forcetorque.calibration.moments import SegmentedMoments
+from forcetorque.calibration.moments_of_samples import SegmentedMoments
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.moments import DataSet
@@ -260,7 +260,7 @@ def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeyp
         ]
         return [~(marks & seen) for marks, seen in zip(near, touched, strict=True)], tuple(spans)
 
-    monkeypatch.setattr("forcetorque.calibration.moments.agreeing_samples", agreeing)
+    monkeypatch.setattr("forcetorque.calibration.moments_of_samples.agreeing_samples", agreeing)
     records = _records(file, monkeypatch)
     (whole,), (segmented,) = map(_intervals, records)
     assert whole.dropped > 0

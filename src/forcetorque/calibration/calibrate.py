@@ -12,19 +12,19 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.answers import calibration_answer
 from forcetorque.calibration.corrected_urdf import urdf_of
-from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
 from forcetorque.calibration.interval_and_mount_doubts import (
     SegmentedDoubts,
     doubts_of_intervals,
     doubts_of_samples,
     with_estimated_mount,
 )
-from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
     InformationGain,
-    calibration_answer,
     calibration_blocks,
     component_records,
     information_figure,

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import MAD_TO_DEVIATION
-from forcetorque.calibration.moments import assumptions_of
+from forcetorque.calibration.moments_of_samples import assumptions_of
 from forcetorque.collisions.sensor_residual import WINDOW_S, split_columns
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, SENSOR, sensor_root
 from forcetorque.experiment.campaign_intervals import CampaignRecording

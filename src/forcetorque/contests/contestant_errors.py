@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.contests.contest_file import Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, Trial, trial_by_phase

@@ -13,7 +13,7 @@ from typing import Any, Final
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.base.output_file import declare_outputs
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
-from forcetorque.calibration.calibrate_command import calibration_files
+from forcetorque.calibration.commands import calibration_files
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.named_files import stated_in
 from forcetorque.fleet.evaluate import evaluate_dataset

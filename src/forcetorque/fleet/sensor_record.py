@@ -20,7 +20,7 @@ from forcetorque.base.stored_table import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.calibration.interval_and_mount_doubts import SegmentedDoubts
-from forcetorque.calibration.moments import SegmentedMoments
+from forcetorque.calibration.moments_of_samples import SegmentedMoments
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments

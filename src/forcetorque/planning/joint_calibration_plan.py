@@ -12,7 +12,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.joint.calibrate import JointData
-from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict, predict_prior
 from forcetorque.experiment.calibration.calibration_file import Calibration

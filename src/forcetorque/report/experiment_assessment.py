@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.joint.outcome import SubModelRow
+from forcetorque.calibration.joint.result import SubModelRow
 from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.collisions.collision_and_sole_events import with_collisions

@@ -12,8 +12,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.calibration.moments import agreeing_moments, moments_of
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
+from forcetorque.calibration.moments_of_samples import agreeing_moments, moments_of
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments

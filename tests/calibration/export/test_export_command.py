@@ -20,7 +20,7 @@ import pytest
 
 from forcetorque.app.command_line import main
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.commands import export_calibrations
 from forcetorque.calibration.export.export import Export
 from forcetorque.calibration.export.wholebodydynamics import corrected, read_groups
 from forcetorque.experiment.calibration.calibration_file import Calibration, SessionOffset, write_calibration

@@ -13,9 +13,9 @@ import pytest
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.calibration.joint.fit import fit_jointly
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit, SensorPrior
 from forcetorque.calibration.joint.untouched_interval import part_residuals
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import variable_sizes

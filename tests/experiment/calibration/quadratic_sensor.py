@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans

@@ -16,7 +16,7 @@ from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError,
 from forcetorque.base.output_file import refuse_output
 from forcetorque.base.toml_file import parsed_toml
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
-from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.commands import export_calibrations
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.evaluation.answers import is_for_inspect

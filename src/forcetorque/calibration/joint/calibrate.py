@@ -20,12 +20,12 @@ from forcetorque.calibration.calibrate import (
     fit_doubts,
 )
 from forcetorque.calibration.corrected_urdf import urdf_of
-from forcetorque.calibration.joint.artefact import joint_posterior, sensor_artefact
-from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.posterior_and_calibrations import joint_posterior, sensor_artefact
+from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.joint.unknowns import JointFit, SensorPrior
 from forcetorque.calibration.joint.untouched_interval import JointInterval, joint_interval, required_prior
-from forcetorque.calibration.moments import assumptions_of
+from forcetorque.calibration.moments_of_samples import assumptions_of
 from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.calibration.calibration_file import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice

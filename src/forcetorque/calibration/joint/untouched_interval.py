@@ -12,8 +12,8 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, OutputError, RecordingError
 from forcetorque.base.rows_on_disk import row_blocks
-from forcetorque.calibration.joint.nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
+from forcetorque.calibration.joint.window_nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.windows import part_windows, window_means
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.contacts import contacts_in

@@ -17,7 +17,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.generative.agreement import disagreements
-from forcetorque.calibration.generative.design import session_means
+from forcetorque.calibration.generative.design_matrix import session_means
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.thesis.calibrate import validity_of
 from forcetorque.experiment.calibration.calibration_file import (

@@ -108,8 +108,8 @@ def calibrate(
 
     from forcetorque.base.output_file import declare_outputs
     from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
-    from forcetorque.calibration.calibrate_jointly_command import calibrate_together, refuse_beside_jointly
     from forcetorque.calibration.corrected_urdf import write_corrected_urdf
+    from forcetorque.calibration.joint.commands import calibrate_together, refuse_beside_jointly
     from forcetorque.calibration.reduced_recordings import store_moments
     from forcetorque.experiment.named_files import stated_in
     from forcetorque.results.result import created_now
