@@ -15,12 +15,10 @@ if TYPE_CHECKING:
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "design_device": "forcetorque.device.commands",
-        "motion": "forcetorque.locomotion.commands",
-        "motion_of_arrays": "forcetorque.app.python.experiment_of_arrays",
-        "simulate": "forcetorque.simulation.commands",
-        "study": "forcetorque.study.commands",
-        "workbench": "forcetorque.workbench.commands",
-    },
+    design_device="forcetorque.device.commands",
+    motion="forcetorque.locomotion.commands",
+    motion_of_arrays="forcetorque.app.python.experiment_of_arrays",
+    simulate="forcetorque.simulation.commands",
+    study="forcetorque.study.commands",
+    workbench="forcetorque.workbench.commands",
 )

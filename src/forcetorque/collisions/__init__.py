@@ -15,4 +15,4 @@ CAPABILITY = Capability(
     commands=("forcetorque.collisions.commands:collisions", "forcetorque.collisions.commands:joint_collisions"),
 )
 
-__all__, __getattr__, __dir__ = lazy_names(__name__, {"joint_collisions": "forcetorque.collisions.commands"})
+__all__, __getattr__, __dir__ = lazy_names(__name__, joint_collisions="forcetorque.collisions.commands")

@@ -22,8 +22,6 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "contest": "forcetorque.contests.commands",
-        "read_entries": "forcetorque.contests.contest_file",
-    },
+    contest="forcetorque.contests.commands",
+    read_entries="forcetorque.contests.contest_file",
 )

@@ -136,15 +136,8 @@ def _without_glitches(parsed: schema.ExperimentFile, recording: Recording) -> Re
             f"that {'is' if len(rows) == 1 else 'are'} nowhere near the others: "
             f"{', '.join(f'{value:.4g}' for value in np.unique(values[rows])[:3])}"
         ) + (f"; the others lie from {kept.min():.4g} to {kept.max():.4g}" if len(kept) else "")
-        finding = Finding(
-            stream=name,
-            kind="glitch",
-            message=message,
-            count=len(rows),
-            start_ns=int(stream.stamp_ns[rows[0]]),
-            end_ns=int(stream.stamp_ns[rows[-1]]),
-            channel=signal.columns[place],
-        )
+        ends, channel = rows[[0, -1]].tolist(), signal.columns[place]
+        finding = Finding.over(name, stream.stamp_ns, "glitch", message, *ends, count=len(rows), channel=channel)
         without = signal.values.copy()
         without[rows, place] = np.nan
         signals = {**stream.signals, quantity: replace(signal, values=without)}

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -77,6 +78,7 @@ def saturation_findings(
         One finding per segment of time and channel; none where the board reports saturation itself, which is exact;
         one alone where raw samples go beyond the limit, which is then not that of their converter.
     """
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     if "saturated" in stream.signals:
         return ()
     if not recovered and exceeds_limit(counts, limit_counts):
@@ -93,8 +95,7 @@ def saturation_findings(
             largest = float(np.abs(counts[first : last + 1, channel]).max())
             note = " (recovered counts)" if recovered else ""
             findings.append(
-                _finding(
-                    stream,
+                over(
                     "saturation",
                     f"ch{channel} within {100 * SATURATION_SHARE:g} % of {limit_counts:g} counts{note}",
                     first,
@@ -109,10 +110,9 @@ def saturation_findings(
 
 def _reported_saturation(stream: Stream) -> list[Finding]:
     """Segments in which the board flags that it holds its last valid sample."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     text = "the board reports saturation and holds its last valid sample"
-    return [
-        _finding(stream, "saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)
-    ]
+    return [over("saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)]
 
 
 def glitched_values(values: FloatArray) -> BoolArray:
@@ -155,32 +155,8 @@ def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
     return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _finding(
-    stream: Stream,
-    kind: str,
-    message: str,
-    first: int,
-    last: int,
-    *,
-    count: int | None = None,
-    channel: str | None = None,
-    size: float | None = None,
-    unit: str | None = None,
-) -> Finding:
-    return Finding(
-        stream=stream.name,
-        kind=kind,
-        message=message,
-        count=last - first + 1 if count is None else count,
-        start_ns=int(stream.stamp_ns[first]),
-        end_ns=int(stream.stamp_ns[last]),
-        channel=channel,
-        size=size,
-        unit=unit,
-    )
-
-
 def _gaps(stream: Stream) -> list[Finding]:
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     usable = usable_samples(stream.stamp_ns)
     steps = np.diff(stream.stamp_ns[usable])
     findings = []
@@ -188,11 +164,12 @@ def _gaps(stream: Stream) -> list[Finding]:
         seconds = float(steps[k]) * 1e-9
         before, after = int(usable[k]), int(usable[k + 1])
         text = f"no sample for {seconds:.3f} s, {steps[k] / float(np.median(steps)):.0f} periods"
-        findings.append(_finding(stream, "gap", text, before, after, count=1, size=seconds, unit="s"))
+        findings.append(over("gap", text, before, after, count=1, size=seconds, unit="s"))
     return findings
 
 
 def _bad_stamps(stream: Stream) -> list[Finding]:
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     steps = np.diff(stream.stamp_ns)
     findings = []
     for kind, bad, text in (
@@ -203,13 +180,14 @@ def _bad_stamps(stream: Stream) -> list[Finding]:
         if len(at):
             size = float(np.abs(steps[at - 1]).max()) * 1e-9
             findings.append(
-                _finding(stream, kind, f"{len(at)} {text}", int(at[0]), int(at[-1]), count=len(at), size=size, unit="s")
+                over(kind, f"{len(at)} {text}", int(at[0]), int(at[-1]), count=len(at), size=size, unit="s")
             )
     return findings
 
 
 def _lost_messages(stream: Stream) -> list[Finding]:
     """Compare sequence numbers, which may start again at zero when their counter is full."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     if stream.sequence is None or len(stream) < 2 or (stream.sequence < 0).any():
         return []
     wrap = next((size for size in _WRAPS if size > int(stream.sequence.max())), None)
@@ -227,20 +205,20 @@ def _lost_messages(stream: Stream) -> list[Finding]:
         )
         size = None if restarted else float(lost)
         unit = None if restarted else "messages"
-        findings.append(_finding(stream, kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
+        findings.append(over(kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
     return findings
 
 
 def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     missing = np.logical_not(np.isfinite(signal.values).all(axis=1))
     text = f"no {signal.quantity}"
-    return [
-        _finding(stream, "missing", text, first, last, channel=signal.quantity) for first, last in true_runs(missing)
-    ]
+    return [over("missing", text, first, last, channel=signal.quantity) for first, last in true_runs(missing)]
 
 
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     same: BoolArray = np.asarray(np.diff(signal.values, axis=0) == 0.0)
     whole: BoolArray = np.asarray(same.all(axis=1))
     runs = equal_runs(stream.stamp_ns, signal.values)
@@ -248,7 +226,7 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     findings = [frozen_finding(stream, signal.quantity, run) for run in frozen]
     text = f"the whole {signal.quantity} stays the same, as of a load at rest whose noise is below the resolution"
     findings += [
-        _finding(stream, "stuck", text, first, last, channel=signal.quantity, size=_seconds(stream, run), unit="s")
+        over("stuck", text, first, last, channel=signal.quantity, size=_seconds(stream, run), unit="s")
         for run in runs
         for first, last in [run]
         if run not in frozen and _seconds(stream, run) > STUCK_SECONDS
@@ -259,12 +237,13 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
         for at, last in _stuck_runs(stream, signal.values[:, [k]], alone):
             text = f"{name} stays at {column[at]:g} {unit}"
             seconds = _seconds(stream, (at, last))
-            findings.append(_finding(stream, "stuck", text, at, last, channel=name, size=seconds, unit="s"))
+            findings.append(over("stuck", text, at, last, channel=name, size=seconds, unit="s"))
     return findings
 
 
 def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
     """Readings that the log gives again under new stamps, beside those that are frozen."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     long = mask_of(equal_runs(stream.stamp_ns, signal.values), len(stream))
     again = np.flatnonzero(repeated_readings(stream.stamp_ns, signal.values) & ~long & ~stream.held)
     if len(again):
@@ -274,7 +253,7 @@ def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
             + ("; fits leave them out unless [processing] keeps them" if signal.quantity in ("wrench", "raw") else "")
         )
         first, last = int(again[0]), int(again[-1])
-        yield _finding(stream, "repeated_reading", text, first, last, channel=signal.quantity, count=len(again))
+        yield over("repeated_reading", text, first, last, channel=signal.quantity, count=len(again))
 
 
 def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:
@@ -288,9 +267,10 @@ def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:
     Returns:
         The finding.
     """
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     text = f"the whole {quantity} stays the same, as when a board saturates or loses its sensor"
     first, last = run
-    return _finding(stream, "frozen", text, first, last, channel=quantity, size=_seconds(stream, run), unit="s")
+    return over("frozen", text, first, last, channel=quantity, size=_seconds(stream, run), unit="s")
 
 
 def _seconds(stream: Stream, run: Run) -> float:

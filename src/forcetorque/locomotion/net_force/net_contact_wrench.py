@@ -29,7 +29,7 @@ from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
-from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 
 _NO_GAIN = 1e-9
 """Change of the net force per change of a reading below which it is rounding; N/N, N/(N m)."""
@@ -239,15 +239,7 @@ def _demanded(problem: IntervalProblem) -> FloatArray | None:
     needed = required_joints_of(question)
     if support is None or not set(needed) <= set(experiment.recording.joint_signals("position")):
         return None
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        needed,
-        clock_stream(experiment),
-        problem.samples.stamp_ns,
-        processing=experiment.processing,
-    )
+    joints, root = experiment.motion_at(support, needed, clock_stream(experiment), problem.samples.stamp_ns)
     return estimate(question, joints, root).contact_wrenches[:, 0]
 
 
