@@ -27,7 +27,7 @@ import pyarrow.parquet as pq
 from scipy.spatial.transform import Rotation
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.franka.log_format import FrankaFormat, FrankaLog
 from forcetorque.formats.lerobot.log_format import LeRobotFormat, LeRobotLog
 from forcetorque.formats.log_format import LogReading

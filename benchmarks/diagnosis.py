@@ -30,9 +30,9 @@ from forcetorque.inspection.inspect import FindingRow, inspected
 from forcetorque.recording.recording import Support
 from forcetorque.recording.stream import Stream
 from forcetorque.simulation.recordings import write_scenario
-from forcetorque.simulation.scenario.file import ScenarioFile
 from forcetorque.simulation.scenario.scenario import build_scenario
-from forcetorque.simulation.sensor import calibrated_by_board
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile
+from forcetorque.simulation.simulated_sensor import calibrated_by_board
 
 LIMBS = {"arm_ft": "arm", "l_leg_ft": "biped", "r_foot_ft": "biped", "l_arm_ft": "biped"}
 """Robot of every sensor."""

@@ -25,10 +25,10 @@ from benchmarks.commands import command_cost, simulated_recordings
 from benchmarks.fleet_by_hand import with_dask, with_moments, with_pandas, write_tables
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray
-from forcetorque.fleet.pool import DaskPool, LocalPool, Pool
+from forcetorque.fleet.process_pool import DaskPool, LocalPool, Pool
+from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.run import AddJob, run_add
 from forcetorque.fleet.sensor_record import AddOptions
-from forcetorque.fleet.source import RecordingSource
 
 _DAYS, _HOURS, _ROBOTS, _CORE_HOUR_EUR = 365, 8, 1000, 0.05
 """On paper: days of a year, hours of logs a day, robots, and what a core costs for an hour."""

@@ -20,10 +20,10 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
 from forcetorque.plates.applied_loads import AppliedLoads, loads_of_pole
-from forcetorque.plates.calibration import calibrate_loads
+from forcetorque.plates.plate_calibration import calibrate_loads
 from forcetorque.plates.plate_file import PlateFile, read_plates
-from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_standing
-from forcetorque.plates.standing import weigh
+from forcetorque.plates.simulated_plates import SimulatedPlate, write_pole_trial, write_standing
+from forcetorque.plates.weight_on_plates import weigh
 
 PLATES, FIRST_SEED = 20, 9000
 DIRECTION = MeasureDirection.PARENT_TO_CHILD

@@ -13,16 +13,16 @@ import numpy as np
 
 from benchmarks.harness import arguments, write_result
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.robust_fit import UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.untouched_interval import joint_interval
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Use
 from forcetorque.robot.mechanics.sub_model_equations import part_equations
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.simulation.recordings import write_scenario
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 
 BLOCK = 6000
 """Samples whose equations fit into memory at a time."""

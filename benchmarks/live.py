@@ -22,22 +22,22 @@ from benchmarks.harness import arguments, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import NORMAL_95, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Provenance, Selection, SensorIdentity, Validity
 from forcetorque.live.bias_tracking import Tracking
-from forcetorque.live.choices import OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.loop import LiveLoop
+from forcetorque.live.option_values import OffsetSource
 from forcetorque.live.outputs import parquet_file
 from forcetorque.live.packets import NUMBERS, Packet, PacketAccount, PacketCounts
 from forcetorque.live.recent_samples import RecentSamples
-from forcetorque.live.run import LiveLoop
-from forcetorque.live.tool import Tool
+from forcetorque.live.tool_weight import Tool
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.motion import RootMotion
-from forcetorque.simulation.sensor import y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import y_shaped_matrix
 
 SENSORS = 6
 MATRIX = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)

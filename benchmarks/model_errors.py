@@ -49,10 +49,15 @@ from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import grid_movement, random_movement, z_torque_movement
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.scenario.file import Sensors
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S
-from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, mounted_matrix, random_matrix_error
+from forcetorque.simulation.scenario.scenario_file import Sensors
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
+from forcetorque.simulation.simulated_sensor import (
+    SimulatedSensor,
+    distorted_by_mounting,
+    mounted_matrix,
+    random_matrix_error,
+)
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 
 LIMBS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "l_arm_ft")

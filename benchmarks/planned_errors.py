@@ -23,12 +23,12 @@ from benchmarks.harness import write_cases
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.planning.planning import plan
-from forcetorque.planning.proposal import Effort, Proposal
+from forcetorque.planning.proposed_recordings import Effort, Proposal
 from forcetorque.planning.result import PlannedRecording
 from forcetorque.planning.section import PLAN
 from forcetorque.recording.storage import write_recording
@@ -38,8 +38,8 @@ from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.movement import MovementKind
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.scenario.file import Sensors
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S
+from forcetorque.simulation.scenario.scenario_file import Sensors
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
 from forcetorque.simulation.trace import trace_movement
 

@@ -31,7 +31,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.evaluation.evaluation import validation_errors
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -15,8 +15,8 @@ from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.sensor_family import FAMILIES
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import record
 
 

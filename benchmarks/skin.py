@@ -16,12 +16,12 @@ import numpy as np
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.estimation.skin_contacts import SkinSource, skin_sources
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates, estimate_with_covariance
+from forcetorque.estimation.uncertain.input_errors import Uncertainty
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum, moving_joints
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

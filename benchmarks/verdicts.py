@@ -54,9 +54,9 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
 from forcetorque.evaluation.section import LoadCaseOffset, LoadCaseTable
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 
 LOAD_CASES = (
     LoadCaseTable(name="push", force_N=50.0, radius_m=0.3, offset=LoadCaseOffset.TARED),

@@ -21,8 +21,8 @@ from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.sensor_family import FAMILIES
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import record
 from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import ASSETS, BUNDLE, DATA_URL, MOST_SAMPLES, ViewerServer, page_of, write_page

@@ -22,10 +22,10 @@ from forcetorque.app import motion_of_arrays
 from forcetorque.dataset import check_dataset
 from forcetorque.estimation.figures import torque_figure
 from forcetorque.estimation.torque.covariance_fusion import fuse
-from forcetorque.estimation.torque.source import TorqueSource
-from forcetorque.results.figures import headline, in_figure_style, new_figure, png_bytes
+from forcetorque.estimation.torque.torque_source import TorqueSource
+from forcetorque.results.figure_style import headline, in_figure_style, new_figure, png_bytes
 from forcetorque.results.visual_roles import CALIBRATIONS, EXPECTED, PRIOR
-from forcetorque.simulation.scenario.file import bundled_scenario
+from forcetorque.simulation.scenario.scenario_file import bundled_scenario
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.recordings import TaxelResponses
 from forcetorque.skin.simulation.temperature import HeatResponses, Warmth, warm_recording

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.patches import Rectangle
 
-from forcetorque.results.figures import MUTED, headline, in_figure_style, new_figure, png_bytes
+from forcetorque.results.figure_style import MUTED, headline, in_figure_style, new_figure, png_bytes
 from forcetorque.results.visual_roles import AXES, CALIBRATIONS, CONTACT, EXPECTED, SKIN, SURFACES
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from forcetorque.app.python.experiment import load_experiment
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.figures.sphere import force_space_figure
 from forcetorque.experiment.offsets import corrections_of
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figure_style import png_bytes
 
 
 def main() -> None:

@@ -19,14 +19,14 @@ import numpy as np
 
 from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.model import BASE, device_model
 from forcetorque.device.motion import DeviceTrajectory, twelve_steps
+from forcetorque.device.robot_model import BASE, device_model
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.storage import write_recording
-from forcetorque.robot.model_text import write_urdf
+from forcetorque.robot.urdf_and_mjcf_text import write_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.movement import MovementKind
-from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 from forcetorque.simulation.trace import record
 
 DEVICE = read_device().with_sensors(3)

@@ -22,7 +22,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.robot.dynamics import expected_wrenches
-from forcetorque.robot.installed import installed_robot
+from forcetorque.robot.installed_robots import installed_robot
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

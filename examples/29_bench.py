@@ -19,8 +19,8 @@ from scipy.signal import cont2discrete, lfilter
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.workbench.bench import Placement
-from forcetorque.workbench.loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.known_loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.position_means import Placement
 from forcetorque.workbench.simulated_benches import BenchFaults, simulate_bench
 
 WEIGHTS = """schema = "forcetorque/bench/1"

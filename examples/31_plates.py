@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_standing
+from forcetorque.plates.simulated_plates import SimulatedPlate, write_pole_trial, write_standing
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Write C3D files of two simulated force plates.")

@@ -15,7 +15,7 @@ from typing import Any
 
 from forcetorque import read_calibration
 from forcetorque.live import Corrector, CorrectorOptions, FaultPolicy
-from forcetorque.live.choices import HeldQuantity
+from forcetorque.live.option_values import HeldQuantity
 
 
 def main() -> None:

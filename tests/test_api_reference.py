@@ -78,7 +78,7 @@ def test_every_public_name_has_a_docstring() -> None:
 def test_imports_are_followed_to_the_definition() -> None:
     """Through packages, and through imports that only types see; what is nowhere is an error."""
     found = definition("forcetorque", "Calibration")
-    assert (found.module, found.kind) == ("forcetorque.experiment.calibration.artefact", "class")
+    assert (found.module, found.kind) == ("forcetorque.experiment.calibration.calibration_file", "class")
     constant = definition("forcetorque.evaluation.load_cases.load_case", "ALLOWED_SHARE")
     assert (constant.kind, float(constant.value)) == ("data", pytest.approx(0.05))
     with pytest.raises(LookupError, match=r"forcetorque\.robot\.RoboModel"):

@@ -390,6 +390,35 @@ def test_a_module_of_another_name_is_noticed() -> None:
     assert _unknown("`trials` and `contest_trials`") == ["contest_trials"]
 
 
+ROLES = {"_figure": "figures", "_answer": "answers", "_answers": "answers"}
+"""Names of files of the page, by how the names of their functions end."""
+
+
+def _in_other_files(references: Iterable[tuple[str, str]]) -> list[str]:
+    """References `module:name` to what is in a file, or in a folder, of another name than that of its role."""
+    return [reference for reference, role in references if role not in reference.partition(":")[0].split(".")]
+
+
+def test_what_has_a_role_is_in_the_file_of_its_name() -> None:
+    """Commands, sections, answers and figures: each has one name for its file in every capability."""
+    nodes = (node for name in NEEDS for path in _files(name) for node in _nodes(path))
+    texts = {str(node.value) for node in nodes if isinstance(node, ast.Constant)}
+    texts = {text for text in texts if _NAMED.fullmatch(text)}
+    named_by_results = [(text, role) for text in sorted(texts) for end, role in ROLES.items() if text.endswith(end)]
+    assert {role for _, role in named_by_results} == set(ROLES.values())
+    commands = [(reference, "commands") for _, reference in all_named("commands")]
+    sections = [(reference, "section") for _, reference in all_named("sections")]
+    assert len(commands) > 30
+    assert len(sections) > 5
+    assert _in_other_files([*commands, *sections, *named_by_results]) == []
+
+
+def test_a_role_in_another_file_is_noticed() -> None:
+    """Negative control: the same name as part of another one does not do."""
+    assert _in_other_files([("forcetorque.a.figure:b_figure", "figures")]) == ["forcetorque.a.figure:b_figure"]
+    assert _in_other_files([("forcetorque.a.figures.b:b_figure", "figures")]) == []
+
+
 def test_every_recipe_names_the_test_that_follows_it() -> None:
     """The test is there, and says that it follows this page."""
     _, *recipes = re.split(r"^### To add ", PAGE, flags=re.MULTILINE)

@@ -20,7 +20,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.app.python.experiment import load_experiment
-from forcetorque.experiment.calibration.artefact import write_calibration
+from forcetorque.experiment.calibration.calibration_file import write_calibration
 
 ROOT = Path(__file__).resolve().parents[1]
 RUNS = 3

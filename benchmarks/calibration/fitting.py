@@ -21,7 +21,7 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES,
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.study.candidate_fits import fit_candidates
-from forcetorque.study.selection import SWEEP_LAMBDAS
+from forcetorque.study.candidate_selection import SWEEP_LAMBDAS
 
 DATA_SETS, TYPES = 3, len(ESTIMATION_TYPES)
 FITS = DATA_SETS * TYPES * len(SWEEP_LAMBDAS)

@@ -9,7 +9,7 @@ data and marking gaps are not counted.
 from __future__ import annotations
 
 from forcetorque.robot.compiled.plan import Plan, plan_of
-from forcetorque.robot.mechanics.question import Question, needs_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, needs_of
 
 _ADD, _DOT, _CROSS, _ROTATE, _TURN_Z = 3, 5, 9, 15, 6
 _SWING = _CROSS + 2 * _DOT + 4 * _ADD  # alpha x r + (omega . r) omega - (omega . omega) r

@@ -13,7 +13,7 @@ import icub_models
 
 from benchmarks.dynamics.problem import ROOT, Ours, Problem, make_problem
 from forcetorque.robot.compiled import run
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 

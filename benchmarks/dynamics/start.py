@@ -41,7 +41,7 @@ def _first_result() -> None:
     import numpy as np
 
     from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-    from forcetorque.robot.mechanics.question import Question
+    from forcetorque.robot.mechanics.estimated_quantities import Question
     from forcetorque.robot.motion import JointMotion, RootMotion
     from forcetorque.robot.tree import build_tree
     from forcetorque.robot.urdf import read_urdf

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.app.python.arrays import experiment_of_arrays as experiment_of_arrays
     from forcetorque.app.python.experiment import (
         Experiment as Experiment,
         calibrate_jointly as calibrate_jointly,
         load_experiment as load_experiment,
     )
-    from forcetorque.app.python.tables import (
+    from forcetorque.app.python.experiment_of_arrays import experiment_of_arrays as experiment_of_arrays
+    from forcetorque.app.python.experiment_of_tables import (
         experiment_of_tables as experiment_of_tables,
         stream_of_arrays as stream_of_arrays,
     )
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from forcetorque.base.errors import ForceTorqueError as ForceTorqueError
     from forcetorque.calibration.calibrate import calibrate_sensor as calibrate_sensor
     from forcetorque.calibration.thesis.calibrate import calibrate as calibrate
-    from forcetorque.contests.command import contest as contest
+    from forcetorque.contests.commands import contest as contest
     from forcetorque.evaluation.commands import evaluate as evaluate
-    from forcetorque.experiment.calibration.artefact import (
+    from forcetorque.experiment.calibration.calibration_file import (
         Calibration as Calibration,
         read_calibration as read_calibration,
         write_calibration as write_calibration,
@@ -69,7 +69,7 @@ CAPABILITIES = (
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    Calibration="forcetorque.experiment.calibration.artefact",
+    Calibration="forcetorque.experiment.calibration.calibration_file",
     DataSet="forcetorque.experiment.calibration.moments",
     Experiment="forcetorque.app.python.experiment",
     ForceTorqueError="forcetorque.base.errors",
@@ -80,20 +80,20 @@ __all__, __getattr__, __dir__ = lazy_names(
     calibrate_jointly="forcetorque.app.python.experiment",
     calibrate_sensor="forcetorque.calibration.calibrate",
     calibrate_skin="forcetorque.skin.commands",
-    contest="forcetorque.contests.command",
+    contest="forcetorque.contests.commands",
     evaluate="forcetorque.evaluation.commands",
     expected_wrenches="forcetorque.robot.dynamics",
-    experiment_of_arrays="forcetorque.app.python.arrays",
-    experiment_of_tables="forcetorque.app.python.tables",
+    experiment_of_arrays="forcetorque.app.python.experiment_of_arrays",
+    experiment_of_tables="forcetorque.app.python.experiment_of_tables",
     load_experiment="forcetorque.app.python.experiment",
     plan_jointly="forcetorque.planning.joint_calibration_plan",
-    read_calibration="forcetorque.experiment.calibration.artefact",
+    read_calibration="forcetorque.experiment.calibration.calibration_file",
     read_recording="forcetorque.recording.storage",
     read_urdf="forcetorque.robot.urdf",
     run="forcetorque.app.run.run",
     skin_wrench="forcetorque.skin.commands",
-    stream_of_arrays="forcetorque.app.python.tables",
+    stream_of_arrays="forcetorque.app.python.experiment_of_tables",
     wrench_errors="forcetorque.experiment.calibrations_under_test",
-    write_calibration="forcetorque.experiment.calibration.artefact",
+    write_calibration="forcetorque.experiment.calibration.calibration_file",
     write_recording="forcetorque.recording.storage",
 )

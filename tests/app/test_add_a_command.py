@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.report.sources import sort_sources
+from forcetorque.report.sorted_input_files import sort_sources
 from tests.app import test_help_and_schema as every_command
 from tests.app.added_command import GROUP, GROUP_COMMAND, NAME, added_command, added_group
 from tests.app.json_schema import faults

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.file import ExperimentFile, experiment_file
+from forcetorque.experiment.experiment_file import ExperimentFile, experiment_file
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats import registry as formats
 from forcetorque.recording.storage import read_recording

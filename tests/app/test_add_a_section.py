@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ExperimentError, FormatError
-from forcetorque.experiment.file import experiment_file
+from forcetorque.experiment.experiment_file import experiment_file
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.section import sections
 from tests.app.added_command import added_folder

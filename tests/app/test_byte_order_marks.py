@@ -11,15 +11,15 @@ import pytest
 
 import forcetorque
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.contests.entries import read_entries
+from forcetorque.contests.contest_file import read_entries
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.locomotion.torque_control.file import read_torque_loop
-from forcetorque.report.sources import sort_sources
-from forcetorque.simulation.scenario.file import bundled_scenario
+from forcetorque.locomotion.torque_control.torque_loop_file import read_torque_loop
+from forcetorque.report.sorted_input_files import sort_sources
 from forcetorque.simulation.scenario.scenario import load_scenario
-from forcetorque.workbench.recording import read_bench
+from forcetorque.simulation.scenario.scenario_file import bundled_scenario
+from forcetorque.workbench.bench_recording import read_bench
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET
 
@@ -70,6 +70,6 @@ def test_another_encoding_is_still_refused(tmp_path: Path) -> None:
 def test_one_function_reads_toml_files() -> None:
     """`tomllib` is elsewhere only given texts of our own or of an option."""
     users = {path.relative_to(ROOT).as_posix() for path in ROOT.rglob("*.py") if "tomllib" in path.read_text()}
-    drafts = {f"inspection/draft/{name}.py" for name in ("draft", "edits", "first_look", "proposals", "questions")}
+    drafts = {f"inspection/draft/{name}.py" for name in ("draft", "first_look", "proposals", "questions", "toml_edits")}
     options = {"formats/specified_keys.py", "payload/log_without_experiment.py"}
     assert users == {"base/toml_file.py"} | drafts | options

@@ -13,7 +13,7 @@ import pytest
 
 from forcetorque.app.command_line import whole_program
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.experiment.input_files import Inputs
+from forcetorque.experiment.named_files import Inputs
 from forcetorque.formats.registry import LOG_FORMATS, format_name
 from forcetorque.formats.ros.log_format import RosFormat
 from tests.app.commands import typed_commands

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.results.result import Result
-from forcetorque.results.terminal.output import Format, show
+from forcetorque.results.terminal.command_output import Format, show
 from tests.app.outcome import Outcome, Run
 from tests.scenes.experiments import PARQUET, YARP, edit, snapshot
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.artefact import Calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, write_calibration
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.cases import some_cases

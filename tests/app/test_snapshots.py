@@ -23,12 +23,12 @@ from forcetorque.app.command_line import commands, whole_program
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.sensor_record import AddOptions
-from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_standing
+from forcetorque.plates.simulated_plates import SimulatedPlate, write_pole_trial, write_standing
 from forcetorque.results.answer import MOST_LINES
 from forcetorque.results.capability import named
 from forcetorque.results.command import command_of
 from forcetorque.results.result import Result
-from forcetorque.results.terminal import output
+from forcetorque.results.terminal import command_output as output
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.added_command import added_command
 from tests.app.commands import question_of, typed_commands

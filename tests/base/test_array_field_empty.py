@@ -10,7 +10,7 @@ import pytest
 from pydantic import ValidationError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 
 
 class _Kept(StoredTable):

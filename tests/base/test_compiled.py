@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from forcetorque.base.compiled import announced, frozen, source_digest
+from forcetorque.base.compiled_functions import announced, frozen, source_digest
 
 
 def test_any_change_of_a_source_changes_the_digest(tmp_path: Path) -> None:

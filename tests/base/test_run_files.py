@@ -15,14 +15,14 @@ import pytest
 from forcetorque.base.errors import OutputError
 from forcetorque.base.output_file import declare_outputs, is_replaceable, refuse_output, write_bytes_atomically
 from forcetorque.base.run_files import declare_input, declare_output, files_of_one_run
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.calibration.stored_moments import read_moments
-from forcetorque.experiment.input_files import Inputs
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.named_files import Inputs
 from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.formats.prior.registry import read_prior_file
 from forcetorque.formats.registry import recognised_format
-from forcetorque.report.sources import sort_sources
+from forcetorque.report.sorted_input_files import sort_sources
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch

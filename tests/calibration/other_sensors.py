@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import make_pose
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting
 from tests.calibration.push_error import Case
 
 NOISE_COUNTS = 3.0

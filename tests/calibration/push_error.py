@@ -21,7 +21,6 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import (
     INTERVAL_MARGIN_S,
     Scenario,
@@ -30,6 +29,7 @@ from forcetorque.simulation.scenario.scenario import (
     simulate,
     trace_recordings,
 )
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.sensor_family import Specimen
 from forcetorque.simulation.trace import Trace
 from forcetorque.study.candidate_errors import push_error, pushes

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
-from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting, y_shaped_matrix
 
 LIMIT_COUNTS = 32767.0
 PRIOR = y_shaped_matrix(arm_m=0.02, counts_per_newton=25.0)

@@ -37,7 +37,7 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES,
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.loading import fit_options
-from forcetorque.experiment.core_tables import CalibrationTable
+from forcetorque.experiment.experiment_file_tables import CalibrationTable
 from forcetorque.study.candidate_fits import fit_candidates
 
 rng = np.random.default_rng(1)

@@ -13,9 +13,9 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from forcetorque.calibration.answers import calibration_answer
 from forcetorque.calibration.calibrate import calibrate_for_file, channel_names
-from forcetorque.calibration.summary import calibration_answer
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import edit, snapshot, write_sharing
@@ -65,7 +65,7 @@ def test_memory_of_all_samples_is_stated(days: Path, run: Run, monkeypatch: pyte
     """Where a fit holds them all and that is much; a fit of segments says nothing."""
     thesis = ("calibrate", CALIBRATION[0], "--lambda", "5", "-o", "a.json", "--force")
     assert "GB of memory" not in run(*thesis).err
-    monkeypatch.setattr("forcetorque.calibration.calibrate_command._LARGE_BYTES", 1)
+    monkeypatch.setattr("forcetorque.calibration.commands._LARGE_BYTES", 1)
     assert "samples at once, about 0.5 GB of memory; without it" in run(*thesis).err
     assert "GB of memory" not in run("calibrate", CALIBRATION[0], "-o", "b.json").err
 

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError, FitError, FormatError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.thesis.calibrate import sphere_centre
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES, EstimationType
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.experiment import Experiment

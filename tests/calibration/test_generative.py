@@ -19,7 +19,7 @@ from forcetorque.calibration.thesis.regression import solve
 from forcetorque.experiment.calibration.estimation_type import Estimation
 from forcetorque.experiment.calibration.moments import Moments, WindowMeans
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
-from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting
 from tests.calibration.synthetic import (
     LIMIT_COUNTS,
     MOUNTED,

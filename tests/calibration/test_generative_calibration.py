@@ -15,7 +15,12 @@ from forcetorque.base.errors import ExperimentError, FitError, FormatError, Miss
 from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sensor, fit_doubts
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, read_calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import (
+    GENERATIVE,
+    Calibration,
+    read_calibration,
+    write_calibration,
+)
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment

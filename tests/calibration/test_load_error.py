@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
-from forcetorque.calibration.moments import load_error_of
+from forcetorque.calibration.moments_of_samples import load_error_of
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows

@@ -12,14 +12,14 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.noise.window_means import means_over
 from forcetorque.base.pose import rotation_about_z
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
 from forcetorque.calibration.generative.fit import GenerativeFit, SolvedRows, fit_generative
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration import expected_sensor_errors
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelError, ModelTolerance, TermKind

@@ -14,7 +14,7 @@ from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.joint.unknowns import UNITS, SensorPrior
-from forcetorque.calibration.moments import assumptions_of
+from forcetorque.calibration.moments_of_samples import assumptions_of
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions, stated_prior_size
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.loading import load_experiment

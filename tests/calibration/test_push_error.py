@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, REPEATABILITY
-from forcetorque.simulation.scenario.file import LINEAR_ONLY
+from forcetorque.simulation.scenario.scenario_file import LINEAR_ONLY
 from tests.calibration.other_sensors import FAMILIES, with_eight_channels, with_error
 from tests.calibration.push_error import Case, cases
 

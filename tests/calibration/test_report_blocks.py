@@ -11,7 +11,7 @@ import pytest
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.report_blocks import excitation_blocks, lambda_blocks, learnt_blocks, uncertainty_blocks
 from forcetorque.calibration.summary import information_gains
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.report.sensor_assessment import Assessment

@@ -104,7 +104,7 @@ def test_a_correction_takes_most_of_the_error_of_the_model_away(arm: Path, run: 
 
 
 def _written(arm: Path, wrong: Path) -> Path:
-    from forcetorque.robot.model_text import corrected_urdf_text
+    from forcetorque.robot.urdf_and_mjcf_text import corrected_urdf_text
 
     model = WRONG.applied_to(read_urdf(arm / "arm.urdf"))
     wrong.write_text(corrected_urdf_text(arm / "arm.urdf", model), encoding="utf-8")

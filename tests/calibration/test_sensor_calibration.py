@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import load_experiment as interactive_experiment
+from forcetorque.app.python.experiment_of_arrays import experiment_of_arrays
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, calibrate_sensor, data_doubts
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use

@@ -15,11 +15,11 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import cross
+from forcetorque.collisions.collision_and_sole_events import with_collisions
 from forcetorque.collisions.collisions import find_collisions
-from forcetorque.collisions.findings import with_collisions
-from forcetorque.collisions.free_model import FreeChanges, matrix_errors
-from forcetorque.collisions.residual import Level, changes_of, signals_of, split_columns
+from forcetorque.collisions.contact_free_model import FreeChanges, matrix_errors
 from forcetorque.collisions.result import Collisions
+from forcetorque.collisions.sensor_residual import Level, changes_of, signals_of, split_columns
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment
@@ -266,7 +266,7 @@ def test_collisions_stand_among_other_findings(folder: Path, tmp_path: Path, mon
         for at in (10**9, 20 * 10**9)
     )
     assert [one.kind for one in with_collisions(lambda: others, experiment, {})] == ["gap", "collision", "gap"]
-    monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 10.0)
+    monkeypatch.setattr("forcetorque.collisions.collision_and_sole_events.LONGEST_S", 10.0)
     assert [one.kind for one in with_collisions(lambda: others, experiment, {})] == ["not_compared", "gap", "gap"]
     ignored = experiment.recording.with_intervals([])
     untold, *left = with_collisions(lambda: others, replace(experiment, recording=ignored), {})

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError
-from forcetorque.collisions.by_torques import find_joint_collisions
-from forcetorque.collisions.momentum import ArmMotion, external_torque, low_passed
+from forcetorque.collisions.collisions_by_joint_torques import find_joint_collisions
+from forcetorque.collisions.momentum_observer import ArmMotion, external_torque, low_passed
 from forcetorque.collisions.result import JointCollisions, TorqueContactRow
 from forcetorque.experiment.loading import Purpose, load_experiment
 from tests.app.outcome import Run

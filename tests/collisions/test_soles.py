@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.collisions.collision_and_sole_events import events_on_soles, with_collisions
 from forcetorque.collisions.collisions import find_collisions
-from forcetorque.collisions.findings import events_on_soles, with_collisions
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.section import SOLES as SECTION
@@ -105,7 +105,7 @@ def test_of_a_long_log_the_soles_that_were_not_tested_are_named(
     standing: Standing, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """By the sensor next to them; a sensor without one says nothing of soles."""
-    monkeypatch.setattr("forcetorque.collisions.findings.LONGEST_S", 0.0)
+    monkeypatch.setattr("forcetorque.collisions.collision_and_sole_events.LONGEST_S", 0.0)
     found = {one.stream: one.message for one in with_collisions(tuple, standing.experiment, {})}
     streams = {one.name: one.stream for one in standing.experiment.sensors}
     assert "; no test of what presses on r_sole; see `robot balance`" in found[streams[FOOT]]

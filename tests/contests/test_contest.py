@@ -11,15 +11,15 @@ import pytest
 from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.contests.command import contest
-from forcetorque.contests.entries import Contestant, ContestRun, Entries, Method
-from forcetorque.contests.ranking import Contest
+from forcetorque.contests.commands import contest
+from forcetorque.contests.contest_file import Contestant, ContestRun, Entries, Method
+from forcetorque.contests.contest_scores import Contest
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use
 from forcetorque.sensor.catalogue import find_sensor
-from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.loads import THESIS_TABLE, read_loads
-from forcetorque.workbench.recording import BenchRecording
+from forcetorque.workbench.bench_recording import BenchRecording
+from forcetorque.workbench.known_loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.position_means import Bench
 from tests.device.device_contest import DEVICE, NOISE, maker, planted, run_of
 
 JUDGED, FITTED = (10.0, 20.0), (5.0, 25.0)
@@ -74,7 +74,7 @@ def test_the_planted_one_wins_and_the_others_are_equal(entries: Entries) -> None
 
 def test_unlike_loads_have_no_winner(entries: Entries, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same stack, were moments about unlike levers no one load: errors in % of the loads of all rank nobody."""
-    monkeypatch.setattr("forcetorque.contests.ranking._ONE_STACK", 1.2)
+    monkeypatch.setattr("forcetorque.contests.contest_scores._ONE_STACK", 1.2)
     result = contest(entries)
     assert (result.comparable, result.winner) == (False, None)
     assert next(iter(result.answers())).verdict == "NOT COMPARABLE"

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.contests.ranking import Contest
-from forcetorque.report.sections import result_figures
+from forcetorque.contests.contest_scores import Contest
+from forcetorque.report.report_sections import result_figures
 from forcetorque.results.document.content import Figure
 from tests.app.outcome import Run
 from tests.page_scripts import unmarked

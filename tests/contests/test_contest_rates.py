@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.contests.command import contest
-from forcetorque.contests.entries import Contestant, Entries, Method
-from forcetorque.contests.ranking import Contest
+from forcetorque.contests.commands import contest
+from forcetorque.contests.contest_file import Contestant, Entries, Method
+from forcetorque.contests.contest_scores import Contest
 from forcetorque.recording.recording import Use
 from tests.device.device_contest import DEVICE, maker, planted, run_of
 

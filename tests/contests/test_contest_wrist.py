@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import ExperimentError, FormatError
-from forcetorque.contests.command import contest
-from forcetorque.contests.entries import read_entries
+from forcetorque.contests.commands import contest
+from forcetorque.contests.contest_file import read_entries
 from tests.scenes.wrist_contest import write_contest, write_runs
 
 

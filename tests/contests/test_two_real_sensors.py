@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.contests.command import contest
-from forcetorque.contests.entries import read_entries
+from forcetorque.contests.commands import contest
+from forcetorque.contests.contest_file import read_entries
 
 YOGA = Path(__file__).parents[2] / "examples" / "04_icub_yoga_quiet.toml"
 FOOT_STREAM = """\

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.dataset.figure import episodes_figure
+from forcetorque.dataset.figures import episodes_figure
 from forcetorque.dataset.result import DatasetCheck, DatasetFinding, EpisodeFieldRow, Kind
 
 

@@ -12,8 +12,8 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.dataset import check_dataset
+from forcetorque.dataset.checks_over_episodes import changes, kendall
 from forcetorque.dataset.result import DatasetCheck, Kind, episodes_text
-from forcetorque.dataset.set_checks import changes, kendall
 from tests.formats.lerobot.datasets import tool_episodes, write_dataset
 
 WRENCH = "observation.wrench"

@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.contests.entries import PHASES, Contestant, ContestRun, Method
+from forcetorque.contests.contest_file import PHASES, Contestant, ContestRun, Method
 from forcetorque.contests.phases import MotionPath, trial_by_phase
 from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response
-from forcetorque.device.model import device_model
 from forcetorque.device.motion import DeviceTrajectory, twelve_steps
+from forcetorque.device.robot_model import device_model
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, FitOptions, Role
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.recording.smoothing import SavitzkyGolay

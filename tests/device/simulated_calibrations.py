@@ -12,9 +12,9 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.device.excitation_options import FAMILY, NOISE_COUNTS, SAMPLES, held_out_loads
 from forcetorque.device.tolerances import Poses, Tolerances
 from forcetorque.simulation.sensor_family import FAMILIES
-from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import RANK_TOLERANCE, load_sizes
-from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.known_loads import BenchLoads
+from forcetorque.workbench.position_means import Placement
 from forcetorque.workbench.simulated_benches import simulate_bench
 
 

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from forcetorque.device.components import Turn, device_load, part_inertia
 from forcetorque.device.device_file import read_device
-from forcetorque.device.model import BASE, device_model
+from forcetorque.device.robot_model import BASE, device_model
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree

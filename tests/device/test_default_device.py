@@ -10,8 +10,8 @@ from forcetorque.base.errors import SensorError
 from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response
-from forcetorque.device.model import device_model
 from forcetorque.device.motion import twelve_steps
+from forcetorque.device.robot_model import device_model
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.device.command import design_device
+from forcetorque.device.commands import design_device
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
 from forcetorque.device.simulated_recordings import write_device
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.robot.urdf import read_urdf
 from tests.app.outcome import Run
 from tests.scenes.device_designs import hardly_optimise

@@ -13,7 +13,7 @@ from forcetorque.device.components import device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
-from forcetorque.device.mechanical_demands import average_torque
+from forcetorque.device.motors_hinge_and_envelope import average_torque
 from forcetorque.device.requirements import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.tolerances import Tolerance
 

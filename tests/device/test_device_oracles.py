@@ -12,11 +12,11 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response
-from forcetorque.device.model import BASE, device_model, device_root
 from forcetorque.device.motion import DeviceTrajectory, twelve_steps
-from forcetorque.robot.model_text import urdf_text, write_urdf
+from forcetorque.device.robot_model import BASE, device_model, device_root
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.urdf_and_mjcf_text import urdf_text, write_urdf
 from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.pinocchio_oracle import Pinocchio
 from tests.scenes.robots import random_motion

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.device.mechanical_demands import MotorRow, average_torque, motor_row, path_rad
+from forcetorque.device.motors_hinge_and_envelope import MotorRow, average_torque, motor_row, path_rad
 
 HALF_SINE = (4.0 / (3.0 * np.pi)) ** (1.0 / 3.0)
 """Cubic mean of a half-sine over its peak, in closed form: 0.7515."""

@@ -8,8 +8,8 @@ import pytest
 
 from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.mechanical_demands import ARM_RADIUS_M, EnvelopeRow, envelope
 from forcetorque.device.motion import Sequence, twelve_steps
+from forcetorque.device.motors_hinge_and_envelope import ARM_RADIUS_M, EnvelopeRow, envelope
 
 DEVICE = read_device().with_sensors(3)
 LOAD = device_load(DEVICE, 35.0)

@@ -15,6 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
+from forcetorque.device.excitation import device_span, direction_rows, optimised_motion, sensor_span_row
 from forcetorque.device.excitation_options import (
     SAMPLES,
     ExcitationOption,
@@ -29,11 +30,10 @@ from forcetorque.device.excitation_options import (
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory, joint_ranges
 from forcetorque.device.optimised_motion import Designer
-from forcetorque.device.spanned_directions import device_span, direction_rows, optimised_motion, sensor_span_row
 from forcetorque.device.tolerances import RestTable, Tolerances
-from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span
-from forcetorque.workbench.loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.known_loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.position_means import Placement
 from tests.device.simulated_calibrations import bench_error, device_error
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from forcetorque.base.errors import RobotError, SensorError
 from forcetorque.device.components import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.mechanical_demands import HingePath, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
+from forcetorque.device.motors_hinge_and_envelope import HingePath, hinge_ways, lag_rad, pendulum_Nm
 
 DEVICE = read_device()
 

@@ -9,8 +9,8 @@ import pytest
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.device.components import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.device_file import read_device
-from forcetorque.device.model import hanging
 from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
+from forcetorque.device.robot_model import hanging
 from forcetorque.robot.motion import JointMotion
 
 DIFFERENCE = 1e-4

@@ -8,7 +8,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.estimate import narrowed
 from forcetorque.robot.contacts import Contact, ContactType
-from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import BIPED_URDF

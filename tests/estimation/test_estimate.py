@@ -13,7 +13,7 @@ from forcetorque.base.errors import EstimationError, ExperimentError, RecordingE
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

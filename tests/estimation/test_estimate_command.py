@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.estimation.estimate import estimate_experiment
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.recording.storage import read_recording, write_recording

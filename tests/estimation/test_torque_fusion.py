@@ -17,8 +17,8 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import EstimateSummary, summarise_estimates
 from forcetorque.estimation.torque import experiment_sources
 from forcetorque.estimation.torque.experiment_fusion import fuse_experiment
-from forcetorque.estimation.torque.motor import Friction, fit_friction
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.estimation.torque.motor_torque import Friction, fit_friction
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun

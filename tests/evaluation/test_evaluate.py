@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError, SerialNumberError, ShapeErr
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

@@ -19,10 +19,10 @@ from forcetorque.evaluation.trials.comparison import Comparison
 from forcetorque.evaluation.trials.trials import read_trials
 from forcetorque.evaluation.validation.validation import validation
 from forcetorque.experiment.free_sub_model import SubModelChoice
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.long_recording import is_long
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.fingerprint import window_hashes
 from tests.scenes.campaigns import FITTED, by_day, run_of, two_days

@@ -15,7 +15,7 @@ from forcetorque.evaluation.matrix_checks import (
     most_unusual,
     position_in_population,
 )
-from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting, y_shaped_matrix
 
 TYPE = y_shaped_matrix(arm_m=0.02, counts_per_newton=25.0)
 USUAL, UNUSUAL = 6.0, 12.0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.base.noise.means import mean_error
+from forcetorque.base.noise.window_means import mean_error
 from forcetorque.experiment.calibrations_under_test import errors_from_zero, wrench_errors
 from forcetorque.experiment.evaluated_wrenches import offset_removed
 

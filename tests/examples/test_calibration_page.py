@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.experiment.core_tables import CalibrationTable
+from forcetorque.experiment.experiment_file_tables import CalibrationTable
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = "".join(

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.experiment.calibration.artefact import read_calibration
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.calibration.calibration_file import read_calibration
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.icub_matrix import read_matrix_file
 from tests.app.outcome import typed

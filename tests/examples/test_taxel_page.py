@@ -7,7 +7,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from forcetorque.experiment.file import experiment_file
+from forcetorque.experiment.experiment_file import experiment_file
 from forcetorque.skin.taxels.taxel_curve import CurveKind
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "skin" / "taxels.md").read_text(encoding="utf-8")

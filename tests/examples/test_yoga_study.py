@@ -9,7 +9,7 @@ import pytest
 
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.study.selection import SWEEP_LAMBDAS
+from forcetorque.study.candidate_selection import SWEEP_LAMBDAS
 from forcetorque.study.study import study_sensor
 from forcetorque.study.study_data import read_study_data
 

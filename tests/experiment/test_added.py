@@ -23,11 +23,11 @@ from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import compare, evaluate, validate
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.experiment.additions import added_to, with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
+from forcetorque.experiment.recording_notes import added_to, with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.locomotion.commands import coherence
 from forcetorque.locomotion.logged_signals import motion_signals

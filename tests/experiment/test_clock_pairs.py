@@ -16,7 +16,7 @@ from forcetorque.base.errors import RecordingError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.clocks import aligned_clocks
-from forcetorque.experiment.file import experiment_file
+from forcetorque.experiment.experiment_file import experiment_file
 from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream

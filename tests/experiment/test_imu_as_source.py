@@ -19,8 +19,8 @@ from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.stream import Signal
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.simulation.recordings import write_scenario
-from forcetorque.simulation.scenario.file import ScenarioFile
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile
 from tests.scenes.experiments import edit
 
 LIMITS_N = {"l_foot_ft": (1e-3, 0.1, 0.02), "l_leg_ft": (4e-3, 0.4, 0.1)}

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.streams import RecordedLog, load_recorded
+from forcetorque.experiment.robot_and_streams import RecordedLog, load_recorded
 from forcetorque.locomotion.standing.foot_wrenches import FootForces, load_foot_forces
 from forcetorque.skin.patches_of_experiment import PatchExperiment
 from forcetorque.skin.section import load_patches

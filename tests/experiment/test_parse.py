@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError, OutputError
 from forcetorque.base.run_files import declare_output, files_of_one_run
-from forcetorque.experiment.core_tables import Smoothing
-from forcetorque.experiment.file import ExperimentFile, parse_experiment
+from forcetorque.experiment.experiment_file import ExperimentFile, parse_experiment
+from forcetorque.experiment.experiment_file_tables import Smoothing
 from forcetorque.formats.registry import ParquetLog
 from forcetorque.formats.ros.log_format import RosLog
 from forcetorque.formats.tabular.log_format import TabularLog

@@ -19,7 +19,7 @@ from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import read_recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.simulation.sensor import calibrated_by_board
+from forcetorque.simulation.simulated_sensor import calibrated_by_board
 from tests.formats.robometry.logger import Leaf, write_log
 from tests.formats.ros.bags import Types, write_bag
 from tests.scenes.experiments import FACTORY, JOINTS, YARP, edit

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.evaluation.matrix_checks import most_unusual, position_in_population
 from forcetorque.experiment.applicability import read_population
-from forcetorque.experiment.calibration.artefact import write_calibration
+from forcetorque.experiment.calibration.calibration_file import write_calibration
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from tests.scenes.calibrations import FACTORY, MOUNTED, make_calibration
 

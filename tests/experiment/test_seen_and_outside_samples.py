@@ -13,13 +13,13 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.commands import export_calibrations
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.result import summarise_estimates
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.evaluation.commands import evaluate, validate
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, read_calibration, write_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.seen_and_outside_samples import SamplesOutside, sentences

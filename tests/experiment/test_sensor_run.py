@@ -15,8 +15,8 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate, validate
-from forcetorque.experiment import sensor_samples as samples_module
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment import interval_samples as samples_module
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
@@ -125,7 +125,7 @@ def test_a_segment_counts_as_its_recording(run: SensorRun, monkeypatch: pytest.M
     """A long recording is compiled for however short its segments are."""
     chosen = []
     monkeypatch.setattr(
-        sys.modules["forcetorque.experiment.sensor_samples"],
+        sys.modules["forcetorque.experiment.interval_samples"],
         "evaluator_of_samples",
         lambda samples, **_: chosen.append(samples),
     )

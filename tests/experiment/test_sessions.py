@@ -16,7 +16,7 @@ from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces
-from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import Calibration, SessionOffset
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of

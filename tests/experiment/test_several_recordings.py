@@ -15,7 +15,7 @@ from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.validation_evidence import compare_with_prior
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Use
 from tests.scenes.campaigns import FITTED, by_day, run_of, two_days

@@ -16,11 +16,11 @@ from forcetorque.calibration.calibrate import calibrate_for_file, calibrate_sens
 from forcetorque.calibration.joint.untouched_interval import joint_interval
 from forcetorque.calibration.reduced_recordings import store_moments
 from forcetorque.evaluation.commands import evaluate, validate
-from forcetorque.experiment.additions import added_to
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, read_calibration
 from forcetorque.experiment.calibration.stored_moments import read_moments
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.experiment.sample_quality import sample_quality, unusable_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment

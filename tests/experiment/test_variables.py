@@ -13,10 +13,10 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
-from forcetorque.experiment.additions import added_to
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import EvenGrid, SavitzkyGolay, smooth

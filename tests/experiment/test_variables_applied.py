@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError, RecordingError, SerialNumbe
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import is_invertible
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
@@ -25,7 +25,7 @@ from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording
 from forcetorque.sensor.gains.gains import select_gains
-from forcetorque.simulation.sensor import calibrated_by_board
+from forcetorque.simulation.simulated_sensor import calibrated_by_board
 from tests.scenes.experiments import FACTORY, PARQUET, edit
 from tests.scenes.warm_experiments import (
     PER_DEGREE,

@@ -19,8 +19,8 @@ from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording
-from forcetorque.simulation.network import fail_groups, lose_messages
-from forcetorque.simulation.sensor import calibrated_by_board
+from forcetorque.simulation.network_faults import fail_groups, lose_messages
+from forcetorque.simulation.simulated_sensor import calibrated_by_board
 from tests.scenes.experiments import PARQUET, YARP, edit
 
 PORTS = (

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.fleet.pool import Outcome, failed
+from forcetorque.fleet.process_pool import Outcome, failed
 
 
 class InProcess:

@@ -18,10 +18,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.experiment.calibration.artefact import read_calibration
-from forcetorque.fleet import pool as pool_module
-from forcetorque.fleet.dataset import Dataset
-from forcetorque.fleet.pool import DaskPool, LocalPool, Outcome
+from forcetorque.experiment.calibration.calibration_file import read_calibration
+from forcetorque.fleet import process_pool as pool_module
+from forcetorque.fleet.parquet_dataset import Dataset
+from forcetorque.fleet.process_pool import DaskPool, LocalPool, Outcome
 from forcetorque.fleet.run import run_plan
 
 LOST = "the cluster lost the job: its scheduler was restarted, or all workers ended; run the plan again"

@@ -19,19 +19,19 @@ from forcetorque.base.errors import ExperimentError, FitError, FormatError, Miss
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import validation_errors
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.add import add_recording, add_recordings
-from forcetorque.fleet.columns import columns_of, rows_of, schema_of, unit_of
-from forcetorque.fleet.dataset import Dataset, is_dataset
+from forcetorque.fleet.analyses_of_dataset import COMMANDS, FROM_LOGS, DatasetLogs
 from forcetorque.fleet.evaluate import evaluate_dataset
-from forcetorque.fleet.from_dataset import COMMANDS, FROM_LOGS, DatasetLogs
+from forcetorque.fleet.parquet_columns import columns_of, rows_of, schema_of, unit_of
+from forcetorque.fleet.parquet_dataset import Dataset, is_dataset
+from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.report import fleet_report_of
 from forcetorque.fleet.report_page import page
 from forcetorque.fleet.run import CalibrateJob, run_calibrate
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
-from forcetorque.fleet.source import RecordingSource
 from forcetorque.fleet.table import fleet_table_of
 from tests.app.outcome import Run
 from tests.scenes.studies import CALIBRATION as _ALL_CALIBRATION, SERIAL, VALIDATION
@@ -310,7 +310,7 @@ def test_records_survive_a_file(added: Path) -> None:
 @pytest.fixture
 def in_rows(added: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The same dataset with a row for every few seconds of an interval."""
-    monkeypatch.setattr("forcetorque.fleet.dataset._ROW_WINDOWS", 5)
+    monkeypatch.setattr("forcetorque.fleet.parquet_dataset._ROW_WINDOWS", 5)
     dataset = Dataset(tmp_path / "rows")
     for record in Dataset(added).records(Dataset(added).files):
         dataset.write(record, OPTIONS)

@@ -16,11 +16,12 @@ import pytest
 
 from forcetorque.base.errors import ChangingFileError, ExperimentError, FormatError, OutputError
 from forcetorque.fleet import add
-from forcetorque.fleet.add import Failures, add_recording, stored_failures
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.add import add_recording
+from forcetorque.fleet.failed_recordings import Failures, stored_failures
+from forcetorque.fleet.parquet_dataset import Dataset
+from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.run import run_plan
 from forcetorque.fleet.sensor_record import AddOptions
-from forcetorque.fleet.source import RecordingSource
 from tests.fleet.pools import InProcess
 
 FILES = ("day_1.toml", "day_2.toml")

@@ -19,17 +19,17 @@ from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.contact_windows import Disagreeing
-from forcetorque.calibration.moments import SegmentedMoments
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.calibration.moments_of_samples import SegmentedMoments
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moment_blocks import joined
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.long_recording import joined_findings, recorded_segments
 from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord, sensor_records
 from forcetorque.fleet.stored_validation_data import evaluated_variables
 from forcetorque.recording.recording import Finding, Interval, Use
@@ -260,7 +260,7 @@ def test_what_disagrees_beyond_a_border_counts_before_it(recorded: Path, monkeyp
         ]
         return [~(marks & seen) for marks, seen in zip(near, touched, strict=True)], tuple(spans)
 
-    monkeypatch.setattr("forcetorque.calibration.moments.agreeing_samples", agreeing)
+    monkeypatch.setattr("forcetorque.calibration.moments_of_samples.agreeing_samples", agreeing)
     records = _records(file, monkeypatch)
     (whole,), (segmented,) = map(_intervals, records)
     assert whole.dropped > 0

@@ -9,7 +9,7 @@ import signal
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.fleet.pool import LocalPool, Outcome
+from forcetorque.fleet.process_pool import LocalPool, Outcome
 
 
 def job(argument: int) -> int:

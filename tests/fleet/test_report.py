@@ -14,13 +14,13 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Reason
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.add import add_recordings
 from forcetorque.fleet.commands import fleet_report
-from forcetorque.fleet.dataset import Dataset
 from forcetorque.fleet.evaluate import evaluate_dataset
+from forcetorque.fleet.parquet_dataset import Dataset
 from forcetorque.fleet.report import FleetReport, _next
 from forcetorque.fleet.report_page import page
 from forcetorque.fleet.run import CalibrateJob, run_calibrate, run_plan

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, FormatError, MissingExtraError, MissingFileError, OutputError
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.fleet.parquet_dataset import Dataset
+from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.run import run_plan
-from forcetorque.fleet.source import RecordingSource
 from tests.app.outcome import Run
 from tests.fleet.pools import InProcess
 

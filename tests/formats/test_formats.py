@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogDescription, LogReading
 from forcetorque.formats.registry import (
     LOG_FORMATS,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.formats.kept_parts import are_kept, kept, parts_kept
+from forcetorque.formats.decoded_parts_cache import are_kept, kept, parts_kept
 
 
 def test_parts_are_decoded_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,7 +14,7 @@ from scipy.io import savemat
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FormatError, UnitError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import MatlabFormat
 from forcetorque.formats.array_file.streams import MatlabLog
 from forcetorque.formats.log_format import LogReading

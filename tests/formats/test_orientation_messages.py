@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FormatError, UnitError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.robometry.log_format import RobometryFormat, RobometryLog
 from forcetorque.formats.ros.log_format import RosFormat, RosLog

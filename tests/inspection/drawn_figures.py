@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.inspection.figure import findings_figure
+from forcetorque.inspection.figures import findings_figure
 from forcetorque.inspection.inspect import FindingRow, Inspection
 
 

@@ -13,7 +13,7 @@ from forcetorque.base.pose import rotation_about_z
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.comparison import Comparison, compared
+from forcetorque.inspection.comparison_with_model import Comparison, compared
 from forcetorque.inspection.diagnosis import Diagnosis, diagnosed, fault_finding, reversed_sensors
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.recording.joint_jumps import without_joint_jumps

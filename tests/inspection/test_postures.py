@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.inspection.postures import posture_tables, unexplained_postures
+from forcetorque.inspection.unexplained_postures import posture_tables, unexplained_postures
 from forcetorque.recording.recording import Finding
 from forcetorque.results.table import Table
 from tests.scenes.experiments import PARQUET, write_experiments

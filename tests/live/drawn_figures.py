@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.live.figure import live_figure
+from forcetorque.live.figures import live_figure
 from forcetorque.live.result import KeptSamples, LivePackets, LiveRun, LiveSensor
 
 

@@ -15,16 +15,16 @@ import pytest
 from forcetorque.base.errors import FitError, RecordingError, ShapeError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.live.choices import FaultPolicy, HeldQuantity, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.option_values import FaultPolicy, HeldQuantity, OffsetSource
 from forcetorque.live.sample_status import FAULTS, Status, status_of_device, status_text
 from forcetorque.live.sources import replayed_groups
-from forcetorque.live.tool import Tool
+from forcetorque.live.tool_weight import Tool
 from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 from tests.scenes.experiments import PARQUET
 

@@ -17,13 +17,13 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.formats.ros.wrench_message import read_wrench
-from forcetorque.live.figure import live_figure
+from forcetorque.live.figures import live_figure
 from forcetorque.live.result import KeptSamples
-from forcetorque.results.terminal.output import drawn_to
+from forcetorque.results.terminal.command_output import drawn_to
 from tests.app.outcome import Run, heed_interrupts
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
 from tests.live.drawn_figures import run_of

@@ -13,8 +13,8 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError, UnitError
 from forcetorque.live.corrector import Corrector
+from forcetorque.live.loop import LiveLoop
 from forcetorque.live.net_ft import HEADER, RECORD, REQUEST, START, STOP, CountUnits, NetFtSource, fetch_units
-from forcetorque.live.run import LiveLoop
 from tests.live.simulated_net_ft import BoxFaults, SimulatedBox
 from tests.scenes.calibrations import make_calibration
 

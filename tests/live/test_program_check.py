@@ -17,16 +17,16 @@ from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
-from forcetorque.live.choices import HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.loop import LiveLoop
+from forcetorque.live.option_values import HeldQuantity, Input, OffsetSource
 from forcetorque.live.program_check import program_checks
 from forcetorque.live.result import LiveRun
-from forcetorque.live.run import LiveLoop
 from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.settings import Settings
-from forcetorque.live.tool import Tool
+from forcetorque.live.tool_weight import Tool
 from forcetorque.payload.export.export import export_load
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.export.load_parameters import RobotLoad

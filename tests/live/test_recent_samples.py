@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from forcetorque.live.choices import FaultPolicy, HeldQuantity
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.option_values import FaultPolicy, HeldQuantity
 from forcetorque.live.packets import Packet
 from forcetorque.live.recent_samples import RecentSamples, Samples
 from forcetorque.live.sample_status import Status

@@ -17,9 +17,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingExtraError, RecordingError
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
 from forcetorque.formats.ros.wrench_message import WrenchEncoder, read_wrench
+from forcetorque.live.loop import LiveLoop
 from forcetorque.live.result import LiveRun
 from forcetorque.live.ros_topics import (
     WRENCH_HASH,
@@ -30,7 +31,6 @@ from forcetorque.live.ros_topics import (
     read_attachment,
     topic_key,
 )
-from forcetorque.live.run import LiveLoop
 from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings

@@ -20,15 +20,15 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.base.output_file import is_replaceable
-from forcetorque.experiment.calibration.artefact import SessionOffset
+from forcetorque.experiment.calibration.calibration_file import SessionOffset
 from forcetorque.formats.ros.wrench_message import read_wrench
 from forcetorque.live import outputs
-from forcetorque.live.choices import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.loop import LiveLoop
+from forcetorque.live.option_values import FaultPolicy, HeldQuantity, Input, OffsetSource
 from forcetorque.live.outputs import COLUMNS, CorrectedRow, UdpOutput, mcap_file, parquet_file
 from forcetorque.live.packets import Packet, PacketAccount, PacketCounts
 from forcetorque.live.result import LiveRun
-from forcetorque.live.run import LiveLoop
 from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario
 from tests.app.outcome import Run

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary
-from forcetorque.locomotion.torque_control.study import NO_ERROR, TorqueLoopRow, TorqueLoopStudy
+from forcetorque.locomotion.torque_control.torque_loop_study import NO_ERROR, TorqueLoopRow, TorqueLoopStudy
 from forcetorque.results.answer import Concern
 
 

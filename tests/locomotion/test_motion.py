@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, RecordingError, UnitError
-from forcetorque.experiment.streams import load_recorded
+from forcetorque.experiment.robot_and_streams import load_recorded
 from forcetorque.locomotion.logged_signals import motion_signals, motion_signals_of_arrays
 from forcetorque.locomotion.motion_quality import Motion, motion
-from forcetorque.recording.column import find_column
+from forcetorque.recording.named_columns import find_column
 from tests.page_scripts import unmarked
 from tests.scenes.swaying import OFFSET_NM, STEP_RAD, STEP_S, SWAY_HZ, SWAY_M, TORQUE_NM, write_swaying
 

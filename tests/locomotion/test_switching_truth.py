@@ -19,7 +19,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario, simulate
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from tests.scenes.switchings import short_switching
 
 ROUNDING_N = 1e-6

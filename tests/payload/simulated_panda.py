@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import make_pose
+from forcetorque.formats.arm_log import holding_torques
 from forcetorque.formats.franka.kinematics import joint_frames
-from forcetorque.formats.logged_torques import holding_torques
 from tests.payload.simulated_ur5 import RATE_HZ, held_and_moved, load_on_flange
 
 GRAVITY = 9.80665

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.loading import load_experiment

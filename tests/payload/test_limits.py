@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.formats.arm_log import FLANGE
 from forcetorque.payload.identification.load_estimates import BiasTestRow
 from forcetorque.payload.load_warnings import behind_flange, payload_doubts, torque_doubt
 from forcetorque.payload.result import LoadRow

@@ -19,7 +19,7 @@ from forcetorque.payload.load_by_joint_torques import TorqueLoad
 from forcetorque.payload.log_without_experiment import described_log, load_of_torque_logs
 from forcetorque.results.answer import MOST_LINES
 from forcetorque.robot.dynamics import link_pose
-from forcetorque.robot.installed import installed_robots
+from forcetorque.robot.installed_robots import installed_robots
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.noise.means import means_over, window_for
+from forcetorque.base.noise.window_means import means_over, window_for
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

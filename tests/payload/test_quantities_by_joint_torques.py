@@ -12,8 +12,8 @@ from scipy.stats import f, t
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
+from forcetorque.formats.arm_log import UNKNOWNS, LoggedTorques, holding_torques
 from forcetorque.formats.franka.kinematics import joint_frames
-from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques, holding_torques
 from forcetorque.payload.load_by_joint_torques import (
     TorqueLoad,
     _loads_differ,

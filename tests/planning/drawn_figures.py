@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.planning.figure import joint_plan_figure, plan_figure
+from forcetorque.planning.figures import joint_plan_figure, plan_figure
 from forcetorque.planning.joint_calibration_plan import JointPlan, JointPlanStep, SensorForecast
 from tests.planning.plans import plan_of, planned_recording
 

@@ -18,7 +18,7 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.planning.proposal import Proposal
+from forcetorque.planning.proposed_recordings import Proposal
 from forcetorque.recording.recording import Interval, Recording, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples

@@ -12,11 +12,11 @@ import pytest
 
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.planning.information import Knowledge, Nuisance
-from forcetorque.planning.proposal import Demand, Effort, Workplace, proposals, supports_of, workplaces
-from forcetorque.planning.search import Criterion
+from forcetorque.planning.posture_search import Criterion
+from forcetorque.planning.proposed_recordings import Demand, Effort, Workplace, proposals, supports_of, workplaces
 from forcetorque.planning.section import PLAN, PlanTable
-from forcetorque.simulation.scenario.file import bundled_scenario
 from forcetorque.simulation.scenario.scenario import Scenario, load_scenario
+from forcetorque.simulation.scenario.scenario_file import bundled_scenario
 from tests.evaluation.load_cases.simulated_uses import FOOT, LEG, Outcome, outcome_of, outcomes
 from tests.planning.planned_sensors import LIMIT_COUNTS, planned_motions, planned_run
 

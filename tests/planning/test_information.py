@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import Assumption
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.planning.information import Knowledge, Nuisance, PlannedLoads, unfitted_posterior
-from forcetorque.planning.search import Choices, Criterion, pick
+from forcetorque.planning.posture_search import Choices, Criterion, pick
 
 RNG = np.random.default_rng(5)
 MATRIX = np.diag([0.02, 0.02, 0.04, 6e-4, 6e-4, 4e-4]) @ (np.eye(6) + 0.2 * RNG.normal(size=(6, 6)))

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.tabular.table import read_table

@@ -19,12 +19,12 @@ from forcetorque.experiment.calibration.expected_sensor_errors import Assumption
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance
 from forcetorque.planning.planning import Plan, plan
-from forcetorque.planning.proposal import Demand, Effort, Workplace, propose, supports_of, workplaces
-from forcetorque.planning.search import Criterion
+from forcetorque.planning.posture_search import Criterion
+from forcetorque.planning.proposed_recordings import Demand, Effort, Workplace, propose, supports_of, workplaces
 from forcetorque.planning.section import PLAN, PlanTable
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.scenario.file import LINEAR_ONLY, ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario, load_scenario
+from forcetorque.simulation.scenario.scenario_file import LINEAR_ONLY, ScenarioFile, bundled_scenario
 from forcetorque.simulation.sensor_family import Specimen
 from tests.planning.planned_sensors import LIMIT_COUNTS, Motion, calibrated, planned_motions, planned_run, true_error
 

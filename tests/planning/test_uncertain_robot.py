@@ -20,8 +20,8 @@ from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, PlannedLoads, unfitted_posterior
 from forcetorque.planning.planning import plan
-from forcetorque.planning.proposal import Effort
-from forcetorque.planning.search import Choices, Criterion, pick
+from forcetorque.planning.posture_search import Choices, Criterion, pick
+from forcetorque.planning.proposed_recordings import Effort
 from tests.planning.test_information import CASE, LOADS, MATRIX
 from tests.planning.test_plan import BAR, PLAN
 from tests.scenes.experiments import PARQUET

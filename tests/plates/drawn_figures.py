@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from forcetorque.plates.calibration_result import PlatePicture, PlateRow, PlateWeight
-from forcetorque.plates.figure import centre_error_figure, standing_figure
+from forcetorque.plates.figures import centre_error_figure, standing_figure
+from forcetorque.plates.result import PlatePicture, PlateRow, PlateWeight
 
 
 def draw_centre_error(rng: np.random.Generator) -> Figure:

@@ -14,13 +14,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, FormatError
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
 from forcetorque.plates.applied_loads import AppliedLoads, loads_of_pole, loads_of_weights
-from forcetorque.plates.calibration import PLATE as PLATE_SETUP, calibrate_loads
-from forcetorque.plates.calibration_result import PlateCalibration, save_cal_matrix
+from forcetorque.plates.plate_calibration import PLATE as PLATE_SETUP, calibrate_loads
 from forcetorque.plates.plate_file import PlateFile, read_plates
-from forcetorque.plates.simulated import SimulatedPlate, write_pole_trial, write_trial
+from forcetorque.plates.result import PlateCalibration, save_cal_matrix
+from forcetorque.plates.simulated_plates import SimulatedPlate, write_pole_trial, write_trial
 from forcetorque.results.answer import MOST_LINES, Concern, answer_text
 from tests.app.outcome import typed
 

@@ -11,10 +11,10 @@ import pytest
 
 from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.plates.calibration_result import PlateWeight
 from forcetorque.plates.plate_file import read_plates
-from forcetorque.plates.simulated import SimulatedPlate, write_standing
-from forcetorque.plates.standing import weigh
+from forcetorque.plates.result import PlateWeight
+from forcetorque.plates.simulated_plates import SimulatedPlate, write_standing
+from forcetorque.plates.weight_on_plates import weigh
 from forcetorque.results.answer import MOST_LINES, answer_text
 from tests.app.outcome import typed
 

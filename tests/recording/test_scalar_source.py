@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RecordingError
-from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.stream import Signal
 from tests.recording.recordings import EPOCH_NS, recording, refused, signal, stream
 

@@ -25,12 +25,12 @@ from forcetorque.calibration.figures.information import joint_figure, learnt_fig
 from forcetorque.calibration.figures.lambda_curves import held_out_figure, lambda_difference_figure
 from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.summary import InformationGain
-from forcetorque.contests.figure import contest_figure
-from forcetorque.contests.ranking import ContestLoadRow
+from forcetorque.contests.contest_scores import ContestLoadRow
+from forcetorque.contests.figures import contest_figure
+from forcetorque.device.excitation import DirectionRow
 from forcetorque.device.figures import device_figure, envelope_figure, predicted_error_figure, reference_error_figure
-from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
+from forcetorque.device.motors_hinge_and_envelope import VIEWS, EnvelopeRow
 from forcetorque.device.requirements import GradeRow
-from forcetorque.device.spanned_directions import DirectionRow
 from forcetorque.estimation.figures import contact_figure, torque_figure
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure, difference_figure, residual_figure
 from forcetorque.evaluation.figures.load_cases import use_figure
@@ -52,14 +52,14 @@ from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure
 from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance, RobotBalance
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases
-from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
-from forcetorque.results.figures import png_bytes
+from forcetorque.locomotion.torque_control.torque_loop_study import TorqueLoopRow, TorqueLoopStudy
+from forcetorque.results.figure_style import png_bytes
 from forcetorque.robot.motion import JointMotion
-from forcetorque.sensor.bandwidth.bandwidth import Response
-from forcetorque.sensor.bandwidth.decays import DecayCurve
-from forcetorque.sensor.bandwidth.driven import ChannelResponse
+from forcetorque.sensor.bandwidth.driven_response import ChannelResponse
 from forcetorque.sensor.bandwidth.excited_records import ExcitationKind
 from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
+from forcetorque.sensor.bandwidth.pooled_decays import DecayCurve
+from forcetorque.sensor.bandwidth.response import Response
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
 from forcetorque.sensor.figures import response_figure
 from forcetorque.skin.figures import skin_event_figure, skin_layout_figure, skin_wrench_figure, taxel_figure
@@ -67,7 +67,7 @@ from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.skin.taxels.result import TaxelPicture
 from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
 from forcetorque.study.figures import lambda_force_figure
-from forcetorque.workbench.figure import bench_figure
+from forcetorque.workbench.figures import bench_figure
 from forcetorque.workbench.result import BenchPicture
 from tests.locomotion.torque_control.test_causes import cause_row, causes_of
 from tests.scenes.patches import cylinder_patch

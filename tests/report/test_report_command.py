@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from forcetorque.report.sources import sort_sources
+from forcetorque.report.sorted_input_files import sort_sources
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.browser import Visit

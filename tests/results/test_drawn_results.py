@@ -19,9 +19,9 @@ import forcetorque
 from forcetorque.app.command_line import whole_program
 from forcetorque.base.errors import MissingExtraError, OutputError
 from forcetorque.results.capability import named
-from forcetorque.results.figures import in_figure_style, new_figure
+from forcetorque.results.figure_style import in_figure_style, new_figure
 from forcetorque.results.result import DrawnResult, result_classes
-from forcetorque.results.terminal.output import drawn_to, refuse_figure
+from forcetorque.results.terminal.command_output import drawn_to, refuse_figure
 from tests.app.commands import question_of
 
 OTHER_RESULTS = {"evaluate_dataset": "evaluate", "payload_by_torques": "payload", "plan_jointly": "plan"}

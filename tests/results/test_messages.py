@@ -8,7 +8,7 @@ import logging
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.results.terminal.output import refusal_lines, start_logging
+from forcetorque.results.terminal.command_output import refusal_lines, start_logging
 
 
 def test_matplotlib_does_not_report_its_cache(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,7 +13,7 @@ import pytest
 
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result
-from forcetorque.results.terminal.output import Format, show
+from forcetorque.results.terminal.command_output import Format, show
 
 pty = pytest.importorskip("pty", reason="this system has no pseudo-terminals")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.results.terminal.output import files_text
+from forcetorque.results.terminal.command_output import files_text
 
 
 @pytest.mark.parametrize("place", ["r{}.toml", "a [1] b/r{}.toml", "s{}/e.toml", "r{}"])

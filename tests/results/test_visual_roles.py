@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.results.figures import look, looks
+from forcetorque.results.figure_style import look, looks
 from forcetorque.results.visual_roles import (
     CALIBRATIONS,
     EXPECTED,

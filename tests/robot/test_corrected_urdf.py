@@ -10,9 +10,9 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.robot.model import JointType
-from forcetorque.robot.model_text import corrected_urdf_text
 from forcetorque.robot.modified_robot import RobotErrors
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.urdf_and_mjcf_text import corrected_urdf_text
 
 URDF = """<?xml version="1.0"?>
 <robot name="slider">

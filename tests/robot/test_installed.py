@@ -8,13 +8,19 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import MissingExtraError, RobotError
-from forcetorque.experiment.input_files import Inputs, sha256_of
-from forcetorque.robot import installed
-from forcetorque.robot.installed import InstalledRobot, installed_robot, installed_robots, is_robot_name, urdf_file
+from forcetorque.experiment.named_files import Inputs, sha256_of
+from forcetorque.robot import installed_robots as installed
+from forcetorque.robot.installed_robots import (
+    InstalledRobot,
+    installed_robot,
+    installed_robots,
+    is_robot_name,
+    urdf_file,
+)
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
-from forcetorque.viewer.geometry import read_visuals
 from forcetorque.viewer.meshes import find_mesh, package_folders
+from forcetorque.viewer.robot_shapes import read_visuals
 from tests.scenes.robots import example_robot
 
 _COMMIT = "0123456789abcdef0123456789abcdef01234567"

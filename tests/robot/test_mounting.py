@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FitError
-from forcetorque.robot.mounting import (
+from forcetorque.robot.mount_estimate import (
     MountEstimate,
     estimate_mount,
     quarter_turns,

@@ -16,8 +16,8 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose, rotation_from_rpy, rpy_from_rotation
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
-from forcetorque.robot.model_text import urdf_text, write_urdf
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.urdf_and_mjcf_text import urdf_text, write_urdf
 from forcetorque.simulation.robots import named_robot
 from tests.scenes.robots import example_robot, icub
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
-from forcetorque.workbench.bench import Placement
-from forcetorque.workbench.loads import THESIS_TABLE, BenchLoads, read_loads
+from forcetorque.workbench.known_loads import THESIS_TABLE, BenchLoads, read_loads
+from forcetorque.workbench.position_means import Placement
 from forcetorque.workbench.simulated_benches import BenchFaults, SimulatedBench, simulate_bench
 
 PLACEMENT = Placement(angle_rad=np.deg2rad(0.1), position_m=0.5e-3, nonlinearity=1e-3)

@@ -7,9 +7,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration, Prior
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration, Prior
 from forcetorque.experiment.calibration.provenance import Provenance, Selection, SensorIdentity, Validity
-from forcetorque.simulation.sensor import distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting, y_shaped_matrix
 
 FACTORY = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
 """Prior matrix; N/count, N m/count."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import Calibration, SessionOffset
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from forcetorque.device.spanned_directions import device_span
+from forcetorque.device.excitation import device_span
 
 
 def hardly_optimise(patch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import write_calibration
+from forcetorque.experiment.calibration.calibration_file import write_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.scenes.experiments import PARQUET, write_experiments

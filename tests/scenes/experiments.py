@@ -17,7 +17,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
-from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 from forcetorque.simulation.trace import simulate_recording
 from tests.scenes.robots import joint_xml, link_xml
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.evaluation.section import LoadCaseOffset
-from forcetorque.experiment.calibration.artefact import Calibration, write_calibration
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.experiment.calibration.calibration_file import Calibration, write_calibration
+from forcetorque.fleet.parquet_dataset import Dataset
 from forcetorque.fleet.sensor_record import AddOptions, SensorRecord
 from forcetorque.fleet.stored_validation_data import StoredEvaluation
 from forcetorque.recording.storage import read_recording, write_recording

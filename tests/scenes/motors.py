@@ -12,7 +12,7 @@ from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.motion import RootMotion, joint_motion_at
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

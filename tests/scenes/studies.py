@@ -12,8 +12,8 @@ from pathlib import Path
 
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.storage import write_recording
-from forcetorque.simulation.scenario.file import ScenarioFile
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile
 from forcetorque.simulation.trace import Trace
 
 SENSOR, SERIAL = "arm_ft", "SIM001"

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from forcetorque.base.toml_file import read_toml
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 
 
 def short_switching(**sensors: Any) -> ScenarioFile:

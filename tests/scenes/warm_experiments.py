@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.experiment.interval_samples import samples_over
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.experiment.sensor_samples import samples_over
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import QUANTITIES, Signal, Stream

@@ -11,7 +11,7 @@ from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import SensorError, ShapeError
 from forcetorque.sensor.electronics import HALF_BRIDGE, QUARTER_BRIDGE, Bridge, bridge_ratio
-from forcetorque.sensor.gauge import ResistiveGauge
+from forcetorque.sensor.gauges import ResistiveGauge
 
 GAUGE = ResistiveGauge(gauge_factor=2.0, resistance=350.0, temperature_coefficient=1e-3)
 QUARTER_BRIDGE_WITH_DUMMY = Bridge(strain_shares=(1.0, 0.0, 0.0, 0.0), is_gauge=(True, True, False, False))

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.sensor.elastic import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
+from forcetorque.sensor.elastic_element import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
 from forcetorque.sensor.electronics import QUARTER_BRIDGE, Y_ELEMENT, Adc, Bridge, hold_on_saturation
 from forcetorque.sensor.full_scale import RawLimits, axis_resolution, reachable_full_scale
-from forcetorque.sensor.gauge import ResistiveGauge
+from forcetorque.sensor.gauges import ResistiveGauge
 
 FULL_BRIDGE = Bridge(strain_shares=(1.0, -1.0, 1.0, -1.0), is_gauge=(True, True, True, True))
 ELEMENT = ElasticElement(

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.recording.storage import read_recording, write_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.report.sections import result_figures
+from forcetorque.report.report_sections import result_figures
 from forcetorque.results.document.content import Figure as FigureBlock, small_png
 from tests.app.outcome import Run
 from tests.scenes.excited_sensors import write_taps

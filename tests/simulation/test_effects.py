@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.simulation.effects import Creep, Crosstalk, Noise, ScrewPattern, ThermalDrift, mounted
+from forcetorque.simulation.sensor_effects import Creep, Crosstalk, Noise, ScrewPattern, ThermalDrift, mounted
 
 RATE = 100.0
 EXACT = 1e-9

@@ -19,14 +19,14 @@ from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import stream_findings
-from forcetorque.simulation.network import (
+from forcetorque.simulation.network_faults import (
     fail_groups,
     jitter_stamps,
     lose_messages,
     offset_clocks,
     step_back,
 )
-from forcetorque.simulation.sensor import calibrated_by_board
+from forcetorque.simulation.simulated_sensor import calibrated_by_board
 from tests.recording.recordings import described, even_stamps, recording, refused, signal, stream
 
 N = 500

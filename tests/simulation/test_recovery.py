@@ -11,12 +11,12 @@ import pytest
 from forcetorque.calibration.thesis.calibrate import calibrate
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.effects import Creep, Crosstalk, ThermalDrift
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.robots import ARM_URDF
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.sensor_effects import Creep, Crosstalk, ThermalDrift
 from forcetorque.simulation.sensor_family import FAMILIES
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 
 RATE = 100.0
 SECONDS = np.arange(0.0, 120.0, 1.0 / RATE)

@@ -12,8 +12,8 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.simulation import recordings as simulated
 from forcetorque.simulation.recordings import write_scenario
-from forcetorque.simulation.scenario.file import ScenarioFile
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile
 from tests.results.showing import require_shown
 
 

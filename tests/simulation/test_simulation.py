@@ -15,7 +15,7 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.robots import ARM_URDF
-from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 from forcetorque.simulation.trace import simulate_recording
 
 RANGES = {"a": (-1.0, 2.0), "b": (0.0, 0.1)}

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import SkinEventSeries
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from tests.app.outcome import Run
 from tests.cases import some_cases

@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.study.candidate_fits import Fits, fit_candidates, run_study
-from forcetorque.study.selection import SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, Candidate, relative_lambda
+from forcetorque.study.candidate_selection import SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, Candidate, relative_lambda
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, TRUTH, grid, moving, study
 
 SAME = 1e-8

@@ -19,7 +19,6 @@ from forcetorque.experiment.validation_offset import Offset, ValidationSet
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
-from forcetorque.simulation.scenario.file import LINEAR_ONLY, bundled_scenario
 from forcetorque.simulation.scenario.scenario import (
     INTERVAL_MARGIN_S,
     Scenario,
@@ -28,8 +27,9 @@ from forcetorque.simulation.scenario.scenario import (
     simulate,
     trace_recordings,
 )
+from forcetorque.simulation.scenario.scenario_file import LINEAR_ONLY, bundled_scenario
 from forcetorque.study.candidate_fits import Study, run_study
-from forcetorque.study.selection import evaluate_models
+from forcetorque.study.candidate_selection import evaluate_models
 
 LEG = "l_leg_ft"
 SEEDS = [range(1, 6), pytest.param(range(6, 26), marks=pytest.mark.long)]

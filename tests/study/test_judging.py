@@ -15,7 +15,7 @@ from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, OFFSET_S, Offset, ValidationSet
 from forcetorque.study.candidate_errors import BlockErrors, PooledErrors
-from forcetorque.study.selection import evaluate_models, with_offset
+from forcetorque.study.candidate_selection import evaluate_models, with_offset
 from tests.study import measured
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 

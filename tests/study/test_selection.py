@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.study.candidate_errors import BlockErrors, PooledErrors
-from forcetorque.study.selection import (
+from forcetorque.study.candidate_selection import (
     assembled,
     best_by_axis,
     best_by_magnitude,

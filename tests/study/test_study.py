@@ -16,14 +16,14 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.thesis.calibrate import CalibrationFit, calibrate
 from forcetorque.evaluation.commands import evaluate
-from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration, write_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
+from forcetorque.study.candidate_selection import Candidate, GenerativeCandidate
 from forcetorque.study.result import Studies, studied_sensor, study_warnings
-from forcetorque.study.selection import Candidate, GenerativeCandidate
 from forcetorque.study.study import SensorStudy, combinations_of, study_sensor
 from forcetorque.study.study_data import StudyData, read_study_data
 from tests.results.showing import require_shown

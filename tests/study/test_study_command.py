@@ -15,7 +15,7 @@ import pytest
 
 from forcetorque.base.errors import MissingExtraError, install_line
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.study import figures as study_figures
 from forcetorque.study.study import SensorStudy
@@ -61,7 +61,7 @@ PRINTED = 1e-12
 @pytest.fixture(autouse=True)
 def no_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Drawing takes longer than all the rest; one test draws."""
-    monkeypatch.setattr("forcetorque.study.folder.write_figures", _undrawn)
+    monkeypatch.setattr("forcetorque.study.study_folder.write_figures", _undrawn)
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +69,7 @@ def studied_days(recorded: Path, run: Run, tmp_path_factory: pytest.TempPathFact
     """Folder of the recordings with a study of them in `out`, and what it printed; nobody changes it."""
     folder = Path(shutil.copytree(recorded, tmp_path_factory.mktemp("studied") / "days"))
     with pytest.MonkeyPatch.context() as patch, chdir(folder):
-        patch.setattr("forcetorque.study.folder.write_figures", _undrawn)
+        patch.setattr("forcetorque.study.study_folder.write_figures", _undrawn)
         printed = run("study", "fits", *FILES, *SPHERE, "-o", "out", "--format", "json")
     (folder / "printed.json").write_text(printed.out, encoding="utf-8")
     return folder
@@ -88,7 +88,7 @@ def quick_days(recorded: Path, run: Run, tmp_path_factory: pytest.TempPathFactor
     """Folder of the recordings with a study of few candidates in `new/er/out`, and what it said; nobody changes it."""
     folder = Path(shutil.copytree(recorded, tmp_path_factory.mktemp("quick") / "days"))
     with pytest.MonkeyPatch.context() as patch, chdir(folder):
-        patch.setattr("forcetorque.study.folder.write_figures", _undrawn)
+        patch.setattr("forcetorque.study.study_folder.write_figures", _undrawn)
         return folder, run("study", "fits", *FILES, *QUICK, "-o", "new/er/out", "--format", "csv")
 
 
@@ -151,7 +151,7 @@ def test_the_files_are_those_that_are_listed(recorded: Path, studied_days: Path,
 @pytest.mark.long
 def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures 5.2 to 5.7 and 5.9, as PNG, listed with the other files."""
-    monkeypatch.setattr("forcetorque.study.folder.write_figures", study_figures.write_figures)
+    monkeypatch.setattr("forcetorque.study.study_folder.write_figures", study_figures.write_figures)
     sensor = _sensor(run, *SPHERE, *QUICK)
     assert sensor["files"] == [*TABLES, *CALIBRATIONS, *FIGURES]
     for name in FIGURES:
@@ -162,7 +162,7 @@ def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch
 @pytest.mark.long
 def test_figures_over_lambda_need_lambdas_and_a_prior(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """With lambda 0 alone, or without a matrix to differ from, the others are made; pixels are looked at above."""
-    monkeypatch.setattr("forcetorque.study.folder.write_figures", study_figures.write_figures)
+    monkeypatch.setattr("forcetorque.study.study_folder.write_figures", study_figures.write_figures)
     for file in FILES:
         edit(days / file, f'prior = "matrix_{SERIAL}.txt"\n', "")
     sensor = _sensor(run, "--type", "OwTrTO")
@@ -179,7 +179,7 @@ def test_without_the_drawing_library_the_rest_is_made(days: Path, run: Run, monk
     def missing(made: SensorStudy, folder: Path, progress: object) -> list[str]:
         raise MissingExtraError(f"figures are drawn by matplotlib: {install_line('report')}")
 
-    monkeypatch.setattr("forcetorque.study.folder.write_figures", missing)
+    monkeypatch.setattr("forcetorque.study.study_folder.write_figures", missing)
     done = run("study", "fits", *FILES, *QUICK, "-o", "out", "--format", "json")
     (sensor,) = done.result()["sensors"]
     assert sensor["files"] == [*TABLES, *CALIBRATIONS]

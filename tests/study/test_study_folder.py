@@ -10,10 +10,10 @@ import pytest
 
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
-from forcetorque.study import folder as study_folder
-from forcetorque.study.folder import write_study_folder
+from forcetorque.study import study_folder
 from forcetorque.study.study import SensorStudy, study_sensor
 from forcetorque.study.study_data import read_study_data
+from forcetorque.study.study_folder import write_study_folder
 from tests.scenes.experiments import PARQUET, write_experiments
 
 

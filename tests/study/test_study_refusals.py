@@ -101,7 +101,7 @@ def test_an_error_at_the_very_end_leaves_nothing_behind(days: Path, run: Run, mo
         assert len(list(folder.iterdir())) == TABLES_AND_CALIBRATIONS
         raise ForceTorqueError("the figures cannot be drawn")
 
-    monkeypatch.setattr("forcetorque.study.folder.write_figures", broken)
+    monkeypatch.setattr("forcetorque.study.study_folder.write_figures", broken)
     Path("mine").mkdir()
     before = snapshot(days)
     for output in ("out", "new/er/out", "mine/out"):

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration, write_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.loading import load_experiment
@@ -21,8 +21,8 @@ from forcetorque.experiment.validation_offset import Offset
 from forcetorque.simulation.recordings import true_matrix
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_errors import push_error
+from forcetorque.study.candidate_selection import FAR_SD, Candidate
 from forcetorque.study.result import studied_sensor, study_warnings
-from forcetorque.study.selection import FAR_SD, Candidate
 from forcetorque.study.study import SensorStudy, study_sensor
 from forcetorque.study.study_data import StudyData, read_study_data
 from tests.scenes.experiments import edit

@@ -17,7 +17,7 @@ from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_fits import Study, run_study
-from forcetorque.study.selection import TABLE_LAMBDAS, Candidate
+from forcetorque.study.candidate_selection import TABLE_LAMBDAS, Candidate
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, errors_by_samples, study
 
 EXACT = 1e-9

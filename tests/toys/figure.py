@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.results.figures import ROW_INCHES, legend_below, look, new_figure, shown_name
+from forcetorque.results.figure_style import ROW_INCHES, legend_below, look, new_figure, shown_name
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -17,7 +17,7 @@ from pydantic import ValidationError
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
-from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.fuzzing import examples
 from tests.payload.test_wrist_load import _write as write_wrist

@@ -16,16 +16,16 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, RecordingError, SerialNumberError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.interval_samples import samples_over
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import samples_over
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Use
 from forcetorque.recording.stream import Stream
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, scene_json
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.scenes.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
 

@@ -15,8 +15,6 @@ from forcetorque.payload.load_on_wrist_sensor import load_model
 from forcetorque.payload.load_tables import Load
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.arrays import Block, read_array
-from forcetorque.viewer.geometry import GREY, Geometry, read_visuals, robot_geometry
 from forcetorque.viewer.meshes import (
     MOST_TRIANGLES,
     Triangles,
@@ -26,6 +24,8 @@ from forcetorque.viewer.meshes import (
     read_mesh,
     simplified,
 )
+from forcetorque.viewer.robot_shapes import GREY, Geometry, read_visuals, robot_geometry
+from forcetorque.viewer.scene_arrays import Block, read_array
 from tests.scenes.robots import PENDULUM_URDF, icub, joint_xml, robot_xml
 
 pytest.importorskip("trimesh")

@@ -19,14 +19,14 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, RecordingError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.messages import JOINT_TYPE
-from forcetorque.live.choices import OffsetSource
+from forcetorque.live.loop import LiveLoop
+from forcetorque.live.option_values import OffsetSource
 from forcetorque.live.ros_topics import RosSource, attachment
-from forcetorque.live.run import LiveLoop
 from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.settings import Settings
 from forcetorque.simulation.robots import ARM_URDF
-from forcetorque.viewer.arrays import Block
 from forcetorque.viewer.live_page import ServedRun, live_page, live_scene, shown_robot
+from forcetorque.viewer.scene_arrays import Block
 from tests.app.outcome import Run
 from tests.live.test_ros_topics import PUBLISHER, Loopback, _joints, _wrench
 from tests.scenes.calibrations import make_calibration

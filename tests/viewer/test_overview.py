@@ -8,9 +8,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.viewer import overview
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.overview import with_overviews
 from forcetorque.viewer.packing import packed
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 
 BLOCK = 50

@@ -14,7 +14,6 @@ from hypothesis.extra.numpy import arrays
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.progress import TimeLeft
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.packing import (
     LEAST_STEPS,
     NOISE_SHARE,
@@ -28,6 +27,7 @@ from forcetorque.viewer.packing import (
     unpack,
 )
 from forcetorque.viewer.scene import ArrayRef
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 
 SAMPLES = 2 * ROWS + 123

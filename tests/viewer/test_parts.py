@@ -12,13 +12,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.untouched_interval import part_residuals
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import Sensor
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import View, build_scene
 from tests.scenes.experiments import TWO
 

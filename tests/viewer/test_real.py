@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene, build_scene
 from tests.viewer.poses import link_poses
 

@@ -15,7 +15,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin_events
 from forcetorque.recording.alignment import usable_samples
 from forcetorque.recording.recording import Recording
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figure_style import png_bytes
 from forcetorque.skin.figures import skin_event_figure
 from forcetorque.skin.section import load_patches
 from forcetorque.skin.simulation.objects_on_skin import ContactTruth
@@ -23,8 +23,8 @@ from forcetorque.skin.simulation.recordings import Loading
 from forcetorque.skin.wrench.result import skin_event_rows
 from forcetorque.skin.wrench.skin_wrench import skin_wrench
 from forcetorque.viewer import skin as viewer_events, skin as viewer_skin
-from forcetorque.viewer.arrays import SceneDraft, read_array
 from forcetorque.viewer.scene import SkinContactFrames
+from forcetorque.viewer.scene_arrays import SceneDraft, read_array
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from forcetorque.viewer.skin import half_axes, scene_skin, scene_skin_events
 from tests.cases import some_cases

@@ -203,7 +203,7 @@ def test_too_many_samples_are_refused_before_they_are_computed(
     assert reached == ["computed"]
     assert not (arm / "view.html").exists()
     assert "GB of memory" not in run("view", PARQUET, "--no-browser").err
-    monkeypatch.setattr("forcetorque.viewer.command._LARGE_BYTES", 1)
+    monkeypatch.setattr("forcetorque.viewer.commands._LARGE_BYTES", 1)
     assert re.search(
         r"\d+ samples are shown at once, in about 0\.3 GB of memory; where", run("view", PARQUET, "--no-browser").err
     )

@@ -13,7 +13,7 @@ from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 from forcetorque.viewer.viewer_log import POSES_HZ, ViewerLog, composed, viewer_log
 

@@ -8,8 +8,8 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.experiment.bench_file import BIAS
-from forcetorque.workbench.bench import Block, block_findings
+from forcetorque.experiment.workbench_file import BIAS
+from forcetorque.workbench.position_means import Block, block_findings
 from forcetorque.workbench.simulated_benches import simulate_bench
 from tests.scenes.benches import PLACEMENT, thesis_loads
 

@@ -12,11 +12,11 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, UnitError
 from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.workbench.bench import Bench
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.workbench.bench_recording import read_bench
 from forcetorque.workbench.calibrate import workbench
-from forcetorque.workbench.loads import BenchLoads
-from forcetorque.workbench.recording import read_bench
+from forcetorque.workbench.known_loads import BenchLoads
+from forcetorque.workbench.position_means import Bench
 from forcetorque.workbench.result import Workbench
 from forcetorque.workbench.sensor_fit import changing_offset
 from tests.app.outcome import Run

@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError, SensorError, UnitError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.bench_file import THESIS_TABLE
-from forcetorque.workbench.loads import BenchLoads, Weights, read_loads
+from forcetorque.experiment.workbench_file import THESIS_TABLE
+from forcetorque.workbench.known_loads import BenchLoads, Weights, read_loads
 from tests.scenes.benches import thesis_loads
 
 PRINTED = """0.0000 0.0000 51.0120 -7.5243 0.0000 0.0000

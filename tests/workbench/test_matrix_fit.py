@@ -13,9 +13,9 @@ from forcetorque.base.errors import FitError, SensorError, ShapeError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.calibration.generative import model as evidence
 from forcetorque.experiment.calibration.moments import WindowMeans
-from forcetorque.workbench.bench import Bench, Placement
-from forcetorque.workbench.loads import BenchLoads, Weights
+from forcetorque.workbench.known_loads import BenchLoads, Weights
 from forcetorque.workbench.matrix_fit import fit_bench, fit_means
+from forcetorque.workbench.position_means import Bench, Placement
 from forcetorque.workbench.sensor_fit import held_out_errors, one_by_one, rms, whole_series
 from forcetorque.workbench.simulated_benches import simulate_bench
 from tests.cases import some_cases

@@ -11,9 +11,9 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection, wrench_matrix
 from forcetorque.device.excitation_options import least_excitation
-from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import Span, UncertainLoads
-from forcetorque.workbench.loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.known_loads import THESIS_TABLE, read_loads
+from forcetorque.workbench.position_means import Placement
 
 ROUNDING = 1e-12
 """Of a singular value decomposition of numbers of order 1."""

@@ -11,7 +11,7 @@ from scipy.stats import binomtest
 
 from forcetorque.base.errors import SensorError
 from forcetorque.workbench.faults import FALSE_ALARMS, Fault, detect_faults, log_upper_tail, signatures
-from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.known_loads import BenchLoads
 from forcetorque.workbench.matrix_fit import (
     ResidualSpace,
     Scatter,

@@ -13,10 +13,10 @@ import pytest
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, FormatError, UnitError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
+from forcetorque.workbench.bench_recording import BenchRecording, read_bench
 from forcetorque.workbench.calibrate import workbench
-from forcetorque.workbench.recording import BenchRecording, read_bench
 from forcetorque.workbench.result import Workbench
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.cases import some_cases

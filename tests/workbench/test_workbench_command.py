@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.workbench.simulated_benches import BenchFaults
 from tests.app.outcome import Run
 from tests.scenes.benches import write_bench

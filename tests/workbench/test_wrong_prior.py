@@ -9,8 +9,8 @@ import pytest
 from forcetorque.base.errors import FitError
 from forcetorque.inspection.plausibility.compared_wrenches import Doubt
 from forcetorque.simulation.sensor_family import FAMILIES
-from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.known_loads import BenchLoads
+from forcetorque.workbench.position_means import Bench
 from forcetorque.workbench.sensor_fit import _fitted, _plausibility_doubts, least_squares_errors
 from tests.cases import some_cases
 

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 from forcetorque.base.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from forcetorque.app.python.arrays import motion_of_arrays as motion_of_arrays
-    from forcetorque.device.command import design_device as design_device
+    from forcetorque.app.python.experiment_of_arrays import motion_of_arrays as motion_of_arrays
+    from forcetorque.device.commands import design_device as design_device
     from forcetorque.locomotion.commands import motion as motion
-    from forcetorque.simulation.command import simulate as simulate
-    from forcetorque.study.command import study as study
-    from forcetorque.workbench.command import workbench as workbench
+    from forcetorque.simulation.commands import simulate as simulate
+    from forcetorque.study.commands import study as study
+    from forcetorque.workbench.commands import workbench as workbench
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    design_device="forcetorque.device.command",
+    design_device="forcetorque.device.commands",
     motion="forcetorque.locomotion.commands",
-    motion_of_arrays="forcetorque.app.python.arrays",
-    simulate="forcetorque.simulation.command",
-    study="forcetorque.study.command",
-    workbench="forcetorque.workbench.command",
+    motion_of_arrays="forcetorque.app.python.experiment_of_arrays",
+    simulate="forcetorque.simulation.commands",
+    study="forcetorque.study.commands",
+    workbench="forcetorque.workbench.commands",
 )

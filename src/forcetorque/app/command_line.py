@@ -14,18 +14,18 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.results.capability import all_named, named
 from forcetorque.results.terminal.command_from_signature import command_function
+from forcetorque.results.terminal.command_output import print_messages, report_error, spell_missing_letters
 from forcetorque.results.terminal.options import WholeSentences
-from forcetorque.results.terminal.output import print_messages, report_error, spell_missing_letters
 
 _NAME = "forcetorque"
 _CONTEXT: Final[dict[str, Any]] = {"help_option_names": ["-h", "--help"]}
 """Of the program; commands and groups inherit it."""
 _TOP = (
     "forcetorque.app.demo:demo",
-    "forcetorque.app.run.command:run",
+    "forcetorque.app.run.commands:run",
     "forcetorque.app.schema_command:schema",
-    "forcetorque.report.command:report",
-    "forcetorque.viewer.command:view",
+    "forcetorque.report.commands:report",
+    "forcetorque.viewer.commands:view",
 )
 """Commands that are of no capability."""
 PANELS: Final[Mapping[str, tuple[str, ...]]] = {

@@ -12,7 +12,7 @@ import typer
 if TYPE_CHECKING:
     from forcetorque.app.python.run import Run
     from forcetorque.base.arrays import FloatArray
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
 
 _EXPERIMENT = """\
 schema = "forcetorque/experiment/1"
@@ -66,7 +66,7 @@ def demo(
     """
     from forcetorque.app.python.experiment import load_experiment
     from forcetorque.results.answer import answer_text
-    from forcetorque.results.terminal.output import refuse_standard_output, shows_colours, start_logging, width
+    from forcetorque.results.terminal.command_output import refuse_standard_output, shows_colours, start_logging, width
 
     log = start_logging()
     refuse_standard_output("--output", folder)
@@ -98,7 +98,7 @@ def _picture(run: Run, calibration: Calibration, folder: Path) -> list[str]:
     """Draw readings before and after against the expected wrench; name of the file, none without matplotlib."""
     from forcetorque.base.errors import MissingExtraError
     from forcetorque.base.output_file import write_bytes_atomically
-    from forcetorque.results.figures import png_bytes
+    from forcetorque.results.figure_style import png_bytes
 
     try:
         figure = run.figure(calibration)
@@ -120,7 +120,7 @@ def _simulated(folder: Path) -> tuple[FloatArray, FloatArray]:
     from forcetorque.recording.storage import write_recording
     from forcetorque.robot.urdf import read_urdf
     from forcetorque.simulation.robots import ARM_URDF
-    from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+    from forcetorque.simulation.simulated_sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
     from forcetorque.simulation.trace import simulate_recording
 
     _refuse_foreign(folder)

@@ -42,20 +42,20 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 
 
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
-    from forcetorque.contests.entries import ContestFile
+    from forcetorque.contests.contest_file import ContestFile
     from forcetorque.device.device_file import DeviceFile
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
-    from forcetorque.experiment.bench_file import BenchFile
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
     from forcetorque.experiment.calibration.joint_posterior import JointPosterior
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
-    from forcetorque.experiment.file import experiment_file
+    from forcetorque.experiment.experiment_file import experiment_file
+    from forcetorque.experiment.workbench_file import BenchFile
     from forcetorque.fleet.plan_file import PlanFile
-    from forcetorque.locomotion.torque_control.file import TorqueLoopFile
+    from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile
     from forcetorque.recording.storage import recording_schema
     from forcetorque.sensor.catalogue import CatalogueFile
     from forcetorque.sensor.choice.load_case import LoadCaseFile
-    from forcetorque.simulation.scenario.file import ScenarioFile
+    from forcetorque.simulation.scenario.scenario_file import ScenarioFile
     from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
     from forcetorque.skin.taxels.patch_calibration import PatchCalibration
 

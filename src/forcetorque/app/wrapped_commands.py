@@ -18,7 +18,7 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.experiment.experiment import Experiment
-    from forcetorque.fleet.from_dataset import DatasetLogs
+    from forcetorque.fleet.analyses_of_dataset import DatasetLogs
     from forcetorque.results.result import Result
     from forcetorque.viewer.scene_builder import BuiltScene
 
@@ -40,8 +40,8 @@ def with_datasets(name: str, command: Callable[..., Result | None]) -> Callable[
         inputs = [path for argument in arguments for path in _paths(given[argument])]
         folders = [path for path in inputs if path.is_dir()]
         if folders:
-            from forcetorque.fleet.dataset import is_dataset
-            from forcetorque.fleet.from_dataset import run_from_dataset
+            from forcetorque.fleet.analyses_of_dataset import run_from_dataset
+            from forcetorque.fleet.parquet_dataset import is_dataset
 
             datasets = [path for path in folders if is_dataset(path)]
             if datasets and len(inputs) > 1:
@@ -156,7 +156,7 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
 def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
     """Files by experiment, which can be written."""
     from forcetorque.base.output_file import declare_outputs
-    from forcetorque.experiment.input_files import file_of_each
+    from forcetorque.experiment.named_files import file_of_each
     from forcetorque.viewer.view_file import require_writer, view_files
 
     if view.suffix.lower() not in _ENDINGS:
@@ -173,7 +173,7 @@ def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
 def _write(
     name: str, path: Path, file: Path, given: Mapping[str, Any], result: Result, known: Experiment | None
 ) -> None:
-    from forcetorque.results.terminal.output import start_logging
+    from forcetorque.results.terminal.command_output import start_logging
     from forcetorque.viewer.view_file import view_files, write_view
 
     log = start_logging()
@@ -192,8 +192,8 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progr
     """What the viewer shows of an experiment, by the options of the command."""
     from forcetorque.experiment.loading import Purpose, load_experiment
     from forcetorque.payload.log_without_experiment import is_experiment_file
-    from forcetorque.results.terminal.input import read_calibrations
-    from forcetorque.viewer.contacts import ContactOptions
+    from forcetorque.results.terminal.command_inputs import read_calibrations
+    from forcetorque.viewer.contact_wrenches import ContactOptions
     from forcetorque.viewer.scene_builder import build_scene, scene_of
 
     if known is not None and not is_experiment_file(path):  # a log of an arm, which has no robot and no calibration
@@ -275,7 +275,7 @@ def _typed_parameters(function: Callable[..., Any]) -> list[Parameter]:
 
 
 def _show_address(url: str, *, open_browser: bool) -> None:
-    from forcetorque.results.terminal.output import start_logging
+    from forcetorque.results.terminal.command_output import start_logging
     from forcetorque.viewer.page import open_in_browser
 
     log = start_logging()

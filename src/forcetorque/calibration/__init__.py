@@ -11,7 +11,7 @@ if TYPE_CHECKING:
         calibrate_for_file as calibrate_for_file,
         calibrate_sensor as calibrate_sensor,
     )
-    from forcetorque.calibration.export.command import export_calibrations as export_calibrations
+    from forcetorque.calibration.export.commands import export_calibrations as export_calibrations
     from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibrate_jointly
     from forcetorque.calibration.reduced_recordings import (
         recording_moments as recording_moments,
@@ -26,8 +26,8 @@ CAPABILITY = Capability(
         "payload",
     ),
     commands=(
-        "forcetorque.calibration.calibrate_command:calibrate",
-        "forcetorque.calibration.export.command:export",
+        "forcetorque.calibration.commands:calibrate",
+        "forcetorque.calibration.export.commands:export",
     ),
 )
 
@@ -36,7 +36,7 @@ __all__, __getattr__, __dir__ = lazy_names(
     calibrate_for_file="forcetorque.calibration.calibrate",
     calibrate_jointly="forcetorque.calibration.joint.calibrate",
     calibrate_sensor="forcetorque.calibration.calibrate",
-    export_calibrations="forcetorque.calibration.export.command",
+    export_calibrations="forcetorque.calibration.export.commands",
     information_figure="forcetorque.calibration.summary",
     recording_moments="forcetorque.calibration.reduced_recordings",
     store_moments="forcetorque.calibration.reduced_recordings",

@@ -12,19 +12,19 @@ from pydantic import Field
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
+from forcetorque.calibration.answers import calibration_answer
 from forcetorque.calibration.corrected_urdf import urdf_of
-from forcetorque.calibration.generative.artefact import generative_calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
 from forcetorque.calibration.interval_and_mount_doubts import (
     SegmentedDoubts,
     doubts_of_intervals,
     doubts_of_samples,
     with_estimated_mount,
 )
-from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.calibration.reduced_recordings import recording_moments, reduced_in_segments
 from forcetorque.calibration.summary import (
     InformationGain,
-    calibration_answer,
     calibration_blocks,
     component_records,
     information_figure,
@@ -32,8 +32,7 @@ from forcetorque.calibration.summary import (
     learnt_words,
 )
 from forcetorque.calibration.thesis.calibrate import thesis_calibration
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.calibration.robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
@@ -41,6 +40,7 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.long_recording import is_long, segment_runs, segments_of_run
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use

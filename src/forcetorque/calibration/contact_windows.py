@@ -17,8 +17,8 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.means import WINDOW_S
 from forcetorque.base.noise.slow_noise import SlowNoise
+from forcetorque.base.noise.window_means import WINDOW_S
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED, Assumptions

@@ -9,10 +9,10 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
 from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.file import parse_experiment
-from forcetorque.robot.installed import urdf_file
-from forcetorque.robot.model_text import corrected_urdf_text
+from forcetorque.experiment.experiment_file import parse_experiment
+from forcetorque.robot.installed_robots import urdf_file
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.urdf_and_mjcf_text import corrected_urdf_text
 
 
 def urdf_of(experiment: Experiment) -> Path | None:

@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.means import means_over, window_for
-from forcetorque.experiment.additions import added_to
+from forcetorque.base.noise.window_means import means_over, window_for
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.free_sub_model import possible_touch
 from forcetorque.experiment.long_recording import joined_findings
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.findings import inspect_experiment, unreliable_among
@@ -22,7 +22,7 @@ from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import contradicted_statements, load_doubts
 from forcetorque.recording.recording import Finding, Interval, Use
 from forcetorque.recording.segments import Segment
-from forcetorque.robot.mounting import MountEstimate, estimate_mount
+from forcetorque.robot.mount_estimate import MountEstimate, estimate_mount
 
 _MOST_ALIKE = 5
 """Findings of one kind in an interval that are doubts by themselves; the rest is counted."""

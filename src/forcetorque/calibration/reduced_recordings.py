@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.calibration.interval_and_mount_doubts import SegmentedDoubts, mount_doubts
-from forcetorque.calibration.moments import SegmentedMoments, agreeing_moments, load_error_of, moments_of
+from forcetorque.calibration.moments_of_samples import SegmentedMoments, agreeing_moments, load_error_of, moments_of
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, joined
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from forcetorque.calibration.summary import learnt_words, session_table
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.report import record_tables as tables
 from forcetorque.report.sensor_assessment import Assessment

@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import IntArray
 from forcetorque.base.errors import ExperimentError
+from forcetorque.collisions.contact_free_model import FreeChanges, matrix_errors
 from forcetorque.collisions.detection import (
     Contact,
     Detected,
@@ -21,10 +22,9 @@ from forcetorque.collisions.detection import (
     statistics_of,
     threshold_of,
 )
-from forcetorque.collisions.free_model import FreeChanges, matrix_errors
 from forcetorque.collisions.location import locate, noticed_on_links
-from forcetorque.collisions.residual import WARM_UP_S, WINDOW_S, Signals, changes_of, signals_of
 from forcetorque.collisions.result import CollisionCurve, CollisionRow, Collisions, LinkSensitivityRow, SensitivityRow
+from forcetorque.collisions.sensor_residual import WARM_UP_S, WINDOW_S, Signals, changes_of, signals_of
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun

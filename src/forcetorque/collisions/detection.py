@@ -16,8 +16,8 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.collisions.free_model import FreeChanges
-from forcetorque.collisions.residual import TOGETHER, WINDOW_S, Level, Signals
+from forcetorque.collisions.contact_free_model import FreeChanges
+from forcetorque.collisions.sensor_residual import TOGETHER, WINDOW_S, Level, Signals
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 
 RELEASE: Final = 0.25

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     LIMIT_LINE,
     PAPER,
     ROW_INCHES,

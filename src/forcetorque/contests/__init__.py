@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.contests.command import contest as contest
-    from forcetorque.contests.entries import read_entries as read_entries
+    from forcetorque.contests.commands import contest as contest
+    from forcetorque.contests.contest_file import read_entries as read_entries
 
 CAPABILITY = Capability(
     page="contests.md",
@@ -17,11 +17,11 @@ CAPABILITY = Capability(
         "calibration",
         "workbench",
     ),
-    commands=("forcetorque.contests.command:contest",),
+    commands=("forcetorque.contests.commands:contest",),
 )
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    contest="forcetorque.contests.command",
-    read_entries="forcetorque.contests.entries",
+    contest="forcetorque.contests.commands",
+    read_entries="forcetorque.contests.contest_file",
 )

@@ -23,7 +23,7 @@ from forcetorque.base.errors import FormatError, OutputError
 from forcetorque.base.input_file import READ_ERRORS, read_text, require_file
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.dataset.frames import whole_numbers
+from forcetorque.dataset.episode_frames import whole_numbers
 from forcetorque.dataset.resumable_folder import ResumableFolder, link_or_copy
 from forcetorque.formats.lerobot.dataset import INFO, V21, Episode, LeRobotDataset, episode_files
 

@@ -13,7 +13,10 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
+from forcetorque.dataset.answers import check_answer
+from forcetorque.dataset.checks_over_episodes import set_findings, usual_noise
 from forcetorque.dataset.episode_checks import EpisodeField, examined
+from forcetorque.dataset.episode_frames import episode_frames
 from forcetorque.dataset.force_fields import (
     ForceField,
     OrientationField,
@@ -21,9 +24,7 @@ from forcetorque.dataset.force_fields import (
     orientation_candidates,
     orientation_field,
 )
-from forcetorque.dataset.frames import episode_frames
-from forcetorque.dataset.result import DatasetCheck, DatasetFinding, EpisodeFieldRow, check_answer
-from forcetorque.dataset.set_checks import set_findings, usual_noise
+from forcetorque.dataset.result import DatasetCheck, DatasetFinding, EpisodeFieldRow
 from forcetorque.formats.lerobot.dataset import LeRobotDataset, read_dataset
 from forcetorque.recording.orientation import OrientationForm, OrientationSense
 from forcetorque.results.answer import Concern

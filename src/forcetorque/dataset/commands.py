@@ -14,7 +14,7 @@ from forcetorque.results.command import Option, Saved, command
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
     from forcetorque.dataset.result import CompensatedDataset, DatasetCheck
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
 
 _SENSES = ("sensor_to_world", "world_to_sensor")
 _BIASES, _FRAMES = ("dataset", "episode"), ("sensor", "world")
@@ -191,7 +191,7 @@ def compensate_dataset(
     from forcetorque.dataset.compensate import Measurement, Request, compensated
     from forcetorque.dataset.force_fields import any_field, orientation_field, wrench_field
     from forcetorque.dataset.tool_load import read_known_load
-    from forcetorque.experiment.calibration.artefact import read_calibration
+    from forcetorque.experiment.calibration.calibration_file import read_calibration
     from forcetorque.formats.lerobot.dataset import read_dataset
 
     options: dict[str, Any] = {key: value for key, value in locals().items() if isinstance(value, str | float | int)}

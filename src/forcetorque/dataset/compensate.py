@@ -20,19 +20,19 @@ from forcetorque.base.units import NORMAL_95, si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection, wrench_matrix
 from forcetorque.dataset.added_features import Added, AddedFeature, add_features, refuse_known_features
 from forcetorque.dataset.episode_checks import equal_runs
+from forcetorque.dataset.episode_frames import episode_frames, file_frames
 from forcetorque.dataset.force_fields import ForceField, OrientationField
-from forcetorque.dataset.frames import episode_frames, file_frames
 from forcetorque.dataset.result import CompensatedDataset
 from forcetorque.dataset.resumable_folder import resumable_folder
 from forcetorque.dataset.tool_load import KnownLoad, Tool, ToolSamples, identified
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.formats.lerobot.dataset import INFO, Episode, LeRobotDataset
-from forcetorque.formats.signals import even_stamps
+from forcetorque.formats.specified_signals import even_stamps
 from forcetorque.payload.identification.load_estimates import three
 from forcetorque.payload.result import LoadRow
 from forcetorque.recording.frozen_and_saturated_samples import white_variance
-from forcetorque.robot.mounting import rotation_vector
+from forcetorque.robot.mount_estimate import rotation_vector
 
 WORLD = "world"
 """The frame of the result whose axes are the world's; its origin is that of the sensor."""

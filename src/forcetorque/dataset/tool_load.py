@@ -15,7 +15,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import FitError, FormatError
-from forcetorque.base.stored_model import read_json
+from forcetorque.base.stored_table import read_json
 from forcetorque.base.units import MAD_TO_DEVIATION, NORMAL_95
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows

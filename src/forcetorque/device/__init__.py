@@ -18,7 +18,7 @@ CAPABILITY = Capability(
         "planning",
         "workbench",
     ),
-    commands=("forcetorque.device.command:device",),
+    commands=("forcetorque.device.commands:device",),
 )
 
 __all__, __getattr__, __dir__ = lazy_names(

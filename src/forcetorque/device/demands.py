@@ -21,7 +21,8 @@ from forcetorque.device.error_budget import (
     load_errors,
 )
 from forcetorque.device.expected_wrench import BRACKET_LENGTH, COMPLIANCE, ENCODERS, LOAD_LENGTH, MASS, device_response
-from forcetorque.device.mechanical_demands import (
+from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
+from forcetorque.device.motors_hinge_and_envelope import (
     ARM_RADIUS_M,
     EnvelopeRow,
     MotorRow,
@@ -32,7 +33,6 @@ from forcetorque.device.mechanical_demands import (
     path_rad,
     pendulum_Nm,
 )
-from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
 from forcetorque.device.requirements import (
     MOST_SENSORS,
     BudgetRow,

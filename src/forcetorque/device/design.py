@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Analysis of a calibration device: its loads, motions, excitation and demands, and the answer in a few lines."""
+"""Analysis of a calibration device: its loads, motions, excitation and demands."""
 
 from __future__ import annotations
 
@@ -14,17 +14,15 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceFile
+from forcetorque.device.excitation import DeviceSpan, device_span
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
-from forcetorque.device.requirements import Verdict
-from forcetorque.device.spanned_directions import DeviceSpan, device_span
-from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
 from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:
-    from forcetorque.device.requirements import RequirementRow
+    pass
 
 
 class DeviceLoadRow(Row):
@@ -136,7 +134,7 @@ class DeviceDesign(DrawnResult):
     """A calibration device, checked by computation."""
 
     drawn_by: ClassVar[str] = "forcetorque.device.figures:requirement_figure"
-    answered_by: ClassVar[str | None] = "forcetorque.device.design:device_answer"
+    answered_by: ClassVar[str | None] = "forcetorque.device.answers:device_answer"
 
     schema_name: Literal["forcetorque/device/2"] = Field(default="forcetorque/device/2", alias="schema")
     """Form of the result."""
@@ -232,38 +230,3 @@ def _trajectory(file: DeviceFile) -> DeviceTrajectory:
     """The motion with the heaviest load, which hangs like all others."""
     load = device_load(file, file.loads_kg[-1])
     return DeviceTrajectory(device=file, load=load, sequence=file.sequence, hold_s=file.motion.hold_s)
-
-
-def device_answer(design: DeviceDesign) -> Answer:
-    """Give the answer."""
-    rows = design.demands.requirements
-    met = [row for row in rows if row.verdict is Verdict.MET]
-    failed = [row for row in rows if row.verdict is Verdict.NOT_MET]
-    first = next((row for row in design.span.sensors if row.sensor == design.sensors[0]), None)
-    missing = "" if first is None or not first.missing else f", not {first.missing}"
-    calibrated = [row.experiment for row in design.recordings if row.use == "calibration"]
-    return Answer(
-        subject=f"{design.device} with {len(design.sensors)} sensor{'s' * (len(design.sensors) > 1)}",
-        verdict=f"MEETS {len(met)} OF {len(met) + len(failed)} REQUIREMENTS",
-        why=(
-            f"not met: {'; '.join(_requirement(row) for row in failed) or 'none'}; "
-            f"{len(rows) - len(met) - len(failed)} of {len(rows)} not computed",
-            *(
-                ()
-                if first is None
-                else (f"{first.motion} excites {first.rank} of 6 directions of {first.sensor}{missing}",)
-            ),
-        ),
-        step="calibrate with the simulated recordings"
-        if calibrated
-        else "write URDF and logs by the same command with --output FOLDER",
-        command=typed("inspect", calibrated[0]) if calibrated else "",
-        written=(design.folder, *design.figures, design.figure_file),
-        concern=Concern.BAD if failed else Concern.NONE,
-    )
-
-
-def _requirement(row: RequirementRow) -> str:
-    if row.value is None or row.limit is None:
-        return f"{row.number} {row.requirement}"
-    return f"{row.number} {row.requirement}, {row.value:.3g} of {row.limit:.3g} {row.unit}"

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, read_toml
 from forcetorque.device.components import Device
 from forcetorque.device.motion import Sequence, YawReturn, twelve_steps
-from forcetorque.simulation.scenario.file import Imu, Sensors
+from forcetorque.simulation.scenario.scenario_file import Imu, Sensors
 
 
 class DevicePosture(Table):

@@ -13,11 +13,11 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.components import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
 from forcetorque.device.tolerances import Poses, Tolerances
-from forcetorque.experiment.bench_file import THESIS_TABLE
+from forcetorque.experiment.workbench_file import THESIS_TABLE
 from forcetorque.simulation.sensor_family import FAMILIES
-from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import UncertainLoads, load_sizes
-from forcetorque.workbench.loads import read_loads
+from forcetorque.workbench.known_loads import read_loads
+from forcetorque.workbench.position_means import Placement
 
 HELD_OUT_FORCE_N: Final = 100.0
 """Standard deviation of every component of a held-out force; N."""

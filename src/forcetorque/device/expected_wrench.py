@@ -14,11 +14,11 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError, known_names, require_known
 from forcetorque.base.pose import split_pose
 from forcetorque.device.components import AttachedLoad, Device
-from forcetorque.device.model import BASE, device_model, device_root
+from forcetorque.device.robot_model import BASE, device_model, device_root
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import expected_wrenches, link_pose
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import BodyTree, build_tree
 

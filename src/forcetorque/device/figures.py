@@ -16,10 +16,10 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import space_figure
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
-from forcetorque.device.mechanical_demands import VIEWS, EnvelopeRow
+from forcetorque.device.excitation import DirectionRow
+from forcetorque.device.motors_hinge_and_envelope import VIEWS, EnvelopeRow
 from forcetorque.device.requirements import GradeRow, RequirementRow, Verdict
-from forcetorque.device.spanned_directions import DirectionRow
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     LIMIT_LINE,
     MUTED,
     REFERENCE_COLOUR,

@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.device.components import AttachedLoad, Device
-from forcetorque.device.model import hanging
+from forcetorque.device.robot_model import hanging
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.motions.trajectories import Waypoints
 

@@ -19,7 +19,7 @@ from forcetorque.device.excitation_options import SAMPLES, held_out_loads, sampl
 from forcetorque.device.motion import Sequence, joint_ranges, joint_speeds
 from forcetorque.device.tolerances import RestTable, Tolerances
 from forcetorque.planning.information import blank_posterior
-from forcetorque.planning.search import Choices, Volume, picked_orders, search
+from forcetorque.planning.posture_search import Choices, Volume, picked_orders, search
 from forcetorque.simulation.motions.trajectories import Waypoints, shortest_moves
 from forcetorque.workbench.excitation import MatrixError, load_sizes
 

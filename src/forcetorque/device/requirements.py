@@ -16,11 +16,11 @@ from forcetorque.device.device_file import DeviceFile, DeviceHeat
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
 from forcetorque.device.excitation_options import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads
 from forcetorque.device.expected_wrench import device_response
-from forcetorque.device.mechanical_demands import EnvelopeRow
 from forcetorque.device.motion import DeviceTrajectory
+from forcetorque.device.motors_hinge_and_envelope import EnvelopeRow
 from forcetorque.device.tolerances import Tolerances
 from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
-from forcetorque.workbench.bench import Placement
+from forcetorque.workbench.position_means import Placement
 
 
 class Verdict(StrEnum):

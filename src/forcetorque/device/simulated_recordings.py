@@ -16,21 +16,21 @@ from forcetorque.base.output_file import new_folder
 from forcetorque.device.components import AttachedLoad, device_load
 from forcetorque.device.design import DeviceDesign, DeviceRecordingRow
 from forcetorque.device.device_file import DeviceFile
-from forcetorque.device.model import BASE, device_model
 from forcetorque.device.motion import DeviceTrajectory
+from forcetorque.device.robot_model import BASE, device_model
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.planning.trajectory_files import write_trajectory
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import write_recording
 from forcetorque.robot.model import RobotModel
-from forcetorque.robot.model_text import write_urdf
 from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.urdf_and_mjcf_text import write_urdf
 from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.recordings import TRUTH_FILE, TRUTH_SCHEMA
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, draw_imu
-from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import EPOCH_NS, IMU_STREAM, record
 
 _SENSORS, _POWER_UP, _NOISE, _IMU = 1, 2, 6, 8

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 CAPABILITY = Capability(
     page="estimation/estimation.md",
     needs=("skin", "inspection"),
-    commands=("forcetorque.estimation.command:estimate",),
+    commands=("forcetorque.estimation.commands:estimate",),
     sections=(
         "forcetorque.estimation.section:MOTORS",
         "forcetorque.estimation.section:FUSION",

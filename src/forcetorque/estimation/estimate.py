@@ -21,7 +21,7 @@ from forcetorque.estimation.skin_contacts import (
     uncertainty_of,
     with_skin,
 )
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
 from forcetorque.experiment.offsets import intervals_in_use
@@ -33,8 +33,14 @@ from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
+from forcetorque.robot.mechanics.estimated_quantities import (
+    MinimumNorm,
+    Question,
+    TorqueSum,
+    moving_joints,
+    required_joints_of,
+)
 from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
-from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, outboard_bodies
 from forcetorque.skin.section import force_patches

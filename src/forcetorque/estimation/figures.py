@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError, UnitError, require_known
 from forcetorque.base.units import NORMAL_95
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     DRAWN_SAMPLES,
     GRID,
     MUTED,

@@ -12,18 +12,18 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
-from forcetorque.base.noise.means import sample_statistics
+from forcetorque.base.noise.window_means import sample_statistics
 from forcetorque.estimation.estimate import IntervalEstimates
-from forcetorque.estimation.samples_file import write_estimates
+from forcetorque.estimation.estimates_file import write_estimates
 from forcetorque.estimation.torque.experiment_fusion import (
     IntervalFusion,
     TorqueFusion,
     TorqueHistory,
     summarise_fusion,
 )
-from forcetorque.estimation.torque.motor import Friction
-from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.estimation.torque.motor_torque import Friction
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.seen_and_outside_samples import SamplesOutside, outside_row, sentences
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.inspection.diagnosis import reversed_sensors
@@ -219,7 +219,7 @@ class EstimateSummary(EstimatedRecording, DrawnResult):
 
     schema_name: Literal["forcetorque/estimate/2"] = Field(default="forcetorque/estimate/2", alias="schema")
     """Form of the result."""
-    answered_by: ClassVar[str | None] = "forcetorque.estimation.command:estimate_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.estimation.answers:estimate_answers"
 
     recordings: tuple[EstimatedRecording, ...] = ()
     """The estimates of each of several recordings; none where there is one recording."""

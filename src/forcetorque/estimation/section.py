@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, Section
 
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import EstimationError, ExperimentError
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates
-from forcetorque.estimation.uncertain.uncertainty import SLIPPING, Tangents, Uncertainty, square_root, tangent_maps
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates
+from forcetorque.estimation.uncertain.input_errors import SLIPPING, Tangents, Uncertainty, square_root, tangent_maps
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.stream import Stream

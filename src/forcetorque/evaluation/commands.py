@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from forcetorque.evaluation.trials.comparison import Comparison
     from forcetorque.evaluation.validation.validation import Validation
     from forcetorque.experiment.applicability import Population
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
     from forcetorque.experiment.calibrations_under_test import Calibrations, OneCalibration, OtherCalibrations
     from forcetorque.experiment.campaign import Runs
     from forcetorque.experiment.experiment import Experiment
@@ -30,7 +30,7 @@ _COMPARED_CALIBRATIONS = Option(
     "--calibration",
     "-c",
     typed=list[Path],
-    reads="forcetorque.results.terminal.input:read_calibrations",
+    reads="forcetorque.results.terminal.command_inputs:read_calibrations",
 )
 _SPHERE_INTERVALS = Option(
     "Label or kind of an interval whose motion draws a sphere. Default: the sphere intervals of each file, else all.",
@@ -113,7 +113,7 @@ def accept(
     from forcetorque.evaluation.acceptance.acceptance import accept
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile, read_acceptance
     from forcetorque.experiment.calibrations_under_test import one_named
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
 
     limits = spec if isinstance(spec, AcceptanceFile) else read_acceptance(spec)
     name, reader = one_named(calibration)
@@ -247,7 +247,7 @@ def sphere(
             sensor can be analysed.
     """
     from forcetorque.evaluation.sphere.sphere import spheres_of_sensors
-    from forcetorque.results.terminal.input import refuse_left_out, sensors_named
+    from forcetorque.results.terminal.command_inputs import refuse_left_out, sensors_named
 
     chosen, by_name = sensors_named(experiment, sensors), dict(calibrations or {})
     refuse_left_out(experiment, chosen, by_name)

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import joined_times
+from forcetorque.base.noise.window_means import joined_times
 from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.validation_evidence import (
@@ -24,7 +24,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
     validation_excitation,
 )
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts, with_predicted_errors
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice
 from forcetorque.experiment.calibrations_under_test import (
     CalibrationUnderTest,
@@ -33,6 +33,7 @@ from forcetorque.experiment.calibrations_under_test import (
 )
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
+from forcetorque.experiment.interval_samples import logged_content
 from forcetorque.experiment.seen_and_outside_samples import (
     SamplesOutside,
     doubts_about_choice,
@@ -40,7 +41,6 @@ from forcetorque.experiment.seen_and_outside_samples import (
     require_unseen,
     sentences,
 )
-from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use

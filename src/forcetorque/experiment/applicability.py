@@ -11,13 +11,13 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError
-from forcetorque.experiment.calibration.artefact import Calibration, is_other_result, read_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, is_other_result, read_calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.interval_samples import LoggedReadings
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_mount import SensorMount
-from forcetorque.experiment.sensor_samples import LoggedReadings
 from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.recording.recording import Interval
 

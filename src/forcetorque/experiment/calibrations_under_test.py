@@ -12,10 +12,10 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, ShapeError
-from forcetorque.base.noise.means import mean_error_of_parts, window_for
+from forcetorque.base.noise.window_means import mean_error_of_parts, window_for
 from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.table import Row, Shown

@@ -18,8 +18,8 @@ from forcetorque.experiment.campaign_intervals import (
     joined_sphere,
 )
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.long_recording import first_segment
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
 

@@ -14,14 +14,14 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import real_path
-from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.experiment import ExperimentSensor, FitOptions, Role
-from forcetorque.experiment.input_files import distinct_files, recording_name
+from forcetorque.experiment.interval_samples import IntervalSamples
+from forcetorque.experiment.named_files import distinct_files, recording_name
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.experiment.validation_offset import ValidationSet
 from forcetorque.recording.recording import Interval, Use
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, RecordingError
-from forcetorque.experiment import file as schema
-from forcetorque.experiment.core_tables import ClockTable, processing_of
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment import experiment_file as schema
+from forcetorque.experiment.experiment_file_tables import ClockTable, processing_of
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.recording.alignment import ClockShift, on_clock_of, seconds_since, usable_samples
 from forcetorque.recording.clock_offset import estimate_delay
 from forcetorque.recording.recording import Finding, Recording, Support, Use
@@ -22,8 +22,8 @@ from forcetorque.recording.smoothing import smooth_columns
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import joints_between, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
-from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree

@@ -10,9 +10,9 @@ import numpy as np
 
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.pose import invert_pose
-from forcetorque.experiment import file as schema
+from forcetorque.experiment import experiment_file as schema
 from forcetorque.experiment.experiment import ExperimentContact
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.recording.recording import Interval, Recording
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.model import RobotModel

@@ -11,12 +11,12 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.rows_on_disk import concatenated, in_blocks, mean_over_rows, written
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun, calibrations_key
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use

@@ -16,11 +16,11 @@ from forcetorque.experiment.calibration.estimation_type import EstimationType, O
 from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY
 from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names, measured_part
-from forcetorque.experiment.input_files import path_endings, recording_name
+from forcetorque.experiment.named_files import path_endings, recording_name
 from forcetorque.experiment.section import Section
 from forcetorque.experiment.sensor_mount import SensorMount, with_mount
-from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.shared_filters import SharedFilters
 from forcetorque.recording.stream import Stream

@@ -18,10 +18,10 @@ from forcetorque.base.errors import (
     require_known,
 )
 from forcetorque.base.pose import invert_pose
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.campaign import Campaign
-from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.long_recording import is_long, segment_runs
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
@@ -30,7 +30,7 @@ from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.dynamics import body_pose
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import BodyTree, SubModel, build_tree, cut_of, sub_models
 

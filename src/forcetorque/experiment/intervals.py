@@ -10,9 +10,9 @@ from pathlib import Path, PurePosixPath
 
 from forcetorque.base.arrays import BoolArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names, require_known
-from forcetorque.experiment import file as schema
-from forcetorque.experiment.file import EACH_FILE, ExperimentFile
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment import experiment_file as schema
+from forcetorque.experiment.experiment_file import EACH_FILE, ExperimentFile
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import require_link
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.mechanics.root_motion import imu_frame, imu_streams

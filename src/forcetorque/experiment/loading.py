@@ -21,16 +21,8 @@ from forcetorque.base.toml_file import Table, Text, checked_tables, read_toml, t
 from forcetorque.experiment.calibration.robot_model_error import EXACT
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.contacts import read_contacts
-from forcetorque.experiment.core_tables import (
-    CalibrationTable,
-    MountTable,
-    ProcessingTable,
-    Sensor,
-    fit_options,
-    processing_of,
-)
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor, Role, SensorVariable
-from forcetorque.experiment.file import (
+from forcetorque.experiment.experiment_file import (
     ExperimentFile,
     Robot,
     Support as SupportTable,
@@ -38,14 +30,22 @@ from forcetorque.experiment.file import (
     parse_experiment,
     section_fields,
 )
-from forcetorque.experiment.input_files import InMemory, Inputs, stated_in
+from forcetorque.experiment.experiment_file_tables import (
+    CalibrationTable,
+    MountTable,
+    ProcessingTable,
+    Sensor,
+    fit_options,
+    processing_of,
+)
 from forcetorque.experiment.intervals import read_intervals, read_supports, with_intervals_of_files
 from forcetorque.experiment.kept_experiments import keep_experiment
+from forcetorque.experiment.named_files import InMemory, Inputs, stated_in
+from forcetorque.experiment.robot_and_streams import read_robot, read_streams
 from forcetorque.experiment.section import NO_ROBOT, Loading, StandIn, sections
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensors import full_scale_of, prior_deviation_of, read_prior, read_sensors
-from forcetorque.experiment.streams import read_robot, read_streams
-from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Recording, Support, Use
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing
 from forcetorque.robot.model import RobotModel

@@ -14,17 +14,17 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, FitError, known_names
 from forcetorque.experiment.applicability import one_per_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.experiment.validation_offset import OFFSET_S, Offset, OffsetEstimate, OffsetPolicy
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import imu_frame, imu_streams
 from forcetorque.robot.tree import build_tree
 

@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar
 
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.inertia import Inertia
-from forcetorque.experiment.input_files import Inputs
+from forcetorque.experiment.named_files import Inputs
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support
 from forcetorque.results.capability import all_named, named
 from forcetorque.robot.model import RobotModel

@@ -13,14 +13,14 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.rows_on_disk import in_blocks
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.applicability import overlapping
-from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.excitation import Extrapolation, extrapolation, predicted_error
 from forcetorque.experiment.calibration.provenance import FittedInterval
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction, Readings
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.recording import Use
 from forcetorque.results.table import Row
 

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.base.noise.means import WINDOW_ROUNDING, WINDOW_S
+from forcetorque.base.noise.window_means import WINDOW_ROUNDING, WINDOW_S
 from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated
 from forcetorque.experiment.calibration.provenance import Content
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.long_recording import is_long, segment_runs
 from forcetorque.experiment.sample_quality import dropped_in
 from forcetorque.experiment.sensor_reading import Readings
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.mechanics.measured_and_expected_wrench import SensorSamples

@@ -10,11 +10,11 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.pose import invert_pose, make_pose
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import FORCE
 from forcetorque.robot.model import RobotModel, SensorFrame
-from forcetorque.robot.mounting import MountEstimate, rotation_by, rotation_vector, rotation_words
+from forcetorque.robot.mount_estimate import MountEstimate, rotation_by, rotation_vector, rotation_words
 
 _Three = Annotated[FloatArray, ArrayField((3,))]
 

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.rows_on_disk import in_blocks
-from forcetorque.experiment.calibration.artefact import Calibration, Prior, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality, usable_readings

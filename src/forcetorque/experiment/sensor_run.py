@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibrations_under_test import (
     PRIOR,
@@ -20,8 +20,8 @@ from forcetorque.experiment.calibrations_under_test import (
 )
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
+from forcetorque.experiment.interval_samples import IntervalSamples, readings_over, samples_over
 from forcetorque.experiment.sensor_reading import Correction, Readings, wrench_at
-from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over, samples_over
 from forcetorque.experiment.validation_offset import EvaluatedInstants, mean_offset
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream

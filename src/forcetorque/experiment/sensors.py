@@ -13,15 +13,15 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.experiment import file as schema
+from forcetorque.experiment import experiment_file as schema
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, component_names, measured_components
-from forcetorque.experiment.core_tables import PriorTable, Sensor, Variable
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.experiment_file_tables import PriorTable, Sensor, Variable
+from forcetorque.experiment.named_files import Inputs, stated_in
 from forcetorque.formats.icub_matrix import serial_number_in_name
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import read_prior_file
-from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import RobotModel, SensorFrame
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, FitError, ShapeError, known_names
-from forcetorque.base.noise.means import mean_error
+from forcetorque.base.noise.window_means import mean_error
 from forcetorque.recording.recording import Interval
 from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
         fleet_run as fleet_run,
         fleet_table as fleet_table,
     )
-    from forcetorque.fleet.dataset import Dataset as Dataset
+    from forcetorque.fleet.parquet_dataset import Dataset as Dataset
 
 CAPABILITY = Capability(
     page="fleet.md",
@@ -23,7 +23,7 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    Dataset="forcetorque.fleet.dataset",
+    Dataset="forcetorque.fleet.parquet_dataset",
     fleet_add="forcetorque.fleet.commands",
     fleet_report="forcetorque.fleet.commands",
     fleet_run="forcetorque.fleet.commands",

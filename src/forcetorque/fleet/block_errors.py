@@ -11,8 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.noise.paired_comparison import SquaredErrors
+from forcetorque.base.noise.window_means import joined_times, mean_error
 from forcetorque.evaluation.load_cases.validation_evidence import SecondMeans
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.fleet.sensor_record import SensorRecord

@@ -138,7 +138,7 @@ def fleet_run(
     import os
 
     from forcetorque.base.errors import ForceTorqueError
-    from forcetorque.fleet.pool import DaskPool, LocalPool
+    from forcetorque.fleet.process_pool import DaskPool, LocalPool
     from forcetorque.fleet.run import run_plan
 
     if workers is not None and (workers < 1 or dask is not None):

@@ -11,8 +11,8 @@ from pydantic import Field
 
 from forcetorque.evaluation.load_cases.validation_evidence import static_loads_text
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts, with_predicted_errors
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.fleet.dataset import Dataset
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.fleet.parquet_dataset import Dataset
 from forcetorque.fleet.sensor_evaluation import SensorEvaluation, StoredErrors
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.results.result import DrawnResult

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.base.errors import ShapeError
 from forcetorque.fleet.sensor_evaluation import RecordingError
 from forcetorque.fleet.table import FAR, prior_medians
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     LIMIT_LINE,
     SMALL_PANEL_POINTS,

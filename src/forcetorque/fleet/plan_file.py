@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text, read_toml
-from forcetorque.fleet.source import RecordingSource, addresses, is_address, require_path
+from forcetorque.fleet.recording_source import RecordingSource, addresses, is_address, require_path
 
 
 class RecordingsTable(Table):

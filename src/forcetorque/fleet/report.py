@@ -16,10 +16,10 @@ from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains
 from forcetorque.evaluation.answers import CONCERN, is_for_inspect
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.fleet.add import stored_failures
-from forcetorque.fleet.dataset import Dataset, RecordingNames
+from forcetorque.fleet.failed_recordings import stored_failures
+from forcetorque.fleet.parquet_dataset import Dataset, RecordingNames
 from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.table import FleetSensor, fleet_sensors
@@ -28,7 +28,7 @@ from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, optional_table, table_of
-from forcetorque.results.terminal.input import read_calibrations
+from forcetorque.results.terminal.command_inputs import read_calibrations
 
 DECISIONS: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, reverse=True)
 """Verdicts, the one that asks most for attention first."""

@@ -18,13 +18,14 @@ from forcetorque.calibration.calibrate import calibrate_for_file
 from forcetorque.calibration.joint.calibrate import calibration_file
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.fleet.add import AddedSensor, Failures, add_recording
-from forcetorque.fleet.dataset import Dataset, is_dataset, require_folder
+from forcetorque.fleet.add import AddedSensor, add_recording
 from forcetorque.fleet.evaluate import evaluate_records
+from forcetorque.fleet.failed_recordings import Failures
+from forcetorque.fleet.parquet_dataset import Dataset, is_dataset, require_folder
 from forcetorque.fleet.plan_file import PlannedRecording, planned_recordings, read_plan
-from forcetorque.fleet.pool import Pool
+from forcetorque.fleet.process_pool import Pool
+from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.sensor_record import AddOptions
-from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult, created_now
 from forcetorque.results.table import Row, Shown, Table, optional_table

@@ -13,8 +13,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
-from forcetorque.base.noise.means import joined_times, mean_error
 from forcetorque.base.noise.paired_comparison import ErrorRatio, compare_errors
+from forcetorque.base.noise.window_means import joined_times, mean_error
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.validation_evidence import (
@@ -30,7 +30,7 @@ from forcetorque.evaluation.load_cases.verdict import (
     load_case_verdict,
 )
 from forcetorque.experiment.applicability import has_date, require_same_reading, was_used
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moment_blocks import pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import FittedInterval
@@ -44,7 +44,7 @@ from forcetorque.fleet.block_errors import (
     evaluation_of,
     second_means,
 )
-from forcetorque.fleet.dataset import RecordingNames
+from forcetorque.fleet.parquet_dataset import RecordingNames
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.stored_validation_data import StoredEvaluation
 from forcetorque.recording.fingerprint import kept_hashes

@@ -16,11 +16,11 @@ from pydantic import Field
 
 from forcetorque.base.output_file import real_path
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.calibrate import data_doubts
 from forcetorque.calibration.interval_and_mount_doubts import SegmentedDoubts
-from forcetorque.calibration.moments import SegmentedMoments
+from forcetorque.calibration.moments_of_samples import SegmentedMoments
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration.moment_blocks import BLOCK_S, pairwise_sum
 from forcetorque.experiment.calibration.moments import Moments
@@ -31,7 +31,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
 from forcetorque.experiment.segmented_samples import SegmentedSamples
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.fleet.source import is_address
+from forcetorque.fleet.recording_source import is_address
 from forcetorque.fleet.stored_validation_data import StoredEvaluation, evaluated_variables
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import FindingRow, finding_rows

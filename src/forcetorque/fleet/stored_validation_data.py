@@ -16,23 +16,23 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.noise.means import means_of_parts
 from forcetorque.base.noise.paired_comparison import BLOCKS, MOST_SEGMENTS, part_ends
+from forcetorque.base.noise.window_means import means_of_parts
 from forcetorque.base.rows_on_disk import forget_pages, in_blocks
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.section import LoadCaseOffset
 from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.calibration.provenance import Content
 from forcetorque.experiment.calibration.stored_moments import VariableDescription
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
+from forcetorque.experiment.interval_samples import IntervalSamples, logged_content
 from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples, logged_content
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Interval, Use
 
 _Vector = Annotated[FloatArray, ArrayField((None,))]

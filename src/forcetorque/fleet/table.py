@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.fleet.dataset import Dataset, RecordFile
+from forcetorque.fleet.parquet_dataset import Dataset, RecordFile
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.number_text import amount, counted
 from forcetorque.results.result import DrawnResult

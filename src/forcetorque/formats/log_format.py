@@ -13,8 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.toml_file import Table
-from forcetorque.formats.logged_torques import LoggedTorques
-from forcetorque.formats.logged_wrist import LoggedWrist
+from forcetorque.formats.arm_log import LoggedTorques, LoggedWrist
 from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream
 

@@ -10,6 +10,7 @@ import typer
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.command import SENSORS, Option, command
+from forcetorque.results.terminal.command_output import Format, refuse_two_on_standard_output, show, start_logging
 from forcetorque.results.terminal.options import (
     ColumnNamesOption,
     DetailsOption,
@@ -19,7 +20,6 @@ from forcetorque.results.terminal.options import (
     RecordingOption,
     between_commas,
 )
-from forcetorque.results.terminal.output import Format, refuse_two_on_standard_output, show, start_logging
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress

@@ -21,11 +21,11 @@ from forcetorque.experiment.calibration.moments import Moments
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.comparison import Comparison, compared, robot_of
+from forcetorque.inspection.comparison_with_model import Comparison, compared, robot_of
 from forcetorque.inspection.fault_messages import fault_size, fault_text, remedy
 from forcetorque.inspection.plausibility.evidence import Evidence, Fit
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation, explanations, senses
-from forcetorque.inspection.plausibility.reversed_gravity_and_gain import require_moving_load
+from forcetorque.inspection.plausibility.sense_gain_and_unit_checks import require_moving_load
 from forcetorque.recording.recording import Finding
 
 _ROUNDS = 3

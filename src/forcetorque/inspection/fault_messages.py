@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.inspection.comparison import Comparison
+from forcetorque.inspection.comparison_with_model import Comparison
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.recording.alignment import ClockShift
 

@@ -13,14 +13,14 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
-from forcetorque.inspection.comparison import Comparison, compared
+from forcetorque.inspection.comparison_with_model import Comparison, compared
 from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation

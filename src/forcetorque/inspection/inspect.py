@@ -14,23 +14,23 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, RecordingError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.toml_file import parsed_toml
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.applicability import one_per_sensor
-from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, read_calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.file import ExperimentFile, parse_experiment
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.experiment_file import ExperimentFile, parse_experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
-from forcetorque.experiment.streams import load_tried_clocks
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.experiment.recording_notes import with_recording_notes
+from forcetorque.experiment.robot_and_streams import load_tried_clocks
 from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
 from forcetorque.formats.specified_keys import description_of, specified_keys
 from forcetorque.inspection.draft.first_look import first_look_at_sensor
-from forcetorque.inspection.draft.log import likely_quantities
 from forcetorque.inspection.draft.logged_robot import robot_findings
+from forcetorque.inspection.draft.recording_table import likely_quantities
 from forcetorque.inspection.file_contents import (
     ClockRow,
     ColumnRow,
@@ -44,8 +44,8 @@ from forcetorque.inspection.file_contents import (
     times_text,
 )
 from forcetorque.inspection.findings import inspect_experiment, inspect_patches, inspect_recording, taxel_findings
-from forcetorque.inspection.postures import PostureRow, posture_tables, unexplained_postures
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
+from forcetorque.inspection.unexplained_postures import PostureRow, posture_tables, unexplained_postures
 from forcetorque.recording.recording import Finding, Recording, Use
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Table, table_of
@@ -127,7 +127,7 @@ class Inspection(DrawnResult):
     """Contents of a log, and findings."""
 
     answered_by: ClassVar[str | None] = "forcetorque.inspection.answers:inspection_answers"
-    drawn_by: ClassVar[str] = "forcetorque.inspection.figure:findings_figure"
+    drawn_by: ClassVar[str] = "forcetorque.inspection.figures:findings_figure"
 
     of_several: ClassVar[tuple[str, ...]] = ("clocks", "sensor", "times")
 

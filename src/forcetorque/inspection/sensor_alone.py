@@ -9,15 +9,13 @@ import numpy as np
 from scipy.special import stdtrit
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.base.wrench import FORCE
 from forcetorque.inspection.draft.first_look import SensorLog
 from forcetorque.recording.alignment import usable_samples
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.recording.stream_faults import stream_findings, true_runs
-from forcetorque.results.answer import Answer, Concern, typed
-from forcetorque.results.number_text import amount
 from forcetorque.results.table import Row
 
 _STRIDE = 64
@@ -38,8 +36,6 @@ _LOAD_NOISES = 10.0
 """Scatter of these medians about a line, in that of the noise alone, from which on the load changed."""
 _CONFIDENCE = 0.95
 """Probability that the intervals of the drifts of all components hold at once."""
-_MANY_REPEATS = 0.1
-"""Share of samples that repeat the one before, from which on the sensor is slower than its log."""
 
 
 class SensorAlone(Row):
@@ -267,70 +263,3 @@ def _clipping(
             yield Finding.over(
                 stream.name, stamps, "clipped", text, first, last, channel=name, size=abs(value), unit=unit
             )
-
-
-def sensor_answer(sensor: SensorAlone, source: str, duration_s: float) -> Answer:
-    """Give the answer about a sensor by itself.
-
-    Args:
-        sensor: What its log shows.
-        source: The log.
-        duration_s: Its duration; s.
-
-    Returns:
-        What is wrong with the log first, then rate, noise and drift.
-    """
-    wrong = [
-        text
-        for count, text in (
-            (len(sensor.stuck), f"{', '.join(sensor.stuck)} stuck"),
-            (sensor.missing_samples, f"{sensor.missing_samples} samples without a value"),
-            (sensor.clipped_samples, f"{sensor.clipped_samples} samples clipped"),
-            (len(sensor.tares_s), f"tared at {', '.join(f'{time:.2f} s' for time in sensor.tares_s[:4])}"),
-            (sensor.lost_samples, f"{sensor.lost_samples} samples lost"),
-            (sensor.repeated_stamps, f"{sensor.repeated_stamps} stamps repeated"),
-        )
-        if count
-    ]
-    share = sensor.repeated_samples / sensor.samples
-    if share > _MANY_REPEATS:
-        wrong.append(f"{100 * share:.0f} % of samples repeat the one before: {(1 - share) * sensor.rate_hz:.4g} Hz")
-    assumed = (f"assumed, as the file does not state it: {'; '.join(sensor.assumed)}",) if sensor.assumed else ()
-    return Answer(
-        subject=f"{source}: {duration_s:.1f} s of {sensor.stream}",
-        verdict=f"{sensor.rate_hz:.4g} Hz, {'; '.join(wrong)}" if wrong else f"{sensor.rate_hz:.4g} Hz, NOTHING LOST",
-        why=(
-            f"steps scatter by {sensor.jitter_ms:.2g} ms; {_noise_text(sensor)}",
-            _drift_text(sensor),
-            *assumed,
-        ),
-        step="begin an experiment file for it",
-        command=typed("init", source, "-o", "experiment.toml"),
-        concern=Concern.UNCERTAIN if wrong else Concern.NONE,
-    )
-
-
-def _noise_text(sensor: SensorAlone) -> str:
-    return f"noise up to {' and '.join(_largest(sensor, sensor.noise))}"
-
-
-def _drift_text(sensor: SensorAlone) -> str:
-    if sensor.drift_per_hour is None or sensor.drift_half_width_95_per_hour is None:
-        return "drift is not determined: the load changes, the log is shorter than ten seconds, or it has no noise"
-    sure = [
-        value if abs(value) > width else 0.0
-        for value, width in zip(sensor.drift_per_hour, sensor.drift_half_width_95_per_hour, strict=True)
-    ]
-    bounds = " and ".join(_largest(sensor, sensor.drift_half_width_95_per_hour, per="/h"))
-    if not any(sure):
-        return f"no drift beyond the noise, which hides up to {bounds}"
-    return f"drift up to {' and '.join(_largest(sensor, sure, per='/h'))} (95 %: ±{bounds}), if the load stays"
-
-
-def _largest(sensor: SensorAlone, values: Sequence[float], *, per: str = "") -> Iterator[str]:
-    """The largest magnitude of forces and of moments, or of channels."""
-    groups = (FORCE, MOMENT) if len(set(sensor.units)) > 1 else (slice(None),)
-    for group in groups:
-        numbers = np.abs(values[group])
-        place = int(numbers.argmax())
-        yield f"{amount(float(numbers[place]), sensor.units[group][place] + per)} ({sensor.columns[group][place]})"

@@ -8,19 +8,19 @@ from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
     from forcetorque.live.bias_tracking import Tracking as Tracking
-    from forcetorque.live.choices import FaultPolicy as FaultPolicy, OffsetSource as OffsetSource
     from forcetorque.live.corrector import (
         Corrected as Corrected,
         Corrector as Corrector,
         CorrectorOptions as CorrectorOptions,
     )
+    from forcetorque.live.option_values import FaultPolicy as FaultPolicy, OffsetSource as OffsetSource
     from forcetorque.live.sample_status import Status as Status
-    from forcetorque.live.tool import Tool as Tool
+    from forcetorque.live.tool_weight import Tool as Tool
 
 CAPABILITY = Capability(
     page="live.md",
     needs=("calibration", "payload"),
-    commands=("forcetorque.live.command:live",),
+    commands=("forcetorque.live.commands:live",),
 )
 
 __all__, __getattr__, __dir__ = lazy_names(
@@ -28,9 +28,9 @@ __all__, __getattr__, __dir__ = lazy_names(
     Corrected="forcetorque.live.corrector",
     Corrector="forcetorque.live.corrector",
     CorrectorOptions="forcetorque.live.corrector",
-    FaultPolicy="forcetorque.live.choices",
-    OffsetSource="forcetorque.live.choices",
+    FaultPolicy="forcetorque.live.option_values",
+    OffsetSource="forcetorque.live.option_values",
     Status="forcetorque.live.sample_status",
-    Tool="forcetorque.live.tool",
+    Tool="forcetorque.live.tool_weight",
     Tracking="forcetorque.live.bias_tracking",
 )

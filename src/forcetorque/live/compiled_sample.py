@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from forcetorque.base.compiled import source_digest
+from forcetorque.base.compiled_functions import source_digest
 from forcetorque.base.units import NORMAL_95
 from forcetorque.live import sample_status
-from forcetorque.live.choices import FaultPolicy
+from forcetorque.live.option_values import FaultPolicy
 from forcetorque.live.sample_status import FAULTS, Status
 
 NEVER = -(2**63)

@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.compiled import announced
+from forcetorque.base.compiled_functions import announced
 from forcetorque.base.errors import RecordingError, ShapeError
 from forcetorque.base.units import NORMAL_95
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.bias_tracking import BiasTracker, Tracking
-from forcetorque.live.choices import FaultPolicy, HeldQuantity, OffsetSource
 from forcetorque.live.compiled_sample import BEFORE, NEVER, NOW, POLICIES, compiled_sample
+from forcetorque.live.option_values import FaultPolicy, HeldQuantity, OffsetSource
 from forcetorque.live.sample_status import FAULTS, Status
 from forcetorque.live.sensor_terms import SensorTerms, sensor_terms
 from forcetorque.live.tare_samples import TareSamples
-from forcetorque.live.tool import Tool
+from forcetorque.live.tool_weight import Tool
 from forcetorque.recording.frozen_and_saturated_samples import FROZEN_SECONDS, SATURATION_SHARE
 
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from forcetorque.base.errors import RecordingError, known_names
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.formats.headings import read_heading
-from forcetorque.live.choices import HeldQuantity, Input, OffsetSource
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.option_values import HeldQuantity, Input, OffsetSource
 from forcetorque.live.packets import NUMBERS
 from forcetorque.live.settings import Settings, by_sensor, corrector_options, refuse
 from forcetorque.live.sources import LineSource, Source

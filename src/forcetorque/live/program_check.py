@@ -18,13 +18,13 @@ from forcetorque.base.errors import RecordingError, known_names
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.export.wholebodydynamics import SensorCorrection, corrected, read_groups
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.live.choices import HeldQuantity, OffsetSource
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrected, Corrector
+from forcetorque.live.option_values import HeldQuantity, OffsetSource
 from forcetorque.live.packets import Packet
 from forcetorque.live.result import LiveCheck
 from forcetorque.live.sample_status import FAULTS
-from forcetorque.live.tool import Tool
+from forcetorque.live.tool_weight import Tool
 from forcetorque.payload.export.arm_controllers_and_simulators import READABLE_ARMS, read_arm_load
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.export.ros2_control_and_ft_tools import read_gravity_filter

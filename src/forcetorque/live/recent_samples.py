@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.live.choices import FaultPolicy, HeldQuantity
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrected, Corrector
+from forcetorque.live.option_values import FaultPolicy, HeldQuantity
 from forcetorque.live.packets import Packet
 from forcetorque.live.sample_status import FAULTS, Status
 

@@ -137,7 +137,7 @@ class KeptSamples:
 class LiveRun(DrawnResult):
     """Account of a live run."""
 
-    drawn_by: ClassVar[str] = "forcetorque.live.figure:live_figure"
+    drawn_by: ClassVar[str] = "forcetorque.live.figures:live_figure"
     outlives_figure = True
 
     schema_name: Literal["forcetorque/live/1"] = Field(default="forcetorque/live/1", alias="schema")

@@ -11,12 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.base.errors import RecordingError, require_known
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.live.choices import HeldQuantity, OffsetSource
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrector
 from forcetorque.live.joint_gravity import JointGravity, JointPositions
 from forcetorque.live.lines_from_settings import OF_LINES, line_source, message_frames, one_corrector, require_gravity
 from forcetorque.live.net_ft import CountUnits, NetFtSource, fetch_units
+from forcetorque.live.option_values import HeldQuantity, OffsetSource
 from forcetorque.live.ros_topics import RosSession, RosSource, require_topic
 from forcetorque.live.settings import Settings, by_sensor, corrector_options, numbers_of, refuse
 from forcetorque.live.sources import ReplayedGroup, ReplaySource, Source, replayed_groups

@@ -9,11 +9,11 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, RecordingError, known_names
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.experiment.calibration.sensor_model import measured_components, secondary_matrix
-from forcetorque.live.choices import HeldQuantity
+from forcetorque.live.option_values import HeldQuantity
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

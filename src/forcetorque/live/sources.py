@@ -13,9 +13,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RecordingError
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.live.choices import HeldQuantity
+from forcetorque.live.option_values import HeldQuantity
 from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.text_lines import LineForm
 from forcetorque.recording.stream import Stream

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.noise.means import mean_error
+from forcetorque.base.noise.window_means import mean_error
 from forcetorque.base.units import NORMAL_95
 
 _FEWEST = 8

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     )
     from forcetorque.locomotion.motion_quality import motion as motion
     from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces as load_foot_forces
-    from forcetorque.locomotion.torque_control.file import read_torque_loop as read_torque_loop
+    from forcetorque.locomotion.torque_control.torque_loop_file import read_torque_loop as read_torque_loop
 
 CAPABILITY = Capability(
     page="locomotion/balance.md",
@@ -48,6 +48,6 @@ __all__, __getattr__, __dir__ = lazy_names(
     motion_signals="forcetorque.locomotion.logged_signals",
     motion_signals_of_arrays="forcetorque.locomotion.logged_signals",
     oscillation_causes="forcetorque.locomotion.commands",
-    read_torque_loop="forcetorque.locomotion.torque_control.file",
+    read_torque_loop="forcetorque.locomotion.torque_control.torque_loop_file",
     torque_loop="forcetorque.locomotion.commands",
 )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from forcetorque.locomotion.torque_control.study import NO_ERROR
+from forcetorque.locomotion.torque_control.torque_loop_study import NO_ERROR
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, bounded, plus_minus, within
 from forcetorque.results.table import short_names
@@ -14,11 +14,11 @@ from forcetorque.results.table import short_names
 if TYPE_CHECKING:
     from forcetorque.locomotion.motion_quality import Motion, OscillationRow
     from forcetorque.locomotion.net_force.result import Coherence, CoherenceSummary
+    from forcetorque.locomotion.standing.balance import Balance
     from forcetorque.locomotion.standing.result import SupportPhaseRow
     from forcetorque.locomotion.standing.sole_limits import SoleEventRow
-    from forcetorque.locomotion.standing.standing import Balance
-    from forcetorque.locomotion.torque_control.causes import CauseRow, OscillationCauses
-    from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
+    from forcetorque.locomotion.torque_control.oscillation_causes import CauseRow, OscillationCauses
+    from forcetorque.locomotion.torque_control.torque_loop_study import TorqueLoopRow, TorqueLoopStudy
 
 _NAMED = 3
 """Phases or phenomena that are named; tables have all."""

@@ -12,18 +12,18 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from forcetorque.base.progress import Progress
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.experiment.sensor_reading import Correction
     from forcetorque.experiment.validation_offset import OffsetPolicy
     from forcetorque.locomotion.motion_quality import Motion
     from forcetorque.locomotion.net_force.result import Coherence
+    from forcetorque.locomotion.standing.balance import Balance
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.foot_wrenches import FootForces
-    from forcetorque.locomotion.standing.standing import Balance
-    from forcetorque.locomotion.torque_control.causes import OscillationCauses
-    from forcetorque.locomotion.torque_control.file import TorqueLoopFile
-    from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
+    from forcetorque.locomotion.torque_control.oscillation_causes import OscillationCauses
+    from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile
+    from forcetorque.locomotion.torque_control.torque_loop_study import TorqueLoopStudy
 
 _LOG = logging.getLogger(__name__)
 _CALIBRATIONS = Option(
@@ -31,7 +31,7 @@ _CALIBRATIONS = Option(
     "--calibration",
     "-c",
     typed=list[Path],
-    reads="forcetorque.results.terminal.input:read_calibrations",
+    reads="forcetorque.results.terminal.command_inputs:read_calibrations",
 )
 
 
@@ -40,7 +40,7 @@ _CALIBRATIONS = Option(
     Saved(
         flags=("--output", "-o"),
         help="File for every sample, .parquet or .csv.",
-        function="forcetorque.locomotion.standing.standing:Balance.write",
+        function="forcetorque.locomotion.standing.balance:Balance.write",
         endings=(".parquet", ".csv"),
     ),
 )
@@ -101,11 +101,11 @@ def balance(
     from forcetorque.experiment.calibrations_under_test import named
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
     from forcetorque.experiment.experiment import Experiment
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
+    from forcetorque.locomotion.standing.balance import balance
     from forcetorque.locomotion.standing.centre_of_mass_and_pressure import PlaneTolerance
     from forcetorque.locomotion.standing.interval_balance import BalanceOptions
-    from forcetorque.locomotion.standing.standing import balance
     from forcetorque.locomotion.standing.support_phases import ForceLimit
 
     def limit(option: str, text: str) -> ForceLimit:
@@ -146,12 +146,12 @@ def _with_corrections(
 ) -> "tuple[Experiment | FootForces, Mapping[str, Correction]]":
     """A recording of feet, and how its sensors are read; vertical forces have none, nor has motion."""
     from forcetorque.base.errors import ExperimentError
-    from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.loading import Purpose
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.experiment.offsets import corrections_of
     from forcetorque.experiment.validation_offset import Offset
     from forcetorque.locomotion.standing.foot_wrenches import FootForces, has_foot_forces, load_foot_forces
-    from forcetorque.results.terminal.input import read_experiment
+    from forcetorque.results.terminal.command_inputs import read_experiment
 
     if by_motion and not isinstance(experiment, FootForces):
         return (
@@ -219,7 +219,7 @@ def coherence(
             robot, or an offset cannot be determined.
         FitError: If an offset has too few samples.
     """
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
     from forcetorque.experiment.calibrations_under_test import NEW, named
     from forcetorque.locomotion.net_force.net_force import net_force_errors
 
@@ -259,7 +259,7 @@ def motion(
     Returns:
         Oscillations, settling times and tracking errors.
     """
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.locomotion.logged_signals import motion_signals
     from forcetorque.locomotion.motion_quality import motion
 
@@ -293,8 +293,8 @@ def torque_loop(
         MissingExtraError: If MuJoCo is not installed.
         ControlError: If gains are unstable without any error.
     """
-    from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
-    from forcetorque.locomotion.torque_control.study import study_torque_loop
+    from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile, read_torque_loop
+    from forcetorque.locomotion.torque_control.torque_loop_study import study_torque_loop
 
     if file is None:
         file = TorqueLoopFile()
@@ -323,8 +323,8 @@ def oscillation_causes(
         MissingExtraError: If MuJoCo is not installed.
         ControlError: If a loop is unstable without any error.
     """
-    from forcetorque.locomotion.torque_control.causes import study_causes
-    from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
+    from forcetorque.locomotion.torque_control.oscillation_causes import study_causes
+    from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile, read_torque_loop
 
     if file is None:
         file = TorqueLoopFile()

@@ -13,9 +13,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.locomotion.motion_quality import Motion, MotionCurve
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce, policy_words
 from forcetorque.locomotion.standing.interval_balance import IntervalBalance
-from forcetorque.locomotion.torque_control.causes import OscillationCauses
-from forcetorque.locomotion.torque_control.study import TorqueLoopRow, TorqueLoopStudy
-from forcetorque.results.figures import (
+from forcetorque.locomotion.torque_control.oscillation_causes import OscillationCauses
+from forcetorque.locomotion.torque_control.torque_loop_study import TorqueLoopRow, TorqueLoopStudy
+from forcetorque.results.figure_style import (
     GRID,
     MUTED,
     PAPER,

@@ -13,18 +13,18 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import ExperimentError, RecordingError, UnitError, require_known
-from forcetorque.experiment.additions import added_to
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.intervals import RecordedSpan
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
-from forcetorque.experiment.streams import RecordedLog, load_recorded
+from forcetorque.experiment.recording_notes import added_to
+from forcetorque.experiment.robot_and_streams import RecordedLog, load_recorded
 from forcetorque.locomotion.section import SOLES
+from forcetorque.locomotion.standing.balance import Balance, balance
 from forcetorque.locomotion.standing.foot_wrenches import has_foot_forces, load_foot_forces
-from forcetorque.locomotion.standing.standing import Balance, balance
 from forcetorque.recording.alignment import require_overlap, seconds_since, usable_samples
-from forcetorque.recording.column import column_units, find_column, known_columns
+from forcetorque.recording.named_columns import column_units, find_column, known_columns
 from forcetorque.recording.recording import Use
 
 _POINTS = ("cop", "zmp", "com", "com_acceleration")

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, RecordingError
-from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.locomotion.logged_signals import MotionSignal
 from forcetorque.locomotion.oscillation.oscillation import OscillationSearch, find_oscillations
 from forcetorque.locomotion.oscillation.settling import (

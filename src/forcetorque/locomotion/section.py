@@ -14,7 +14,7 @@ from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, Section, require_link
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.recording import Recording

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
-from forcetorque.formats.logged_wrist import BAG
+from forcetorque.formats.arm_log import BAG
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
 from forcetorque.payload.result import fitted_drifts, gravity_words, mount_words, tilt_words

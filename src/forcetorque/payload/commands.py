@@ -13,15 +13,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.results.terminal.options import (
-    DetailsOption,
-    ExperimentArgument,
-    ForceOption,
-    FormatOption,
-    RecordingOption,
-    SensorOption,
-)
-from forcetorque.results.terminal.output import (
+from forcetorque.results.terminal.command_output import (
     Format,
     drawn_to,
     refuse_figure,
@@ -30,11 +22,19 @@ from forcetorque.results.terminal.output import (
     show_warnings,
     start_logging,
 )
+from forcetorque.results.terminal.options import (
+    DetailsOption,
+    ExperimentArgument,
+    ForceOption,
+    FormatOption,
+    RecordingOption,
+    SensorOption,
+)
 
 if TYPE_CHECKING:
     import logging
 
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
     from forcetorque.experiment.experiment import Experiment, ExperimentSensor
     from forcetorque.payload.export.load_parameters import RobotLoad
 
@@ -157,11 +157,11 @@ def payload(
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
-    from forcetorque.experiment.input_files import stated_in
     from forcetorque.experiment.kept_experiments import keep_experiment
     from forcetorque.experiment.loading import load_experiment
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.formats.kept_parts import parts_kept
+    from forcetorque.formats.decoded_parts_cache import parts_kept
     from forcetorque.formats.specified_keys import specified_keys
     from forcetorque.payload.export.export import require_agreeing_logs, robot_load
     from forcetorque.payload.identify import weigh_load, weighing_sensor
@@ -319,11 +319,16 @@ def tare(
 
     Python: `run.tare("at rest", calibration)`
     """
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.payload.export.export import robot_load
     from forcetorque.payload.tare_offset import Tare, tare
-    from forcetorque.results.terminal.input import read_calibrations, read_experiment, refuse_left_out, sensors_named
+    from forcetorque.results.terminal.command_inputs import (
+        read_calibrations,
+        read_experiment,
+        refuse_left_out,
+        sensors_named,
+    )
 
     log = start_logging()
     refuse_load_file(output, to, output_format, override, force=force)

@@ -13,7 +13,7 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, load_words
 from forcetorque.payload.tare_offset import TaredSensor
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     THIN_REFERENCE_LINE,
     headline,
     in_figure_style,

@@ -9,11 +9,11 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.noise.window_means import means_over
 from forcetorque.base.rows_on_disk import row_blocks
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.held_load import held_load
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
@@ -32,7 +32,7 @@ from forcetorque.payload.loads_on_robot_links import LinkLoads, joined_problem, 
 from forcetorque.payload.result import LoadRow, RecordingLoadRow, ValidationLoadRow, WeighedLoad, disagreements
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none, plus_minus
-from forcetorque.robot.mounting import rotation_vector
+from forcetorque.robot.mount_estimate import rotation_vector
 
 
 def hanging_on(run: SensorRun) -> WristLoads | LinkLoads:

@@ -19,8 +19,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.formats.logged_torques import UNKNOWNS, LoggedTorques
-from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.formats.arm_log import FLANGE, UNKNOWNS, LoggedTorques
 from forcetorque.payload.export.load_parameters import RobotLoad
 from forcetorque.payload.load_warnings import overruled, torque_doubt
 from forcetorque.payload.result import ArmLog, LoadRow, load_words

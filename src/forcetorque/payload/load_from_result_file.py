@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, known_names
 from forcetorque.base.pose import skew
-from forcetorque.base.stored_model import read_json
+from forcetorque.base.stored_table import read_json
 from forcetorque.base.toml_file import first_error
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor

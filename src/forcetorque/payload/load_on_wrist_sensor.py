@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.named_files import Inputs, stated_in
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
 from forcetorque.payload.identification.solve import solve

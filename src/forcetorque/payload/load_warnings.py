@@ -11,8 +11,8 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.formats.logged_wrist import FLANGE
-from forcetorque.inspection.draft.gravity import fit_gravity
+from forcetorque.formats.arm_log import FLANGE
+from forcetorque.inspection.draft.gravity_fit import fit_gravity
 from forcetorque.payload.identification.load_estimates import HypothesisRow, LoadEstimate, LoadSolution
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_stated, wrist_loads

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.inertia import Inertia
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, require_link
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadSolution

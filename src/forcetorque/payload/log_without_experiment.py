@@ -14,14 +14,13 @@ import numpy as np
 from forcetorque.base.errors import ExperimentError, MissingFileError
 from forcetorque.base.rows_on_disk import row_blocks
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import InMemory, sha256_of
 from forcetorque.experiment.loading import load_tables
+from forcetorque.experiment.named_files import InMemory, sha256_of
+from forcetorque.formats.arm_log import BAG, LoggedTorques, LoggedWrist
 from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription, LogFormat
-from forcetorque.formats.logged_torques import LoggedTorques
-from forcetorque.formats.logged_wrist import BAG, LoggedWrist
 from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
-from forcetorque.inspection.draft.log import draft_of_description, recording_lines
 from forcetorque.inspection.draft.logged_robot import wrist_interval_lines, wrist_load_lines
+from forcetorque.inspection.draft.recording_table import draft_of_description, recording_lines
 from forcetorque.inspection.draft.toml_lines import line, toml_value
 from forcetorque.payload.load_by_joint_torques import TorqueLoad, load_of_torques, postures_words
 from forcetorque.payload.result import ArmLog, gravity_words

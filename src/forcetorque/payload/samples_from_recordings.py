@@ -15,7 +15,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import means_of_parts, means_over, window_for
+from forcetorque.base.noise.window_means import means_of_parts, means_over, window_for
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import reading_sign, wrench_matrix
 from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED
@@ -30,8 +30,8 @@ from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.robot.dynamics import body_poses, joints_between, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import LoggedRobot, Processing
-from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import support_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion, blocks_of
 from forcetorque.robot.tree import BodyTree, build_tree, path_to_root

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from forcetorque.experiment.file import ExperimentFile
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.experiment_file import ExperimentFile
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, Section, StandIn
 from forcetorque.payload.load_on_wrist_sensor import (
     WristLoads,

@@ -15,9 +15,9 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.wrench import FORCE
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.offsets import sensor_offset
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.results.result import DrawnResult

@@ -18,7 +18,7 @@ CAPABILITY = Capability(
         "calibration",
         "evaluation",
     ),
-    commands=("forcetorque.planning.command:plan",),
+    commands=("forcetorque.planning.commands:plan",),
     sections=("forcetorque.planning.section:PLAN",),
 )
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from forcetorque.planning.joint_calibration_plan import useful_steps
-from forcetorque.planning.proposal import NOTHING
+from forcetorque.planning.proposed_recordings import NOTHING
 from forcetorque.planning.result import PlannedRecording, helps, of_model
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import amount, bounded

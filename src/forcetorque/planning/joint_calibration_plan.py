@@ -12,13 +12,13 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.joint.calibrate import JointData
-from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import predict, predict_prior
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.planning.search import HELPS
+from forcetorque.experiment.recording_notes import with_recording_notes
+from forcetorque.planning.posture_search import HELPS
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 
@@ -82,7 +82,7 @@ _PROVISIONAL = "planned"
 class JointPlan(DrawnResult):
     """Recordings, the most useful first, and what every sensor is expected to err by after each."""
 
-    drawn_by: ClassVar[str] = "forcetorque.planning.figure:joint_plan_figure"
+    drawn_by: ClassVar[str] = "forcetorque.planning.figures:joint_plan_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.planning.answers:joint_plan_answer"
 

@@ -14,15 +14,24 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, require_known
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, Assumptions
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.raw_counts import prior_size_of
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.information import Knowledge, Nuisance, unfitted_posterior
-from forcetorque.planning.proposal import TEMPERATURE, Demand, Effort, Proposal, proposals, supports_of, workplaces
+from forcetorque.planning.posture_search import Criterion
+from forcetorque.planning.proposed_recordings import (
+    TEMPERATURE,
+    Demand,
+    Effort,
+    Proposal,
+    proposals,
+    supports_of,
+    workplaces,
+)
 from forcetorque.planning.result import (
     PlannedPosture,
     PlannedRecording,
@@ -33,7 +42,6 @@ from forcetorque.planning.result import (
     recording_row,
     recordings_table,
 )
-from forcetorque.planning.search import Criterion
 from forcetorque.planning.section import PLAN, PlanTable
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table
@@ -46,7 +54,7 @@ _QUICK = Effort(postures=150, swaps=0)
 class Plan(DrawnResult):
     """Recordings, the most useful first, and what is expected after each."""
 
-    drawn_by: ClassVar[str] = "forcetorque.planning.figure:plan_figure"
+    drawn_by: ClassVar[str] = "forcetorque.planning.figures:plan_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.planning.answers:plan_answer"
 

@@ -14,8 +14,8 @@ from forcetorque.evaluation.load_cases.predicted_error import PredictedError
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.planning.information import ASSUMED_NOISE
-from forcetorque.planning.proposal import NOTHING, Proposal, Workplace
-from forcetorque.planning.search import HELPS, Criterion
+from forcetorque.planning.posture_search import HELPS, Criterion
+from forcetorque.planning.proposed_recordings import NOTHING, Proposal, Workplace
 from forcetorque.results.number_text import number
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
 from forcetorque.robot.model import JointType

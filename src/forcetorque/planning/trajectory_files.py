@@ -15,7 +15,7 @@ from forcetorque.base.output_file import new_folder, refuse_existing
 from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.planning.planning import Plan
-from forcetorque.planning.proposal import Proposal
+from forcetorque.planning.proposed_recordings import Proposal
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.motion import JointMotion

@@ -23,13 +23,13 @@ from forcetorque.base.errors import ExperimentError, FormatError, require_known
 from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.wrench import MeasureDirection, reading_sign, transform_wrench
-from forcetorque.formats.c3d.conventions import factor_of, stated_unit
 from forcetorque.formats.c3d.force_platform import ForcePlate
+from forcetorque.formats.c3d.plate_conventions import factor_of, stated_unit
 from forcetorque.plates.plate_file import PlateFile
-from forcetorque.plates.standing import STEADY, WINDOW_S
+from forcetorque.plates.weight_on_plates import STEADY, WINDOW_S
 from forcetorque.recording.stream_faults import true_runs
-from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.loads import BenchLoads, LoadTable, read_loads
+from forcetorque.workbench.known_loads import BenchLoads, LoadTable, read_loads
+from forcetorque.workbench.position_means import Bench
 
 _PRESSED = 0.2
 """Share of the largest force of the pole above which it is pressed: light samples determine little."""

@@ -11,7 +11,7 @@ from forcetorque.results.command import Option, Saved, command
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from forcetorque.plates.calibration_result import PlateCalibration, PlateWeight
+    from forcetorque.plates.result import PlateCalibration, PlateWeight
 
 
 @command("the force on every plate and where it acts")
@@ -40,7 +40,7 @@ def plate(
         ExperimentError: If nothing stands still on the plates.
     """
     from forcetorque.plates.plate_file import read_plates
-    from forcetorque.plates.standing import weigh
+    from forcetorque.plates.weight_on_plates import weigh
 
     return weigh(read_plates(file, recording), gravity=gravity, start_s=start_s, end_s=end_s)
 
@@ -51,7 +51,7 @@ def plate(
     Saved(
         flags=("--cal-matrix",),
         help="File of CAL_MATRIX to write: six rows of numbers in the units of the C3D file.",
-        function="forcetorque.plates.calibration_result:save_cal_matrix",
+        function="forcetorque.plates.result:save_cal_matrix",
     ),
 )
 def fit_plate(
@@ -104,7 +104,7 @@ def fit_plate(
 
     from forcetorque.base.errors import ExperimentError
     from forcetorque.plates.applied_loads import loads_of_pole, loads_of_weights
-    from forcetorque.plates.calibration import calibrate_loads
+    from forcetorque.plates.plate_calibration import calibrate_loads
     from forcetorque.plates.plate_file import read_plates
     from forcetorque.results.result import created_now
 

@@ -13,9 +13,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.formats.c3d.c3d_file import C3dFile
-from forcetorque.formats.c3d.conventions import C3dLog, factor_of, stated_unit
 from forcetorque.formats.c3d.force_platform import EDGE_M, ForcePlate, force_plates
 from forcetorque.formats.c3d.log_format import determined_file
+from forcetorque.formats.c3d.plate_conventions import C3dLog, factor_of, stated_unit
 from forcetorque.formats.specified_keys import specified_keys
 
 

@@ -10,12 +10,12 @@ from forcetorque.calibration.report_blocks import origin_words
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import TONES, Decision, LoadCaseError, LoadCaseVerdict
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.report.experiment_assessment import ExperimentAssessment
 from forcetorque.report.pooled_verdicts import NextSteps, Undecided, grouped_by_text, texts_with_names
 from forcetorque.report.sensor_assessment import Assessment, VerdictLine
 from forcetorque.results.document.content import Block, Figure, List, Picture, Place, Section, Tone, Verdict
-from forcetorque.results.figures import two_digits
+from forcetorque.results.figure_style import two_digits
 from forcetorque.results.number_text import amount
 from forcetorque.results.table import Table, short_names, table_of, with_first_column
 

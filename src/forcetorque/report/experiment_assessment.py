@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.calibration.joint.outcome import SubModelRow
+from forcetorque.calibration.joint.result import SubModelRow
 from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.joint.untouched_interval import part_residuals
-from forcetorque.collisions.findings import with_collisions
+from forcetorque.collisions.collision_and_sole_events import with_collisions
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.section import FUSION
 from forcetorque.estimation.torque.experiment_fusion import (
@@ -22,7 +22,7 @@ from forcetorque.estimation.torque.experiment_fusion import (
     summarise_fusion,
     torque_picture,
 )
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun

@@ -13,7 +13,7 @@ from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains, to
 from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import KEEP_PRIOR, LoadCaseVerdict, use_verdicts
 from forcetorque.evaluation.section import LOAD_CASES
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.seen_and_outside_samples import require_unseen_if_judged
 from forcetorque.experiment.sensor_run import SensorRun

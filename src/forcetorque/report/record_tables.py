@@ -9,7 +9,7 @@ from typing import Any
 
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.results.number_text import with_error
 from forcetorque.results.table import COMPONENTS, Table, short_names

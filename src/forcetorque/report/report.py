@@ -13,20 +13,20 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import refuse_output, refuse_unwritable, write_bytes_atomically
 from forcetorque.evaluation.answers import CONCERN, next_lines, next_step
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, Tone
-from forcetorque.experiment.additions import added_to
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.report.decision_page import all_sensors_page, decision_page
 from forcetorque.report.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.report.pooled_verdicts import NextSteps, Undecided, decide_uses, next_steps, sensor_key, sensor_keys
-from forcetorque.report.sections import report_document
+from forcetorque.report.report_sections import report_document
 from forcetorque.report.sensor_assessment import Demands
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.document.content import Document, Section, html_bytes
 from forcetorque.results.document.pdf import pdf_bytes
-from forcetorque.results.figures import new_figure
+from forcetorque.results.figure_style import new_figure
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, short_names, table_of
 

@@ -32,7 +32,7 @@ from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.validation.contact_force_errors import BestCalibration, ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.validation import JointTorqueErrors, joint_torques
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.seen_and_outside_samples import (

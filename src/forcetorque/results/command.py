@@ -118,7 +118,7 @@ def command(
 
         @wraps(analysis)
         def noted(*args: Parameters.args, **named: Parameters.kwargs) -> Returned:
-            from forcetorque.experiment.additions import with_notes
+            from forcetorque.experiment.recording_notes import with_notes
 
             return with_notes(analysis(*args, **named), (*args, *named.values()))
 

@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.sensor.bandwidth.bandwidth import response as response
-    from forcetorque.sensor.choice.command import choose_sensor as choose_sensor
+    from forcetorque.sensor.bandwidth.response import response as response
+    from forcetorque.sensor.choice.commands import choose_sensor as choose_sensor
     from forcetorque.sensor.commands import drift as drift, thermal as thermal
     from forcetorque.sensor.gains.gains import select_gains as select_gains
 
@@ -16,7 +16,7 @@ CAPABILITY = Capability(
     page="sensor/temperature.md",
     commands=(
         "forcetorque.sensor.commands:gains",
-        "forcetorque.sensor.choice.command:sensor",
+        "forcetorque.sensor.choice.commands:sensor",
         "forcetorque.sensor.commands:response",
         "forcetorque.sensor.commands:thermal",
         "forcetorque.sensor.commands:drift",
@@ -25,9 +25,9 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    choose_sensor="forcetorque.sensor.choice.command",
+    choose_sensor="forcetorque.sensor.choice.commands",
     drift="forcetorque.sensor.commands",
-    response="forcetorque.sensor.bandwidth.bandwidth",
+    response="forcetorque.sensor.bandwidth.response",
     select_gains="forcetorque.sensor.gains.gains",
     thermal="forcetorque.sensor.commands",
 )

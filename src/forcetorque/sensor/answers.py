@@ -12,9 +12,9 @@ from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange
 
 if TYPE_CHECKING:
-    from forcetorque.sensor.bandwidth.bandwidth import Response
-    from forcetorque.sensor.bandwidth.decays import ResponseNumber
-    from forcetorque.sensor.bandwidth.driven import ChannelResponse
+    from forcetorque.sensor.bandwidth.driven_response import ChannelResponse
+    from forcetorque.sensor.bandwidth.pooled_decays import ResponseNumber
+    from forcetorque.sensor.bandwidth.response import Response
     from forcetorque.sensor.gains.gains import Gains
     from forcetorque.sensor.gains.result import SensorRow
     from forcetorque.sensor.sessions.session_drift import Drift

@@ -10,8 +10,8 @@ import typer
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.command import Option, command
+from forcetorque.results.terminal.command_output import Format, show, start_logging
 from forcetorque.results.terminal.options import DetailsOption, ExperimentsArgument, FormatOption
-from forcetorque.results.terminal.output import Format, show, start_logging
 
 if TYPE_CHECKING:
     from forcetorque.experiment.calibrations_under_test import OneCalibration
@@ -126,11 +126,11 @@ def response(
     Python: `run.response("impact", calibration)`
     """
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
-    from forcetorque.results.terminal.input import read_calibrations, read_experiment
-    from forcetorque.results.terminal.output import drawn_to, refuse_figure
-    from forcetorque.sensor.bandwidth.bandwidth import response
+    from forcetorque.results.terminal.command_inputs import read_calibrations, read_experiment
+    from forcetorque.results.terminal.command_output import drawn_to, refuse_figure
+    from forcetorque.sensor.bandwidth.response import response
 
     log = start_logging()
     refuse_figure(figure)

@@ -10,8 +10,8 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, require_last_axis, require_shape
 from forcetorque.base.errors import SensorError, ShapeError, require_positive
-from forcetorque.sensor.elastic import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
-from forcetorque.sensor.gauge import ResistiveGauge
+from forcetorque.sensor.elastic_element import Beam, Bending, ElasticElement, GaugePlace, Material, RectangularSection
+from forcetorque.sensor.gauges import ResistiveGauge
 
 
 def bridge_ratio(resistances: Any) -> FloatArray:

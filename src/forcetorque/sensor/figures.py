@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     COLOURS,
     LIMIT_LINE,
     REFERENCE_COLOUR,
@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from forcetorque.sensor.bandwidth.bandwidth import Response
-    from forcetorque.sensor.bandwidth.decays import DecayCurve
-    from forcetorque.sensor.bandwidth.driven import ChannelResponse
+    from forcetorque.sensor.bandwidth.driven_response import ChannelResponse
     from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
+    from forcetorque.sensor.bandwidth.pooled_decays import DecayCurve
+    from forcetorque.sensor.bandwidth.response import Response
     from forcetorque.sensor.gains.gains import SensorGains
     from forcetorque.sensor.sessions.session_drift import SensorSessions, SessionRow
     from forcetorque.sensor.temperature.temperature_drift import SensorThermal

@@ -6,5 +6,5 @@ from forcetorque.results.capability import Capability
 CAPABILITY = Capability(
     page="simulation.md",
     needs=("sensor",),
-    commands=("forcetorque.simulation.command:simulate",),
+    commands=("forcetorque.simulation.commands:simulate",),
 )

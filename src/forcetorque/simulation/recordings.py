@@ -29,11 +29,11 @@ from forcetorque.results.answer import Answer, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Phase, PhaseKind
-from forcetorque.simulation.network import fail_groups, jitter_stamps, lose_messages, offset_clocks
-from forcetorque.simulation.scenario.file import Load, Network
+from forcetorque.simulation.network_faults import fail_groups, jitter_stamps, lose_messages, offset_clocks
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, Scenario, SimulatedRecording, simulate
-from forcetorque.simulation.sensor import calibrated_by_board
+from forcetorque.simulation.scenario.scenario_file import Load, Network
 from forcetorque.simulation.sensor_family import Specimen
+from forcetorque.simulation.simulated_sensor import calibrated_by_board
 from forcetorque.simulation.trace import IMU_STREAM
 
 

@@ -15,9 +15,9 @@ from forcetorque.base.errors import FormatError, require_known
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, wrench_matrix
 from forcetorque.sensor.electronics import CHANNEL_ANGLES, IN_PLANE, Y_ELEMENT, Electronics
-from forcetorque.simulation.effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
-from forcetorque.simulation.scenario.file import Sensors
-from forcetorque.simulation.sensor import (
+from forcetorque.simulation.scenario.scenario_file import Sensors
+from forcetorque.simulation.sensor_effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
+from forcetorque.simulation.simulated_sensor import (
     SimulatedSensor,
     distorted_by_mounting,
     matrix_error,

@@ -20,7 +20,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.motions.movement import Movement, MovementKind
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 
 EPOCH_NS = 1_700_000_000_000_000_000
 """When a simulated recording starts unless somebody says otherwise; ns."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, require_shape
 from forcetorque.base.errors import ShapeError
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     COLOURS,
     GRID,
     PAPER,

@@ -16,9 +16,9 @@ from forcetorque.base.errors import ExperimentError, MissingFileError, known_nam
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose
 from forcetorque.base.toml_file import Positive, Table, Text
-from forcetorque.experiment.file import ExperimentFile
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.experiment_file import ExperimentFile
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
+from forcetorque.experiment.named_files import Inputs, stated_in
 from forcetorque.experiment.section import Loading
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Recording

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.errors import needs_extra
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.results.figures import ROW_INCHES, in_figure_style, new_figure, shown_name
+from forcetorque.results.figure_style import ROW_INCHES, in_figure_style, new_figure, shown_name
 from forcetorque.skin.figures import draw_field, draw_forces
 
 if TYPE_CHECKING:

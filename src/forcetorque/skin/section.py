@@ -11,10 +11,10 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.file import parse_experiment
-from forcetorque.experiment.input_files import Inputs
+from forcetorque.experiment.experiment_file import parse_experiment
+from forcetorque.experiment.named_files import Inputs
+from forcetorque.experiment.robot_and_streams import read_streams
 from forcetorque.experiment.section import Loading, Section, StandIn
-from forcetorque.experiment.streams import read_streams
 from forcetorque.skin.patches_of_experiment import (
     ExperimentPatch,
     Patch,

@@ -7,7 +7,7 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.study.command import study_skin as study_skin
+    from forcetorque.study.commands import study_skin as study_skin
     from forcetorque.study.result import Studies as Studies
     from forcetorque.study.study import study_sensor as study_sensor
     from forcetorque.study.study_data import read_study_data as read_study_data
@@ -22,7 +22,7 @@ CAPABILITY = Capability(
         "calibration",
         "evaluation",
     ),
-    commands=("forcetorque.study.command:study", "forcetorque.study.command:study_skin"),
+    commands=("forcetorque.study.commands:study", "forcetorque.study.commands:study_skin"),
 )
 
 __all__, __getattr__, __dir__ = lazy_names(
@@ -30,5 +30,5 @@ __all__, __getattr__, __dir__ = lazy_names(
     Studies="forcetorque.study.result",
     read_study_data="forcetorque.study.study_data",
     study_sensor="forcetorque.study.study",
-    study_skin="forcetorque.study.command",
+    study_skin="forcetorque.study.commands",
 )

@@ -304,7 +304,7 @@ def _run_compiled(
 ) -> None:
     """Add up the same in compiled code; the sums do not depend on the number of threads."""
     # imported here: they load the compiler
-    from forcetorque.base.compiled import announced, frozen
+    from forcetorque.base.compiled_functions import announced, frozen
     from forcetorque.study.compiled_errors import compiled_error_sums
 
     add_errors = compiled_error_sums(inputs.matrices.shape[2])

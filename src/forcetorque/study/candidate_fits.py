@@ -24,7 +24,7 @@ from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, ValidationSet
 from forcetorque.study.candidate_errors import BlockErrors, PushError, evaluator_of_work, push_error
-from forcetorque.study.selection import (
+from forcetorque.study.candidate_selection import (
     SWEEP_LAMBDAS,
     Candidate,
     GenerativeCandidate,

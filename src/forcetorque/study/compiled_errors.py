@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from forcetorque.base.compiled import source_digest
+from forcetorque.base.compiled_functions import source_digest
 
 # literals, because compiled code is kept on disk under the text of its source
 LANES = 256

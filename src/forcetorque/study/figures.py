@@ -28,7 +28,7 @@ from forcetorque.calibration.figures.lambda_curves import (
 )
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset, ValidationSet
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     MUTED,
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -46,7 +46,7 @@ from forcetorque.results.figures import (
 from forcetorque.results.visual_roles import PRIOR
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_fits import WORKBENCH
-from forcetorque.study.selection import TWO_SIGMA, Candidate, with_offset
+from forcetorque.study.candidate_selection import TWO_SIGMA, Candidate, with_offset
 from forcetorque.study.study import SensorStudy
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValue
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.study.candidate_fits import WORKBENCH, Study
-from forcetorque.study.selection import CONVENTION, FAR_SD
+from forcetorque.study.candidate_selection import CONVENTION, FAR_SD
 from forcetorque.study.study import SensorStudy
 
 
@@ -323,7 +323,7 @@ class Studies(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.study.figures:studies_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("sensors",)
-    answered_by: ClassVar[str | None] = "forcetorque.study.command:study_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.study.answers:study_answers"
 
     interval_uses = ()
 

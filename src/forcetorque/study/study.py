@@ -14,14 +14,14 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.thesis.calibrate import artefact, calibrate
-from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import Calibration, SessionOffset
 from forcetorque.experiment.calibration.estimation_type import EstimationType
 from forcetorque.experiment.calibration.provenance import Selection
 from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 from forcetorque.study.candidate_fits import Study, run_study
-from forcetorque.study.selection import Candidate, GenerativeCandidate, assembled
+from forcetorque.study.candidate_selection import Candidate, GenerativeCandidate, assembled
 from forcetorque.study.study_data import StudyData, generative_fits
 
 

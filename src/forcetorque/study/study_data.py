@@ -12,9 +12,9 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.calibration.moments import agreeing_moments, moments_of
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
+from forcetorque.calibration.moments_of_samples import agreeing_moments, moments_of
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
 from forcetorque.experiment.campaign_intervals import (
@@ -26,13 +26,13 @@ from forcetorque.experiment.campaign_intervals import (
     refuse_a_file_twice,
 )
 from forcetorque.experiment.experiment import ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.recording.recording import Use
 from forcetorque.simulation.recordings import true_matrix
-from forcetorque.study.selection import GenerativeCandidate
+from forcetorque.study.candidate_selection import GenerativeCandidate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

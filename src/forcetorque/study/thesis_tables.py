@@ -12,7 +12,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.study.candidate_fits import WORKBENCH, Study
-from forcetorque.study.selection import Candidate, GenerativeCandidate, lambda_text
+from forcetorque.study.candidate_selection import Candidate, GenerativeCandidate, lambda_text
 
 Row = dict[str, str | float]
 """One row: cell by heading; numbers in N and N m unless the heading says otherwise."""

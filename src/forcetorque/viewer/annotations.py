@@ -15,8 +15,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.recording.recording import Use
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import SceneInterval
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 
 _NANOSECOND = 1e-9

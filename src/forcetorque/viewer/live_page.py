@@ -17,23 +17,22 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, MissingFileError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.file import parse_experiment
-from forcetorque.live.choices import HeldQuantity
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.live.corrector import Corrector
 from forcetorque.live.lines_from_settings import message_frames
+from forcetorque.live.loop import LiveLoop
+from forcetorque.live.option_values import HeldQuantity
 from forcetorque.live.recent_samples import RecentSamples, Samples
 from forcetorque.live.ros_topics import RosSource
-from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import status_text
 from forcetorque.live.settings import Settings
 from forcetorque.live.sources import ReplaySource, Source
-from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.installed_robots import urdf_file
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.arrays import Block
-from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.page import DATA_URL, STREAM_URL, ViewerServer, page_of
 from forcetorque.viewer.posture import posture_at, root_poses
+from forcetorque.viewer.robot_shapes import flat
 from forcetorque.viewer.scene import (
     ArrayRef,
     Joint,
@@ -46,6 +45,7 @@ from forcetorque.viewer.scene import (
     Shape,
     WrenchSeries,
 )
+from forcetorque.viewer.scene_arrays import Block
 from forcetorque.viewer.scene_builder import BuiltScene, drawn_robot
 from forcetorque.viewer.sensor_wrenches import SensorPlace, sensor_place
 

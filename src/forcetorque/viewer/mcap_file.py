@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.formats.ros.bag import mcap_writer, typestore
-from forcetorque.results.figures import COLOURS, REFERENCE_COLOUR
+from forcetorque.results.figure_style import COLOURS, REFERENCE_COLOUR
 from forcetorque.viewer.viewer_log import LoggedFrame, ViewerLog
 
 DESCRIPTION, ARROWS, EVENTS = "/robot_description", "/arrows", "/rosout"

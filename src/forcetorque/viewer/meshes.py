@@ -20,7 +20,7 @@ from forcetorque.base.errors import FormatError, MissingExtraError, install_line
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.units import parsed_number
-from forcetorque.robot.installed import package_roots
+from forcetorque.robot.installed_robots import package_roots
 
 FORMATS = (".stl", ".obj", ".ply", ".glb", ".dae")
 """Suffixes of the forms that are read."""

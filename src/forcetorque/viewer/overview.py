@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import BoolArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.viewer.arrays import Block, read_array
 from forcetorque.viewer.scene import Scene, Sensor, SeriesOverview, WrenchSeries
+from forcetorque.viewer.scene_arrays import Block, read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 
 BLOCK = 256

@@ -30,9 +30,9 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.viewer.arrays import ALIGNMENT, peak, read_array
 from forcetorque.viewer.overview import with_overviews
 from forcetorque.viewer.scene import ArrayRef, Scene, SeriesOverview
+from forcetorque.viewer.scene_arrays import ALIGNMENT, peak, read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 
 ROWS = 4096

@@ -24,7 +24,7 @@ from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.section import PATCHES
 from forcetorque.viewer import scene
-from forcetorque.viewer.geometry import flat
+from forcetorque.viewer.robot_shapes import flat
 
 _NAMES = 4
 """So many joints are listed in a note."""

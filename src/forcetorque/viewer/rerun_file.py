@@ -13,8 +13,8 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import needs_extra
 from forcetorque.base.output_file import replaced_file
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.mcap_file import colour_of
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.viewer_log import ViewerLog
 
 if TYPE_CHECKING:

@@ -17,12 +17,12 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatErr
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import first_error
-from forcetorque.collisions.findings import with_collisions
-from forcetorque.experiment.additions import added_to
+from forcetorque.collisions.collision_and_sole_events import with_collisions
 from forcetorque.experiment.applicability import by_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.experiment_file import parse_experiment
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload.load_on_wrist_sensor import is_wrist_load
 from forcetorque.recording.alignment import seconds_since
@@ -31,15 +31,15 @@ from forcetorque.recording.stream import Stream
 from forcetorque.results.answer import Answer
 from forcetorque.results.result import Result
 from forcetorque.results.table import Table
-from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.installed_robots import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.skin.patches_of_experiment import BESIDE_M, is_skin_alone
 from forcetorque.skin.section import PATCHES
-from forcetorque.viewer.arrays import Block, Priors, SceneDraft, differentiated
-from forcetorque.viewer.contacts import ContactOptions, scene_contacts, scene_parts
-from forcetorque.viewer.geometry import robot_geometry
+from forcetorque.viewer.contact_wrenches import ContactOptions, scene_contacts, scene_parts
 from forcetorque.viewer.posture import posture_at, root_poses, scene_joints, shown_sensors, shown_stream
+from forcetorque.viewer.robot_shapes import robot_geometry
 from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
+from forcetorque.viewer.scene_arrays import Block, Priors, SceneDraft, differentiated
 from forcetorque.viewer.sensor_wrenches import expected_readings, scene_sensor
 from forcetorque.viewer.skin import scene_skin, scene_skin_events
 

@@ -16,7 +16,7 @@ from forcetorque.evaluation.sphere.ellipsoid import EllipsoidFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.applicability import require_fit
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
@@ -25,14 +25,14 @@ from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.results.table import short_names
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.tree import BodyTree, build_tree
-from forcetorque.viewer.arrays import Block, Priors, SceneDraft, peak
-from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.posture import Posture
+from forcetorque.viewer.robot_shapes import flat
 from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
+from forcetorque.viewer.scene_arrays import Block, Priors, SceneDraft, peak
 
 _SPHERE_SAMPLES = 5_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""

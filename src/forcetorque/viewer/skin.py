@@ -17,8 +17,8 @@ from forcetorque.skin.contact.contact_tracking import followed_places
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.wrench.pressures_over_recording import AVERAGED
 from forcetorque.skin.wrench.skin_wrench import PatchFrames, WrenchChoice, patch_frames
-from forcetorque.viewer.arrays import Block, SceneDraft
 from forcetorque.viewer.scene import SkinContactFrames, SkinEventSeries, SkinPatch
+from forcetorque.viewer.scene_arrays import Block, SceneDraft
 
 
 def contact_frames(

@@ -15,8 +15,8 @@ import numpy as np
 
 from forcetorque.base.errors import ForceTorqueError, MissingExtraError, MissingFileError, install_line
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.page import DATA_URL, ViewerServer, page_of
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")

@@ -13,8 +13,8 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.experiment.calibrations_under_test import PRIOR
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.scene import Joint, Robot, Scene
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 from forcetorque.viewer.sensor_wrenches import LOGGED
 

@@ -7,8 +7,8 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
+    from forcetorque.workbench.bench_recording import read_bench as read_bench
     from forcetorque.workbench.calibrate import workbench as workbench
-    from forcetorque.workbench.recording import read_bench as read_bench
 
 CAPABILITY = Capability(
     page="workbench.md",
@@ -18,11 +18,11 @@ CAPABILITY = Capability(
         "calibration",
         "evaluation",
     ),
-    commands=("forcetorque.workbench.command:workbench",),
+    commands=("forcetorque.workbench.commands:workbench",),
 )
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    read_bench="forcetorque.workbench.recording",
+    read_bench="forcetorque.workbench.bench_recording",
     workbench="forcetorque.workbench.calibrate",
 )

@@ -16,11 +16,11 @@ from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import OF_CALIBRATION, Bound, Criterion, Judged
 from forcetorque.evaluation.acceptance.static_checks import StaticChecks
 from forcetorque.evaluation.matrix_checks import LEAST_POPULATION, matrix_checks, most_unusual, position_in_population
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.workbench.bench_recording import BenchRecording
 from forcetorque.workbench.faults import FaultRow, FaultSearch, search_faults
-from forcetorque.workbench.loads import BenchLoads
-from forcetorque.workbench.recording import BenchRecording
+from forcetorque.workbench.known_loads import BenchLoads
 from forcetorque.workbench.result import (
     BenchSensorRow,
     BlockRow,

@@ -12,9 +12,9 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, mapping, read_only
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.workbench.bench import Placement
-from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.known_loads import BenchLoads
 from forcetorque.workbench.matrix_fit import rotation_derivatives, shift_derivatives
+from forcetorque.workbench.position_means import Placement
 
 RANK_TOLERANCE: Final = 1e-9
 """Share of the largest singular value below which a direction is not spanned: rounding leaves 1e-15."""

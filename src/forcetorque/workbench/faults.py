@@ -15,8 +15,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.generative.agreement import unmoved_directions
 from forcetorque.results.table import Row, Shown
-from forcetorque.workbench.bench import Bench
-from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.known_loads import BenchLoads
 from forcetorque.workbench.matrix_fit import (
     LEAST_SENSORS,
     ResidualSpace,
@@ -28,6 +27,7 @@ from forcetorque.workbench.matrix_fit import (
     shift_derivatives,
     specified_scatter,
 )
+from forcetorque.workbench.position_means import Bench
 
 
 class Fault(StrEnum):

@@ -17,8 +17,8 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
-from forcetorque.workbench.bench import Bench, Placement
-from forcetorque.workbench.loads import BenchLoads
+from forcetorque.workbench.known_loads import BenchLoads
+from forcetorque.workbench.position_means import Bench, Placement
 
 _RANK = 1e-9
 """Share of the largest singular value below which a column of the design depends on the others."""

@@ -18,7 +18,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.evaluation.acceptance.acceptance import criteria_table
 from forcetorque.evaluation.acceptance.criteria import Criterion
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.results.number_text import number
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import (
@@ -32,9 +32,9 @@ from forcetorque.results.table import (
     optional_table,
     table_of,
 )
-from forcetorque.workbench.bench import block_findings
+from forcetorque.workbench.bench_recording import BenchRecording
 from forcetorque.workbench.faults import FaultRow, FaultSearch
-from forcetorque.workbench.recording import BenchRecording
+from forcetorque.workbench.position_means import block_findings
 
 
 class BenchSensorRow(Row):
@@ -292,9 +292,9 @@ _NEVER = 1e-6
 class Workbench(DrawnResult):
     """Calibrations of sensors on a workbench, with faults of the bench."""
 
-    drawn_by: ClassVar[str] = "forcetorque.workbench.figure:bench_figure"
+    drawn_by: ClassVar[str] = "forcetorque.workbench.figures:bench_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("picture",)
-    answered_by: ClassVar[str | None] = "forcetorque.workbench.command:workbench_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.workbench.answers:workbench_answers"
 
     schema_name: Literal["forcetorque/workbench/2"] = Field(default="forcetorque/workbench/2", alias="schema")
     """Form of the result."""

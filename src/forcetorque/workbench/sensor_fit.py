@@ -13,15 +13,15 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.generative.agreement import unmoved_directions
 from forcetorque.calibration.thesis.calibrate import validity_of
-from forcetorque.experiment.calibration.artefact import GENERATIVE, Calibration, Prior, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import GENERATIVE, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.moments import DataSet, Moments
 from forcetorque.experiment.calibration.provenance import FittedInterval, Provenance, Selection, SensorIdentity
 from forcetorque.experiment.calibration.sensor_model import component_names
 from forcetorque.inspection.plausibility.compared_wrenches import Doubt, Setup
-from forcetorque.workbench.bench import Bench
+from forcetorque.workbench.bench_recording import BenchRecording
 from forcetorque.workbench.matrix_fit import SESSION, BenchFit, fit_bench, fit_means
-from forcetorque.workbench.recording import BenchRecording
+from forcetorque.workbench.position_means import Bench
 from forcetorque.workbench.result import BenchSensorRow, SeriesRow
 
 FOLDS = 5

@@ -12,8 +12,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.simulation.sensor_family import FAMILIES
-from forcetorque.workbench.bench import Bench, Placement
-from forcetorque.workbench.loads import BenchLoads, Weights
+from forcetorque.workbench.known_loads import BenchLoads, Weights
+from forcetorque.workbench.position_means import Bench, Placement
 
 _LIMIT_COUNTS = 32767.0
 

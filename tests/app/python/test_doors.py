@@ -14,8 +14,8 @@ from typer.testing import CliRunner
 
 from forcetorque.app import motion, simulate, study, workbench
 from forcetorque.app.command_line import whole_program
-from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import Experiment, calibrate_jointly, load_experiment
+from forcetorque.app.python.experiment_of_arrays import experiment_of_arrays
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, OutputError
 from forcetorque.calibration.calibrate import calibrate_for_file
@@ -23,13 +23,13 @@ from forcetorque.calibration.joint.calibrate import calibrate_jointly as calibra
 from forcetorque.evaluation.acceptance.acceptance import accept
 from forcetorque.evaluation.acceptance.acceptance_file import read_acceptance
 from forcetorque.evaluation.commands import compare, evaluate, validate
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.locomotion.logged_signals import motion_signals
 from forcetorque.planning.planning import plan
 from forcetorque.report.report import report
-from forcetorque.sensor.bandwidth.bandwidth import response
+from forcetorque.sensor.bandwidth.response import response
 from forcetorque.sensor.commands import thermal
 from forcetorque.skin.commands import calibrate_skin
 from forcetorque.skin.taxels.calibrate import calibrate_skin as calibrate_skin_of_recordings
@@ -196,7 +196,7 @@ def test_a_robot_is_simulated_and_its_sensor_fitted_over_recordings(tmp_path: Pa
 @pytest.mark.long
 def test_a_workbench_is_asked_by_its_file(tmp_path: Path) -> None:
     """Its content gives the same."""
-    from forcetorque.workbench.recording import read_bench
+    from forcetorque.workbench.bench_recording import read_bench
 
     file, _ = write_bench(tmp_path)
     answer = workbench(file)

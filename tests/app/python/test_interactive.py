@@ -14,8 +14,8 @@ import pandas as pd
 import pytest
 
 import forcetorque
-from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import Experiment, load_experiment
+from forcetorque.app.python.experiment_of_arrays import experiment_of_arrays
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError, FitError, RecordingError, ShapeError
 from forcetorque.calibration.calibrate import data_doubts
@@ -23,12 +23,12 @@ from forcetorque.calibration.summary import information_gains
 from forcetorque.evaluation.commands import evaluate, validate
 from forcetorque.evaluation.load_cases.verdict import use_verdicts
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.calibration.estimation_type import ESTIMATION_TYPES
 from forcetorque.experiment.calibration.robot_model_error import EXACT
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.planning import plan as analysis_plan
-from forcetorque.planning.proposal import Effort
+from forcetorque.planning.proposed_recordings import Effort
 from forcetorque.recording.recording import Finding, Use
 from tests.app.python.arrays import arrays_of
 from tests.scenes.experiment_folders import arm, intact

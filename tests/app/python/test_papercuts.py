@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from pydantic import BaseModel
 
-from forcetorque.app.python.arrays import experiment_of_arrays
 from forcetorque.app.python.experiment import Experiment, load_experiment
+from forcetorque.app.python.experiment_of_arrays import experiment_of_arrays
 from forcetorque.app.python.run import Run
 from forcetorque.base.errors import ExperimentError
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.sensor.gains.gains import Gains
 from forcetorque.simulation.robots import ARM_URDF

@@ -14,7 +14,7 @@ import pandas as pd
 import pytest
 
 from forcetorque.app.python.experiment import Experiment, load_experiment
-from forcetorque.app.python.tables import experiment_of_tables, stream_of_arrays
+from forcetorque.app.python.experiment_of_tables import experiment_of_tables, stream_of_arrays
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, ShapeError, UnitError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.recording import Recording

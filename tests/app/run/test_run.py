@@ -13,7 +13,7 @@ import pytest
 
 import forcetorque
 from forcetorque.base.errors import ExperimentError
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.inspection.draft.draft import Draft, ProposalRow
 from forcetorque.inspection.draft.questions import answer_questions, open_questions
 from forcetorque.recording.storage import read_recording, write_recording

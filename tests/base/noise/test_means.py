@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.base.noise.means import means_of_parts, means_over
+from forcetorque.base.noise.window_means import means_of_parts, means_over
 
 
 def test_means_by_hand() -> None:

@@ -11,8 +11,8 @@ import pytest
 from scipy.signal import lfilter
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.noise.means import mean_error, means_in_windows
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline, regress
+from forcetorque.base.noise.window_means import mean_error, means_in_windows
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.robust_fit import fit

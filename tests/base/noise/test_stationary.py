@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import lfilter
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.noise.means import is_stationary, sample_statistics
+from forcetorque.base.noise.window_means import is_stationary, sample_statistics
 
 PERIOD_S = 0.02
 TIME_S = np.arange(3000) * PERIOD_S

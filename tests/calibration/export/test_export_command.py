@@ -20,10 +20,10 @@ import pytest
 
 from forcetorque.app.command_line import main
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.commands import export_calibrations
 from forcetorque.calibration.export.export import Export
 from forcetorque.calibration.export.wholebodydynamics import corrected, read_groups
-from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset, write_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, SessionOffset, write_calibration
 from forcetorque.formats.icub_matrix import read_matrix_file
 from tests.results.showing import require_shown
 from tests.scenes.calibrations import COEFFICIENTS, FACTORY, MOUNTED, OFFSET, make_calibration, make_variable

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration.export.formats import ExportFormat
-from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration, write_calibration
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

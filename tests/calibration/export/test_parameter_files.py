@@ -11,7 +11,7 @@ import yaml
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError
 from forcetorque.calibration import export_calibrations
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from tests.scenes.calibrations import OFFSET, make_calibration, make_variable
 
 SUM_ROUNDING = 1e-12

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.excitation import excitation_figure
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
-from forcetorque.results.figures import PAPER, REFERENCE_COLOUR, look, png_bytes
+from forcetorque.results.figure_style import PAPER, REFERENCE_COLOUR, look, png_bytes
 from tests.report.drawing import excitation_of_sensors, legend_of, panels, words
 
 TURN = np.sqrt(0.5)

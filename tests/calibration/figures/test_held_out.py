@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.lambda_curves import held_out_figure, infinite_place
-from forcetorque.results.figures import look
+from forcetorque.results.figure_style import look
 from tests.report.drawing import LAMBDAS, legend_of, panels
 
 DECADES = 10.0 ** np.arange(-2.0, 9.0)

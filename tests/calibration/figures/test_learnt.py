@@ -12,7 +12,7 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.information import learnt_figure
 from forcetorque.calibration.summary import InformationGain
-from forcetorque.results.figures import look
+from forcetorque.results.figure_style import look
 from tests.report.drawing import learnt_of, legend_of, panels
 
 SHARES = (0.97, 0.5, 0.04, 0.9, 0.9, 0.0)

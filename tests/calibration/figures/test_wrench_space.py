@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.excitation import space_figure
-from forcetorque.results.figures import DRAWN_POINTS, look, png_bytes
+from forcetorque.results.figure_style import DRAWN_POINTS, look, png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import count_of, legend_of, panels, pixels
 

@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.calibration.generative.artefact import linear_if_evident
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.generative.generative_calibration import linear_if_evident
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.quadratic_correction import LinearityTest
-from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting
 from forcetorque.study.candidate_errors import push_error
 from tests.calibration.synthetic import LIMIT_COUNTS, PRIOR, anyhow, hanging, read_by
 

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES
-from forcetorque.calibration.generative import design
+from forcetorque.calibration.generative import design_matrix as design
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import WindowMeans, model_terms

@@ -10,10 +10,10 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.calibration.generative.artefact import corrected_fit, try_correction
 from forcetorque.calibration.generative.fit import fit_generative
+from forcetorque.calibration.generative.generative_calibration import corrected_fit, try_correction
 from forcetorque.calibration.summary import calibration_blocks
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
 from tests.calibration.synthetic import OFFSET, PRIOR, anyhow, assumptions, read_by
 from tests.experiment.calibration.quadratic_sensor import ASSUMPTIONS, Specimen, calibrated, means_of

@@ -20,7 +20,7 @@ from forcetorque.robot.modified_robot import with_load
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import random_movement
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace, trace_movement
 from forcetorque.study.candidate_errors import pushes
 from tests.calibration.push_error import LIMIT_COUNTS

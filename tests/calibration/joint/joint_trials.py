@@ -22,14 +22,14 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.simulation.recordings import write_scenario
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 
 WAYS = {"sway": ["sway"], "steps": ["stepping"], "both": ["sway", "stepping"]}
 """Motions that are fitted together."""

@@ -14,8 +14,8 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import UNITS
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion

@@ -12,9 +12,9 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import windows
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of, untouched
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.calibration.joint.outcome import JointOutcome, ModelErrorRow, SensorErrorRow, SubModelRow
+from forcetorque.calibration.joint.result import JointOutcome, ModelErrorRow, SensorErrorRow, SubModelRow
 
 
 def _sensor(

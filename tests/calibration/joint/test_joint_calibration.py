@@ -18,7 +18,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.calibration.calibrate import calibrate_sensor, data_doubts
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
-from forcetorque.calibration.joint.outcome import JointOutcome, SubModelRow
+from forcetorque.calibration.joint.result import JointOutcome, SubModelRow
 from forcetorque.calibration.joint.robust_fit import residuals
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.untouched_interval import joint_interval, part_residuals

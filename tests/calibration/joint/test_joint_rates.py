@@ -16,7 +16,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.robot_model_error import EXACT
-from forcetorque.simulation.scenario.file import LINEAR_ONLY
+from forcetorque.simulation.scenario.scenario_file import LINEAR_ONLY
 from tests.calibration.joint.joint_trials import ALONE, ARMS, JUDGED, WAYS, SensorTrial, robots, trials
 
 ROBOTS: Final = 20

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.calibration.joint.nodes import Stretch, WindowNodes
+from forcetorque.calibration.joint.window_nodes import Stretch, WindowNodes
 from forcetorque.calibration.joint.windows import PIECE_S, WINDOW_S, part_windows, window_means
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, RATE_HZ, SENSORS, swaying

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.calibration.joint.artefact import sensor_posterior
+from forcetorque.calibration.joint.posterior_and_calibrations import sensor_posterior
 from forcetorque.calibration.joint.robust_fit import UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.experiment.calibration.posterior import Posterior

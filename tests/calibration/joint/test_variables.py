@@ -13,16 +13,16 @@ import pytest
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.joint.calibrate import calibrate_jointly
 from forcetorque.calibration.joint.fit import fit_jointly
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit, SensorPrior
 from forcetorque.calibration.joint.untouched_interval import part_residuals
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.calibration.joint.windows import part_windows
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import variable_sizes
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.recording.column import ScalarSource
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Use
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, swaying

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError, UnitError
 from forcetorque.estimation.figures import contact_figure
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figure_style import png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import legend_of, panels
 

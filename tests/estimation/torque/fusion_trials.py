@@ -18,12 +18,12 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.estimation.torque.covariance_fusion import Fusion, fuse
-from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
-from forcetorque.estimation.torque.source import TorqueSource, wrench_source
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.torque.motor_torque import Friction, drive_torque, fit_friction, motor_source
+from forcetorque.estimation.torque.torque_source import TorqueSource, wrench_source
+from forcetorque.estimation.uncertain.input_errors import Uncertainty
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.estimation.torque.source import TorqueSource
+from forcetorque.estimation.torque.torque_source import TorqueSource
 
 JOINTS = ("knee", "hip")
 RATE_HZ = 20.0

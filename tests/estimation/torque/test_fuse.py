@@ -18,7 +18,7 @@ from forcetorque.estimation.torque.covariance_fusion import (
     fuse,
     means_in_windows,
 )
-from forcetorque.estimation.torque.source import TorqueSource
+from forcetorque.estimation.torque.torque_source import TorqueSource
 from tests.estimation.torque.sources import JOINTS, SAMPLES, shifted, source, stamps, three, truth
 
 EXACT = 1e-9

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError, FitError
-from forcetorque.estimation.torque.motor import (
+from forcetorque.estimation.torque.motor_torque import (
     Friction,
     _Scatter,
     drive_torque,

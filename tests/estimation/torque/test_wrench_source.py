@@ -8,11 +8,11 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.torque.source import OWN_MODEL_SHARE, TorqueSource, wrench_source
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.torque.torque_source import OWN_MODEL_SHARE, TorqueSource, wrench_source
+from forcetorque.estimation.uncertain.input_errors import Uncertainty
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question, TorqueSum
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

@@ -15,9 +15,9 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import make_pose
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.estimation.skin_contacts import SkinSource, skin_sources
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.uncertain.input_errors import Uncertainty
 from forcetorque.robot.contacts import Contact, Wrenches
-from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

@@ -18,11 +18,11 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.estimation.skin_contacts import skin_sources
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
-from forcetorque.estimation.uncertain.uncertainty import tangent_maps
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates, estimate_with_covariance
+from forcetorque.estimation.uncertain.input_errors import tangent_maps
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import MinimumNorm, Question
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question
 from forcetorque.robot.tree import build_tree
 from tests.estimation.uncertain.limb import FOOT, FRICTION, Draws, Shin, cylinder, draw
 from tests.skin.contact_trials import leg_layout

@@ -22,11 +22,11 @@ from forcetorque.estimation.skin_contacts import (
     skin_sources,
     sources_at,
 )
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
-from forcetorque.estimation.uncertain.uncertainty import Tangents, tangent_maps
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates, estimate_with_covariance
+from forcetorque.estimation.uncertain.input_errors import Tangents, tangent_maps
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
 from forcetorque.skin.wrench.patch_sensor import SkinPatch

@@ -10,12 +10,12 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.uncertain.equations import Affine, posterior_of, undetermined_of
-from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
-from forcetorque.estimation.uncertain.uncertainty import Actor, Uncertainty, wrench_covariances
+from forcetorque.estimation.uncertain.estimate_with_covariance import estimate_with_covariance
+from forcetorque.estimation.uncertain.input_errors import Actor, Uncertainty, wrench_covariances
+from forcetorque.estimation.uncertain.sub_model_posterior import Affine, posterior_of, undetermined_of
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum, moving_joints
 from tests.robot.mechanics.simulated import random_pose
 from tests.robot.mechanics.touched import Touched, touched
 

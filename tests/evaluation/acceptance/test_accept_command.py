@@ -21,7 +21,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting
 from tests.app.json_schema import faults
 from tests.app.outcome import Outcome, Run
 from tests.scenes.experiments import FACTORY, PARQUET, TWO, edit, snapshot

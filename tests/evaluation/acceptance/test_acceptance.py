@@ -21,7 +21,7 @@ from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.acceptance.static_checks import check
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import FittedInterval, Selection
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import index_figure, sphere_figure
 from forcetorque.evaluation.trials.trials import mean_of_trials
-from forcetorque.results.figures import PAPER, look, png_bytes
+from forcetorque.results.figure_style import PAPER, look, png_bytes
 from tests.report.drawing import legend_of, panels, recorded_figures, size_of, trial_groups, words
 
 

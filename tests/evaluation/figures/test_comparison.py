@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.errors_and_matrices import comparison_figure
-from forcetorque.results.figures import REFERENCE_COLOUR, look, png_bytes
+from forcetorque.results.figure_style import REFERENCE_COLOUR, look, png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import count_of, legend_of, panels, pixels
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.errors_and_matrices import difference_figure
-from forcetorque.results.figures import PAPER, REFERENCE_COLOUR, png_bytes
+from forcetorque.results.figure_style import PAPER, REFERENCE_COLOUR, png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import panels, size_of, words
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import CLOUD_POINTS, force_space_figure
-from forcetorque.results.figures import look, png_bytes
+from forcetorque.results.figure_style import look, png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import legend_of, panels, words
 

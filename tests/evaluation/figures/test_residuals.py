@@ -12,7 +12,7 @@ from matplotlib.patches import StepPatch
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import autocorrelation
 from forcetorque.evaluation.figures.errors_and_matrices import bin_edges, residual_figure, thinned_lags
-from forcetorque.results.figures import looks
+from forcetorque.results.figure_style import looks
 from tests.report.drawing import legend_of, panels, words
 
 COUNT = 2000

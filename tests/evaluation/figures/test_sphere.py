@@ -9,7 +9,7 @@ import pytest
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.figures.sphere import ellipsoid_outline, sphere_figure
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
-from forcetorque.results.figures import REFERENCE_COLOUR, look
+from forcetorque.results.figure_style import REFERENCE_COLOUR, look
 from tests.report.drawing import panels, recorded_figures, sphere_of, words
 
 PLANES = ((0, 1), (1, 2), (0, 2))

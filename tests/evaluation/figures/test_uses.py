@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.figures.load_cases import use_figure
-from forcetorque.results.figures import look
+from forcetorque.results.figure_style import look
 from tests.report.drawing import legend_of, panels, use_of
 
 NAMES = {"leg.json": "leg.json", "new.json": "new.json"}

@@ -21,7 +21,7 @@ from forcetorque.evaluation.load_cases.load_case import (
 )
 from forcetorque.evaluation.load_cases.validation_evidence import Evidence, SecondMeans, evidence
 from forcetorque.evaluation.load_cases.verdict import Decision, LoadCaseAssessment
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moments import DataSet
 from tests.calibration.push_error import LIMIT_COUNTS, Case, cases
 

@@ -33,7 +33,7 @@ from forcetorque.evaluation.load_cases.verdict import (
     use_verdicts,
 )
 from forcetorque.evaluation.section import LOAD_CASES
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.robot.tree import build_tree, outboard_bodies

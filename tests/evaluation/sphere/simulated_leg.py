@@ -18,7 +18,6 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
-from forcetorque.simulation.scenario.file import bundled_scenario
 from forcetorque.simulation.scenario.scenario import (
     INTERVAL_MARGIN_S,
     Scenario,
@@ -27,6 +26,7 @@ from forcetorque.simulation.scenario.scenario import (
     simulate,
     trace_recordings,
 )
+from forcetorque.simulation.scenario.scenario_file import bundled_scenario
 from forcetorque.simulation.trace import Trace
 
 LEG = "l_leg_ft"

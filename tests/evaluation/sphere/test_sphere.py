@@ -12,7 +12,7 @@ from forcetorque.base.errors import ExperimentError, SerialNumberError, UnitErro
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere, sphere_intervals
 from forcetorque.evaluation.sphere.sphere import Spheres, spheres
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun

@@ -16,8 +16,8 @@ from forcetorque.evaluation.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.evaluation.trials.comparison import Comparison
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, mean_of_trials, read_trials
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of

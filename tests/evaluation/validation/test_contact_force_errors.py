@@ -17,7 +17,7 @@ from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.validation.contact_force_errors import ContactForceErrors, contact_forces
 from forcetorque.evaluation.validation.contact_wrenches import contact_wrenches
 from forcetorque.evaluation.validation.validation import joint_torques
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import wrench_errors
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice

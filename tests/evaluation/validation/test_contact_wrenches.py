@@ -24,14 +24,14 @@ from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.dynamics import joints_between
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
-from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import SubModel, build_tree
 from forcetorque.simulation.motions.joint_motions import random_movement
-from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
 from forcetorque.simulation.sensor_family import FAMILIES
+from forcetorque.simulation.simulated_sensor import SimulatedSensor, distorted_by_mounting
 from forcetorque.simulation.trace import record
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import Simulation, from_root, random_pose, random_root, to_root

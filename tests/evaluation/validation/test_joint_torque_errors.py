@@ -9,13 +9,13 @@ from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError, ShapeError
-from forcetorque.base.noise.means import mean_error
+from forcetorque.base.noise.window_means import mean_error
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.evaluation.validation.joint_torque_errors import TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import Question, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree, sub_models

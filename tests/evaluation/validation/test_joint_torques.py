@@ -15,7 +15,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.validation.joint_torque_errors import torque_error_samples
 from forcetorque.evaluation.validation.validation import JointTorqueErrors, JointTorques, joint_torques
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
@@ -27,8 +27,8 @@ from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.recording.recording import Use
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
-from forcetorque.robot.mechanics.question import Question
 from forcetorque.robot.tree import build_tree
 from tests.cases import some_cases
 from tests.scenes.experiments import JOINTS, PARQUET, TWO, edit

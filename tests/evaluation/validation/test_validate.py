@@ -11,7 +11,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import validate
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces
 from forcetorque.evaluation.validation.validation import Validation, joint_torques
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.seen_and_outside_samples import sentences
 from forcetorque.experiment.sensor_run import SensorRun

@@ -9,14 +9,14 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.calibration.generative.artefact import generative_calibration
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.calibration.generative.generative_calibration import generative_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.experiment.calibration.provenance import FittedInterval, SensorIdentity
 from forcetorque.experiment.calibration.quadratic_correction import QuadraticCorrection, steepness
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments
-from forcetorque.simulation.sensor import distorted_by_mounting
+from forcetorque.simulation.simulated_sensor import distorted_by_mounting
 from tests.scenes.calibrations import FACTORY
 
 LIMIT_COUNTS = 32767.0

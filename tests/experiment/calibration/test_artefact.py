@@ -22,7 +22,7 @@ from forcetorque.base.errors import (
     ShapeError,
 )
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.calibration.artefact import (
+from forcetorque.experiment.calibration.calibration_file import (
     CalibratedVariable,
     Calibration,
     Prior,

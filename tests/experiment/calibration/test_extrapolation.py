@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.excitation import extrapolation, predicted_error
 from forcetorque.experiment.calibration.provenance import FittedLoads
 from tests.scenes.calibrations import MOUNTED, OFFSET, make_calibration, make_variable

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from forcetorque.experiment.calibration.artefact import Calibration, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import Calibration, SessionOffset
 from forcetorque.study.study import joined_by_axis
 from tests.scenes.calibrations import make_calibration
 

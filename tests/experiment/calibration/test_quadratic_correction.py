@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.experiment.calibration.artefact import read_calibration, write_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration, write_calibration
 from forcetorque.experiment.calibration.quadratic_correction import STEEPEST, QuadraticCorrection, steepness
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from tests.experiment.calibration.quadratic_sensor import LIMIT_COUNTS, correction_of_steepness

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingExtraError, MissingFileError, UnitError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import LOG_FORMATS, format_name, recognised_format

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from scipy.io import savemat
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError, SkinError, UnitError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import MatlabFormat
 from forcetorque.formats.array_file.streams import MatlabLog
 from forcetorque.formats.log_format import LogReading

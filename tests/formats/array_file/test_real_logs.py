@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import MatlabFormat
 from forcetorque.formats.array_file.streams import MatlabLog
 from forcetorque.formats.registry import recognised_format

@@ -13,12 +13,12 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FormatError, MissingExtraError, OutputError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.c3d.c3d_file import is_c3d, read_c3d
-from forcetorque.formats.c3d.conventions import C3dLog
 from forcetorque.formats.c3d.force_platform import centre_of_pressure
 from forcetorque.formats.c3d.log_format import C3dFormat
+from forcetorque.formats.c3d.plate_conventions import C3dLog
 from forcetorque.formats.c3d.writing import INTEL, Processor
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.inspect import inspect_log

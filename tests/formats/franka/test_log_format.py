@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.franka.log_format import FrankaFormat, FrankaLog
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import recognised_format

@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import FormatError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.lerobot.dataset import dataset_of_file, read_dataset
 from forcetorque.formats.lerobot.log_format import LeRobotFormat, LeRobotLog
 from forcetorque.formats.log_format import LogReading

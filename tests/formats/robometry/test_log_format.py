@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, UnitError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.robometry.log_format import RobometryFormat, RobometryLog

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FormatError, MissingExtraError, MissingFileError
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.ros import bag

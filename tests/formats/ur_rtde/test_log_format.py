@@ -10,11 +10,11 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.log_format import LogReading
 from forcetorque.formats.registry import recognised_format
-from forcetorque.formats.ur_rtde.consistency import turned_by
 from forcetorque.formats.ur_rtde.log_format import MomentPoint, UrRtdeFormat, UrRtdeLog
+from forcetorque.formats.ur_rtde.moment_point_axes_and_gravity import turned_by
 from forcetorque.inspection.draft.draft import draft_experiment
 from tests.formats.ur_rtde.recordings import GRAVITY, RATE_HZ, Tool, accelerometer, recorded, write_binary, write_text
 

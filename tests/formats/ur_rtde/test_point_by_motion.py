@@ -13,8 +13,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.formats.ur_rtde.consistency import is_about_other_point
 from forcetorque.formats.ur_rtde.log_format import UrRtdeFormat
+from forcetorque.formats.ur_rtde.moment_point_axes_and_gravity import is_about_other_point
 from tests.formats.ur_rtde.recordings import write_text
 from tests.payload.simulated_ur5 import GRAVITY, RATE_HZ, Recording, about_tcp, simulated, with_columns
 

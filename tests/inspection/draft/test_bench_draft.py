@@ -13,8 +13,8 @@ from forcetorque.base.errors import ExperimentError, FormatError, MissingFileErr
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.questions import answer_questions, logs_of, resume_experiment
-from forcetorque.workbench.loads import THESIS_TABLE
-from forcetorque.workbench.recording import read_bench
+from forcetorque.workbench.bench_recording import read_bench
+from forcetorque.workbench.known_loads import THESIS_TABLE
 from tests.app.outcome import Run
 from tests.scenes.benches import thesis_loads
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from forcetorque.inspection.draft.corrections import Correction
+from forcetorque.inspection.draft.fault_corrections import Correction
 
 MOUNT = {"rotation_deg": [0.0, 0.0, 0.0], "shift_mm": [0.0, 0.0, 0.0]}
 CORRECTION = Correction(table="sensor", index=0, key="mount", value="unknown", tried=MOUNT, owner="ft")

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.inspection.draft.intervals import MovingLoad, divided
+from forcetorque.inspection.draft.intervals_and_clocks import MovingLoad, divided
 
 SECOND_NS = 1_000_000_000
 

@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from forcetorque.inspection.draft.edits import Edit, interval_edit, key_edit, table_edit
+from forcetorque.inspection.draft.toml_edits import Edit, interval_edit, key_edit, table_edit
 
 TEXT = """# an experiment
 name = "a # b"

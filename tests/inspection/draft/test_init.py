@@ -17,13 +17,13 @@ import pytest
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError, OutputError
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.icub_matrix import encode_matrix, write_matrix_file
 from forcetorque.formats.log_format import SketchedColumns
-from forcetorque.formats.signals import OrientationTable
+from forcetorque.formats.specified_signals import OrientationTable
 from forcetorque.inspection.draft.column_matches import array_groups, column_matches, is_estimated
 from forcetorque.inspection.draft.draft import Draft, draft_experiment
 from forcetorque.inspection.draft.joints import joint_rows

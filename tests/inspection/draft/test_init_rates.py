@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.inspection.draft.gravity import GravityFit, fit_gravity, free_intervals
+from forcetorque.inspection.draft.gravity_fit import GravityFit, fit_gravity, free_intervals
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.dynamics import expected_wrenches

@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.inspection.draft.edits import Edit
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.questions import resume_experiment
+from forcetorque.inspection.draft.toml_edits import Edit
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.results.terminal.options import has_piped_lines
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import simulate_recording
 from tests.app.outcome import Run
 from tests.scenes.experiments import JOINTS, MOUNTED, OFFSET, PARQUET, TEXTS, TWO, write_experiments

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.toml_file import unanswered_keys
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.inspection.draft.draft import Draft
 from tests.app.outcome import Run
 from tests.page_scripts import unmarked

@@ -21,7 +21,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of, still_seconds
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
 from forcetorque.locomotion.commands import coherence
-from forcetorque.locomotion.net_force.net_contact import readers_of
+from forcetorque.locomotion.net_force.net_contact_wrench import readers_of
 from forcetorque.locomotion.net_force.net_force import force_error, summaries_of
 from forcetorque.locomotion.net_force.result import Coherence, PhaseForce
 from forcetorque.recording.recording import Interval, Use

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.app.python.experiment import load_experiment
-from forcetorque.experiment.calibration.artefact import write_calibration
+from forcetorque.experiment.calibration.calibration_file import write_calibration
 from forcetorque.simulation.recordings import write_scenario
 from forcetorque.simulation.scenario.scenario import build_scenario
 from tests.app.outcome import Run

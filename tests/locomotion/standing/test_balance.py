@@ -17,9 +17,9 @@ from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.locomotion.answers import balance_answer
 from forcetorque.locomotion.section import SOLES
+from forcetorque.locomotion.standing.balance import balance
 from forcetorque.locomotion.standing.foot_wrenches import load_foot_forces
 from forcetorque.locomotion.standing.interval_balance import BalanceOptions
-from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, ContactThresholds, ForceLimit, support_phases
 from forcetorque.results.answer import Concern
 from forcetorque.robot.urdf import read_urdf

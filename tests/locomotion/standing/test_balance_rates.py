@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.noise.means import mean_error
+from forcetorque.base.noise.window_means import mean_error
 from forcetorque.locomotion.standing.interval_balance import IntervalBalance
 from forcetorque.locomotion.standing.result import phase_rows
 from forcetorque.locomotion.standing.support_phases import ContactThresholds, support_phases

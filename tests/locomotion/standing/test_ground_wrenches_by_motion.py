@@ -13,9 +13,9 @@ from forcetorque.base.errors import ExperimentError, RecordingError
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.locomotion.section import SOLES
+from forcetorque.locomotion.standing.balance import balance
 from forcetorque.locomotion.standing.ground_wrenches_by_motion import SHARES, balance_by_motion
 from forcetorque.locomotion.standing.interval_balance import BalanceOptions, IntervalBalance
-from forcetorque.locomotion.standing.standing import balance
 from forcetorque.locomotion.standing.support_phases import ForceLimit
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import MovingSupport

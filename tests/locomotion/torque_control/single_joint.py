@@ -9,7 +9,7 @@ import numpy as np
 from scipy import signal
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.locomotion.torque_control.controller import TorqueController, TorqueGains
+from forcetorque.locomotion.torque_control.joint_torque_controller import TorqueController, TorqueGains
 from forcetorque.locomotion.torque_control.stability import LinearPlant
 
 PERIOD_S = 0.001

@@ -11,20 +11,20 @@ import pytest
 from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import centre_of_mass
+from forcetorque.locomotion.torque_control.biped_in_mujoco import JOINTS, LEGS, SENSORS, SOLES, Biped
 from forcetorque.locomotion.torque_control.closed_loop import (
     estimated_torques,
     pelvis_motion,
     rotations,
     torque_question,
 )
-from forcetorque.locomotion.torque_control.controller import JointDrive
-from forcetorque.locomotion.torque_control.world import JOINTS, LEGS, SENSORS, SOLES, Biped
+from forcetorque.locomotion.torque_control.joint_torque_controller import JointDrive
 from forcetorque.robot.dynamics import expected_wrenches
-from forcetorque.robot.model_text import write_urdf
 from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.urdf_and_mjcf_text import write_urdf
 
 mujoco = pytest.importorskip("mujoco")
-from forcetorque.locomotion.torque_control.world import World  # noqa: E402
+from forcetorque.locomotion.torque_control.biped_in_mujoco import World  # noqa: E402
 
 EQUAL = 1e-9
 """N m, kg m2: what the issue asks; rounding of sums of some hundred N m is 1e-13."""

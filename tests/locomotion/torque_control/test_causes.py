@@ -10,8 +10,10 @@ import pytest
 
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.commands import oscillation_causes
-from forcetorque.locomotion.torque_control.balancing import Phase, standing
-from forcetorque.locomotion.torque_control.causes import (
+from forcetorque.locomotion.torque_control.balancing_controller import Phase, standing
+from forcetorque.locomotion.torque_control.biped_in_mujoco import JOINTS, SENSORS, Biped
+from forcetorque.locomotion.torque_control.linear_robot import linear_robot, massless_drives, with_springs
+from forcetorque.locomotion.torque_control.oscillation_causes import (
     TORQUES,
     CauseRow,
     OscillationCauses,
@@ -19,11 +21,9 @@ from forcetorque.locomotion.torque_control.causes import (
     _row,
     study_causes,
 )
-from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
-from forcetorque.locomotion.torque_control.linear_robot import linear_robot, massless_drives, with_springs
 from forcetorque.locomotion.torque_control.stability import Stability
-from forcetorque.locomotion.torque_control.study import share_interval
-from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped
+from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile, read_torque_loop
+from forcetorque.locomotion.torque_control.torque_loop_study import share_interval
 from forcetorque.results.answer import Concern
 from tests.app.outcome import Run
 
@@ -140,7 +140,7 @@ def test_it_is_typed(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         asked.append(content)
         return causes
 
-    monkeypatch.setattr("forcetorque.locomotion.torque_control.causes.study_causes", answer)
+    monkeypatch.setattr("forcetorque.locomotion.torque_control.oscillation_causes.study_causes", answer)
     figure = tmp_path / "causes.png"
     typed = run("robot", "oscillation-causes", path, "--figure", figure, "--format", "json").result()
     assert asked == [read_torque_loop(path)]

@@ -10,7 +10,8 @@ import pytest
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ControlError
-from forcetorque.locomotion.torque_control.balancing import Phase, Timing, standing, switching
+from forcetorque.locomotion.torque_control.balancing_controller import Phase, Timing, standing, switching
+from forcetorque.locomotion.torque_control.biped_in_mujoco import SENSORS, Biped
 from forcetorque.locomotion.torque_control.closed_loop import (
     PRINTED,
     LoopRun,
@@ -19,9 +20,8 @@ from forcetorque.locomotion.torque_control.closed_loop import (
     drawn_matrices,
     run_loop,
 )
-from forcetorque.locomotion.torque_control.file import PERIOD_S, DriveTable, SensorTable, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import LinearRobot, linear_robot, require_stable
-from forcetorque.locomotion.torque_control.world import SENSORS, Biped
+from forcetorque.locomotion.torque_control.torque_loop_file import PERIOD_S, DriveTable, SensorTable, TorqueLoopFile
 
 pytest.importorskip("mujoco")
 

@@ -10,7 +10,7 @@ import pytest
 from scipy import signal
 
 from forcetorque.base.errors import ControlError, ShapeError
-from forcetorque.locomotion.torque_control.controller import TorqueController, TorqueGains
+from forcetorque.locomotion.torque_control.joint_torque_controller import TorqueController, TorqueGains
 from forcetorque.locomotion.torque_control.stability import held_joints, moving_joints
 from tests.locomotion.torque_control.single_joint import DUTY_TORQUE, GAINS, LAG_S, PERIOD_S, closed_loop, transfer
 

@@ -12,7 +12,7 @@ from scipy.linalg import block_diag
 from scipy.optimize import brentq
 
 from forcetorque.base.errors import ControlError, ShapeError
-from forcetorque.locomotion.torque_control.controller import TorqueGains
+from forcetorque.locomotion.torque_control.joint_torque_controller import TorqueGains
 from forcetorque.locomotion.torque_control.stability import (
     TorqueLoop,
     delay_margin,

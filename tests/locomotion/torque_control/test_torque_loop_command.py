@@ -9,8 +9,8 @@ import pytest
 
 from forcetorque.base.errors import ControlError, FormatError
 from forcetorque.locomotion.commands import torque_loop
-from forcetorque.locomotion.torque_control.file import TorqueLoopFile, read_torque_loop
-from forcetorque.locomotion.torque_control.study import TorqueLoopStudy
+from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile, read_torque_loop
+from forcetorque.locomotion.torque_control.torque_loop_study import TorqueLoopStudy
 from tests.app.outcome import Run
 from tests.page_scripts import unmarked
 
@@ -93,7 +93,7 @@ def test_it_is_typed(
         asked.append(content)
         return loop
 
-    monkeypatch.setattr("forcetorque.locomotion.torque_control.study.study_torque_loop", answer)
+    monkeypatch.setattr("forcetorque.locomotion.torque_control.torque_loop_study.study_torque_loop", answer)
     typed = run("robot", "torque-loop", file, "--figure", tmp_path / "loop.png", "--format", "json")
     assert asked == [read_torque_loop(file)]
     assert len(typed.result()["rows"]) == len(loop.rows)

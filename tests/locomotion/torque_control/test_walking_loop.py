@@ -13,9 +13,9 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
-from forcetorque.locomotion.torque_control.file import TorqueLoopFile
+from forcetorque.locomotion.torque_control.biped_in_mujoco import Biped
+from forcetorque.locomotion.torque_control.torque_loop_file import TorqueLoopFile
 from forcetorque.locomotion.torque_control.walking_loop import WalkingController, zmp_sensitivity
-from forcetorque.locomotion.torque_control.world import Biped
 
 CONTROLLER = TorqueLoopFile().walking
 TRUE = np.eye(2, 4)

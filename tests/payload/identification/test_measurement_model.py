@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.measurement_model import changes, expected, inertial
 from forcetorque.payload.identification.parameter_vector import Guess, Kind, unknowns_of
-from forcetorque.robot.mounting import rotation_by
+from forcetorque.robot.mount_estimate import rotation_by
 from tests.payload.identification.payloads import CENTRE, MASS, poses, problem_of, weight
 from tests.payload.identification.test_published_quantities import PROBLEMS
 

@@ -34,7 +34,7 @@ from forcetorque.results.document.content import (
 )
 from forcetorque.results.document.pdf import MISSING_LETTERS, pdf_bytes
 from forcetorque.results.document.pdf_layout import lines_of, spelled
-from forcetorque.results.figures import DOTS_PER_INCH, new_figure, png_bytes
+from forcetorque.results.figure_style import DOTS_PER_INCH, new_figure, png_bytes
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
 

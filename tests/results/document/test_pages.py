@@ -23,7 +23,7 @@ from forcetorque.results.document.content import (
     html_bytes,
 )
 from forcetorque.results.document.pdf import pdf_bytes
-from forcetorque.results.figures import DOTS_PER_INCH
+from forcetorque.results.figure_style import DOTS_PER_INCH
 from forcetorque.results.table import Table
 from tests.cases import some_cases
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     COLOURS,
     LONGEST_NAME,
     REFERENCE_COLOUR,

@@ -17,7 +17,7 @@ from matplotlib.transforms import Bbox
 
 import forcetorque
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figure_style import png_bytes
 from tests.cases import some_cases
 from tests.report.drawing import FIGURES, panels, shown_texts, size_of
 
@@ -29,10 +29,7 @@ some_figures = some_cases("name", [*FEW, *(name for name in FIGURES if name not 
 
 ROOT = Path(forcetorque.__file__).parent
 FILES = sorted(
-    path
-    for pattern in ("figure.py", "figures.py", "figures/*.py")
-    for path in ROOT.rglob(pattern)
-    if "results" not in path.parts
+    path for pattern in ("figures.py", "figures/*.py") for path in ROOT.rglob(pattern) if "results" not in path.parts
 )
 """Files of figures, by their names."""
 TOUCHING_PIXELS = 2.0
@@ -157,7 +154,7 @@ from forcetorque.calibration.figures.excitation import space_figure
 from forcetorque.calibration.figures.lambda_curves import lambda_difference_figure
 from forcetorque.estimation.figures import contact_figure
 from forcetorque.evaluation.figures.errors_and_matrices import difference_figure
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figure_style import png_bytes
 from forcetorque.study.figures import lambda_force_figure
 assert "matplotlib" not in sys.modules
 curves = {"a": np.ones(3)}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.results.figures import drawable, drawable_each, instants
+from forcetorque.results.figure_style import drawable, drawable_each, instants
 
 
 def test_what_is_not_finite_becomes_nan_in_a_copy() -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.results.figures import DRAWN_POINTS, DRAWN_SAMPLES, thinned_cloud, thinned_line
+from forcetorque.results.figure_style import DRAWN_POINTS, DRAWN_SAMPLES, thinned_cloud, thinned_line
 
 
 def _long_line() -> tuple[np.ndarray, np.ndarray]:

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
-from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question, TorqueSum, moving_joints
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, Mimic, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.question import MinimumNorm, Question, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question, moving_joints
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

@@ -13,7 +13,7 @@ from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotErro
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import MinimumNorm, Question
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question
 from forcetorque.robot.motion import JointMotion, RootMotion
 from tests.robot.mechanics.touched import Touched, touched
 

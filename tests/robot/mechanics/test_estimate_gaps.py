@@ -13,7 +13,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from tests.robot.mechanics.touched import Touched, touched
 

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.question import Question, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
 from forcetorque.robot.motion import RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree, sub_models
 from forcetorque.robot.urdf import read_urdf

@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import Question, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
 from forcetorque.robot.motion import JointMotion, RootMotion
 from tests.cases import some_cases
 from tests.robot.mechanics.touched import touched

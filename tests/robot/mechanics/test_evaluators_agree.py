@@ -14,7 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import MinimumNorm, Question, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question, moving_joints
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf

@@ -10,7 +10,7 @@ from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import MinimumNorm, Question
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question
 from forcetorque.robot.motion import JointMotion
 from tests.robot.mechanics.touched import Touched, touched
 

@@ -9,7 +9,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.question import MinimumNorm, Question
+from forcetorque.robot.mechanics.estimated_quantities import MinimumNorm, Question
 from tests.robot.mechanics.simulated import Simulation, from_root, random_pose, to_root
 from tests.robot.mechanics.touched import Touched, touched
 

@@ -24,7 +24,7 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.motions.joint_motions import random_smooth_motion
 from forcetorque.simulation.robots import ARM_URDF
-from forcetorque.simulation.sensor import SimulatedSensor, y_shaped_matrix
+from forcetorque.simulation.simulated_sensor import SimulatedSensor, y_shaped_matrix
 from forcetorque.simulation.trace import simulate_recording
 from tests.recording.recordings import EPOCH_NS, recording, refused, signal, stream
 

@@ -9,7 +9,7 @@ import pytest
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import Question, TorqueSum, moving_joints
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum, moving_joints
 from tests.robot.mechanics.simulated import Simulation
 from tests.robot.mechanics.touched import Touched, touched
 

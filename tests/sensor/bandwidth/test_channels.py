@@ -8,7 +8,7 @@ import pytest
 from scipy.signal import lfilter
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.sensor.bandwidth.driven import ChannelResponse, channel_responses
+from forcetorque.sensor.bandwidth.driven_response import ChannelResponse, channel_responses
 from forcetorque.sensor.bandwidth.excited_records import EvenRecord, ExcitationKind, ExcitedRecord
 
 RATE_HZ, SECONDS = 100.0, 30.0

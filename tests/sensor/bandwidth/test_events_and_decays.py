@@ -9,8 +9,8 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, RecordingError
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops
-from forcetorque.sensor.bandwidth.decays import pool
 from forcetorque.sensor.bandwidth.excited_records import EvenRecord, even_record, refuse_clipped
+from forcetorque.sensor.bandwidth.pooled_decays import pool
 from forcetorque.sensor.bandwidth.ring_down import RingDown, find_events, gains, ring_downs, step_direction
 from tests.scenes.excited_sensors import GRAVITY, MASS_KG, RELEASES, Spring, released, tapped
 

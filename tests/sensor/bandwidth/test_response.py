@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.base.errors import ExperimentError, FitError, RecordingError
-from forcetorque.sensor.bandwidth.bandwidth import Response, response
+from forcetorque.sensor.bandwidth.response import Response, response
 from forcetorque.sensor.bandwidth.second_order import SecondOrder
 from tests.page_scripts import unmarked
 from tests.results.showing import require_shown

@@ -9,9 +9,9 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.units import NORMAL_95
-from forcetorque.sensor.bandwidth.decays import Decays, free_decays
-from forcetorque.sensor.bandwidth.driven import driven_response
+from forcetorque.sensor.bandwidth.driven_response import driven_response
 from forcetorque.sensor.bandwidth.excited_records import EvenRecord, ExcitationKind, ExcitedRecord
+from forcetorque.sensor.bandwidth.pooled_decays import Decays, free_decays
 from forcetorque.sensor.bandwidth.second_order import SecondOrder, inverse_filter
 from tests.scenes.excited_sensors import GRAVITY, MASS_KG, Spring, released, swung, tapped
 

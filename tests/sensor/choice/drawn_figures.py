@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.sensor.catalogue import sensor_catalogue
 from forcetorque.sensor.choice.choice import rank_sensors
-from forcetorque.sensor.choice.figure import choice_figure
+from forcetorque.sensor.choice.figures import choice_figure
 from forcetorque.sensor.choice.load_case import LoadCase
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.sensor.elastic import Beam, Material, RectangularSection
+from forcetorque.sensor.elastic_element import Beam, Material, RectangularSection
 
 MATERIAL = Material(young_modulus=200e9, shear_modulus=78e9)
 SECTION = RectangularSection(width=0.003, height=0.005)

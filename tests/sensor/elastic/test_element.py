@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.errors import SensorError
 from forcetorque.base.pose import make_pose, rotation_about_z
 from forcetorque.base.wrench import wrench_matrix
-from forcetorque.sensor.elastic import (
+from forcetorque.sensor.elastic_element import (
     Beam,
     Bending,
     ElasticElement,

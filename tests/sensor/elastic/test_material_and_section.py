@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.elastic import (
+from forcetorque.sensor.elastic_element import (
     Material,
     RectangularSection,
 )

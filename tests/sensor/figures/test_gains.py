@@ -14,7 +14,7 @@ import pytest
 from forcetorque.base.errors import MissingExtraError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.results.figures import COLOURS, png_bytes
+from forcetorque.results.figure_style import COLOURS, png_bytes
 from forcetorque.sensor.figures import gain_figure
 from forcetorque.sensor.gains.amplifier_gains import GainChange
 from forcetorque.sensor.gains.gains import SensorGains, select_gains

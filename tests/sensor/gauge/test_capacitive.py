@@ -8,7 +8,7 @@ import dataclasses
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.gauge import ParallelPlates
+from forcetorque.sensor.gauges import ParallelPlates
 
 PLATES = ParallelPlates(area=1e-4, relative_permittivity=3.0)
 ROUNDING = 1e-14

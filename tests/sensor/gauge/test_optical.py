@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.gauge import FibreBraggGrating, ReflectedIntensity
+from forcetorque.sensor.gauges import FibreBraggGrating, ReflectedIntensity
 
 FIBRE = ReflectedIntensity(core_radius=1e-4, cone_angle=np.arctan(0.5), contact_intensity=8.0)
 GRATING = FibreBraggGrating(

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from forcetorque.base.errors import SensorError, ShapeError
-from forcetorque.sensor.gauge import PiezoelectricGauge
+from forcetorque.sensor.gauges import PiezoelectricGauge
 
 QUARTZ = PiezoelectricGauge(coefficient=2.3e-12, capacitance=1e-10, leakage_resistance=1e10)
 """About quartz; a time constant of 1 s."""

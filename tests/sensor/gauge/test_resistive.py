@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
-from forcetorque.sensor.gauge import GAUGE_MATERIALS, ResistiveGauge
+from forcetorque.sensor.gauges import GAUGE_MATERIALS, ResistiveGauge
 
 FOIL = ResistiveGauge(gauge_factor=2.0, resistance=120.0, temperature_coefficient=10.8e-6)
 

@@ -18,7 +18,7 @@ from forcetorque.sensor.temperature.drift_regression import (
     find_load_step,
     fit_drift,
 )
-from forcetorque.simulation.effects import ThermalDrift
+from forcetorque.simulation.sensor_effects import ThermalDrift
 from tests.scenes.thermal_cycles import HYSTERESIS, PER_DEGREE, PER_HOUR, UNIT, record
 
 ENOUGH = 3.0

@@ -16,7 +16,7 @@ from forcetorque.base.errors import ExperimentError, FitError
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.sensor.bandwidth.bandwidth import response
+from forcetorque.sensor.bandwidth.response import response
 from forcetorque.sensor.figures import response_figure
 from forcetorque.sensor.transfer.static_curves import FITTERS, channel_curve, static_curves
 from tests.app.outcome import Run

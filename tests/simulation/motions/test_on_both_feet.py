@@ -13,7 +13,7 @@ from forcetorque.base.wrench import transform_wrench
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.dynamics import body_pose, expected_wrenches, link_pose
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.tree import build_tree
 from forcetorque.simulation.motions.movement import Movement
 from tests.simulation.motions.stances import IMU_LINKS, MOVEMENTS, on_both_feet, stance

@@ -12,7 +12,6 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.base.toml_file import read_toml
 from forcetorque.recording.recording import Use
-from forcetorque.simulation.scenario.file import LINEAR_ONLY, ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import (
     INTERVAL_MARGIN_S,
     Scenario,
@@ -21,6 +20,7 @@ from forcetorque.simulation.scenario.scenario import (
     simulate,
     trace_recordings,
 )
+from forcetorque.simulation.scenario.scenario_file import LINEAR_ONLY, ScenarioFile, bundled_scenario
 from forcetorque.simulation.sensor_family import mounted_with_error, workbench_errors
 
 LEG = "l_leg_ft"

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.experiment.calibration.artefact import read_calibration
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.storage import read_recording
 from forcetorque.simulation.robots import BIPED_URDF, named_robot
-from forcetorque.simulation.scenario.file import bundled_scenario
 from forcetorque.simulation.scenario.scenario import load_scenario
+from forcetorque.simulation.scenario.scenario_file import bundled_scenario
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import edit, snapshot

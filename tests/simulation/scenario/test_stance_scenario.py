@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.base.errors import RobotError
 from forcetorque.base.toml_file import read_toml
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 
 
 def _content(*motions: dict[str, Any], **changes: Any) -> dict[str, Any]:

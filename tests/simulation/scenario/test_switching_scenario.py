@@ -12,8 +12,8 @@ import pytest
 from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import read_toml
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.simulation.scenario.file import ScenarioFile, bundled_scenario
 from forcetorque.simulation.scenario.scenario import Scenario, build_scenario, simulate, trace_recordings
+from forcetorque.simulation.scenario.scenario_file import ScenarioFile, bundled_scenario
 from tests.scenes.switchings import short_switching
 
 READ_N = 1e-6

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.lambda_curves import lambda_difference_figure
-from forcetorque.results.figures import look, png_bytes
+from forcetorque.results.figure_style import look, png_bytes
 from tests.report.drawing import LAMBDAS, TYPES, count_of, legend_of, panels, pixels, words
 
 UNIT = "1e-4 N/count"

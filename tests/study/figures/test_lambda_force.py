@@ -9,7 +9,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
-from forcetorque.results.figures import look
+from forcetorque.results.figure_style import look
 from forcetorque.study.figures import MOST_HUES, lambda_force_figure
 from tests.report.drawing import LAMBDAS, TYPES, legend_of, panels
 

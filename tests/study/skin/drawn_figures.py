@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.study.figures import skin_study_figure
+from forcetorque.study.skin.load_trial import LoadTrial
 from forcetorque.study.skin.raised_leg import LOADS, LoadTruth
 from forcetorque.study.skin.result import skin_study
-from forcetorque.study.skin.trial import LoadTrial
 
 KNEE_NM = 4.5
 SIMPLE_GAIN = 0.8

@@ -22,11 +22,11 @@ from forcetorque.skin.layout.formats.layout_table import write_layout_table
 from forcetorque.skin.layout.formats.registry import read_layout
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, Loading
-from forcetorque.study.command import study_skin
+from forcetorque.study.commands import study_skin
 from forcetorque.study.skin import result as of
+from forcetorque.study.skin.load_trial import LoadTrial, contradictions, trial
 from forcetorque.study.skin.raised_leg import KNEE, LINK, LOADS, SENSOR, Load, leg_motion, loaded_leg
 from forcetorque.study.skin.result import SkinStudy, skin_study
-from forcetorque.study.skin.trial import LoadTrial, contradictions, trial
 from tests.app.outcome import Run
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.patches import cylinder_patch
@@ -163,7 +163,7 @@ def test_it_is_typed(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         seeds.append(seed)
         return next(some)
 
-    monkeypatch.setattr("forcetorque.study.skin.trial.trial", made)
+    monkeypatch.setattr("forcetorque.study.skin.load_trial.trial", made)
     figure, words = tmp_path / "skin.png", ("--trials", "2", "--seed", "8", "--format", "json")
     typed = run("study", "skin", tmp_path / "shin.csv", *words, "--figure", figure).result()
     assert seeds == [8, 9]

@@ -14,9 +14,8 @@ from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
-from forcetorque.viewer.arrays import Block, peak
-from forcetorque.viewer.geometry import flat, robot_geometry
 from forcetorque.viewer.posture import scene_joints
+from forcetorque.viewer.robot_shapes import flat, robot_geometry
 from forcetorque.viewer.scene import (
     ContactSeries,
     Ellipsoid,
@@ -28,6 +27,7 @@ from forcetorque.viewer.scene import (
     Sphere,
     WrenchSeries,
 )
+from forcetorque.viewer.scene_arrays import Block, peak
 from forcetorque.viewer.scene_builder import BuiltScene
 
 SAMPLES = 600

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.scene_arrays import read_array
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm
 from tests.viewer.browser.press import picture

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.scene_arrays import read_array
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import DEVIATION, WALL, Arm
 from tests.viewer.browser.press import picture, wait_for_drawing, wait_until

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.packing import packed
 from forcetorque.viewer.page import DATA_URL, ViewerServer, page_of
+from forcetorque.viewer.scene_arrays import read_array
 from tests.firefox import FirefoxPage, firefox_page
 from tests.viewer.browser.arm_scene import WALL, Arm
 from tests.viewer.browser.test_packed import POSE

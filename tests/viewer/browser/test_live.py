@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from forcetorque.experiment.calibration.artefact import Calibration
-from forcetorque.live.choices import HeldQuantity, OffsetSource
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.joint_gravity import JointPositions
+from forcetorque.live.loop import LiveLoop
+from forcetorque.live.option_values import HeldQuantity, OffsetSource
 from forcetorque.live.packets import Packet, PacketCounts
 from forcetorque.live.recent_samples import RecentSamples
 from forcetorque.live.ros_topics import RosSource
-from forcetorque.live.run import LiveLoop
 from forcetorque.live.sample_status import Status
 from forcetorque.live.settings import Settings
 from forcetorque.robot.dynamics import link_pose

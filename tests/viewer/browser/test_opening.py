@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.viewer.arrays import read_array
+from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import WALL, Arm, arm_scene

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.viewer.arrays import read_array
 from forcetorque.viewer.packing import packed, unpack
 from forcetorque.viewer.page import page_of
+from forcetorque.viewer.scene_arrays import read_array
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm
 from tests.viewer.browser.test_choosing import SERIES, table

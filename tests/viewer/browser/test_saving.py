@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from forcetorque.experiment.file import Interval
+from forcetorque.experiment.experiment_file import Interval
 from forcetorque.viewer.annotations import Annotations, intervals_toml
 from tests.viewer.browser.arm_scene import COORDINATES, SAMPLES, WALL, Arm
 from tests.viewer.browser.press import download

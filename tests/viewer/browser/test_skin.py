@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from forcetorque.experiment.loading import Purpose, load_experiment
-from forcetorque.viewer.arrays import Block, read_array
 from forcetorque.viewer.page import page_of
 from forcetorque.viewer.scene import SkinEventSeries, SkinPatch
+from forcetorque.viewer.scene_arrays import Block, read_array
 from forcetorque.viewer.scene_builder import BuiltScene, scene_of
 from forcetorque.viewer.skin import contact_frames
 from tests.browser import Visit

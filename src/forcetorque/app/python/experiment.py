@@ -18,14 +18,14 @@ from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.experiment import Experiment as ExperimentContent
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment as load_content
 from forcetorque.experiment.validation_offset import OffsetPolicy
 from forcetorque.locomotion import commands as _locomotion
 from forcetorque.results.result import created_now
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
-from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.installed_robots import urdf_file
 
 if TYPE_CHECKING:
     from forcetorque.app.run import run as _run

@@ -12,10 +12,10 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.labelled_arrays import wrench_array, xarray_dataset
 from forcetorque.base.lazy import LazyMethod
-from forcetorque.collisions import command as _collisions
+from forcetorque.collisions import commands as _collisions
 from forcetorque.evaluation import commands as _evaluation
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from forcetorque.planning import planning as _planning
     from forcetorque.report.report import Report
     from forcetorque.report.sensor_assessment import Demands
-    from forcetorque.sensor.bandwidth import bandwidth as _bandwidth
+    from forcetorque.sensor.bandwidth import response as _response
 
 
 class Verdicts(tuple[LoadCaseVerdict, ...]):
@@ -127,13 +127,13 @@ class Run(SensorRun):
     if TYPE_CHECKING:
         payload = _payload.weigh_load
         plan = _planning.plan
-        response = _bandwidth.response
+        response = _response.response
         sphere = _sphere.spheres
         tare = _tare.tare
     else:
         payload = LazyMethod("forcetorque.payload.identify:weigh_load")
         plan = LazyMethod("forcetorque.planning.planning:plan")
-        response = LazyMethod("forcetorque.sensor.bandwidth.bandwidth:response")
+        response = LazyMethod("forcetorque.sensor.bandwidth.response:response")
         sphere = LazyMethod("forcetorque.evaluation.sphere.sphere:spheres")
         tare = LazyMethod("forcetorque.payload.tare_offset:tare")
 

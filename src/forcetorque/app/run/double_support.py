@@ -13,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.noise.paired_comparison import ALIKE
 from forcetorque.experiment.applicability import one_per_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment

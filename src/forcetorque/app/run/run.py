@@ -16,14 +16,14 @@ from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError,
 from forcetorque.base.output_file import refuse_output
 from forcetorque.base.toml_file import parsed_toml
 from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, calibrate_for_file
-from forcetorque.calibration.export.command import export_calibrations
+from forcetorque.calibration.export.commands import export_calibrations
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
 from forcetorque.evaluation.answers import is_for_inspect
 from forcetorque.evaluation.commands import evaluate
 from forcetorque.evaluation.evaluation import Evaluation
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.experiment.experiment import Experiment
@@ -38,8 +38,8 @@ from forcetorque.recording.recording import Use
 from forcetorque.report.report import report, require_writable
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result, created_now
+from forcetorque.workbench.bench_recording import read_bench
 from forcetorque.workbench.calibrate import workbench
-from forcetorque.workbench.recording import read_bench
 
 Source = Path | str | Experiment
 """An experiment file, or an experiment that is read already."""

@@ -20,9 +20,9 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.export.ros2_parameters import raw_unit, ros2_parameters
 from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.formats.icub_matrix import MatrixFile, encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.result import Result

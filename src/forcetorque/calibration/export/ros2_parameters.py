@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 
 _NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")
 

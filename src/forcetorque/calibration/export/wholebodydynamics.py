@@ -20,7 +20,7 @@ from forcetorque.base.errors import FitError, FormatError, MissingFileError, Rec
 from forcetorque.base.input_file import read_xml
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.units import DECIMAL_NUMBER
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, is_invertible, secondary_model
 
 # The device gets "(NAME (NUMBERS))" as text and splits it again, so the name must come out as one

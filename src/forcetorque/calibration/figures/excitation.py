@@ -14,7 +14,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     PAPER,
     PLANES,

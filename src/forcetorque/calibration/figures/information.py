@@ -13,7 +13,7 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.summary import LITTLE_LEARNT, InformationGain
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     COLOURS,
     GRID,
     MUTED,

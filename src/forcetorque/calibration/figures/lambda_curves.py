@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ShapeError, require_known
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     MUTED,
     PAPER,

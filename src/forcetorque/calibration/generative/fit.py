@@ -18,7 +18,7 @@ from forcetorque.calibration.generative.agreement import (
     require_response,
     require_sensor,
 )
-from forcetorque.calibration.generative.design import Design, cells_of, design_of
+from forcetorque.calibration.generative.design_matrix import Design, cells_of, design_of
 from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer
 from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
 from forcetorque.experiment.calibration import expected_sensor_errors as expected

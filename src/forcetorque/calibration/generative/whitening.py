@@ -15,7 +15,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES, SlowNoise
 from forcetorque.base.rows_on_disk import forget_pages, rows_for
-from forcetorque.calibration.generative.design import Design
+from forcetorque.calibration.generative.design_matrix import Design
 from forcetorque.experiment.calibration.moments import symmetric_pseudo_inverse
 
 

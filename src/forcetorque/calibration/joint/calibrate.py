@@ -20,23 +20,23 @@ from forcetorque.calibration.calibrate import (
     fit_doubts,
 )
 from forcetorque.calibration.corrected_urdf import urdf_of
-from forcetorque.calibration.joint.artefact import joint_posterior, sensor_artefact
-from forcetorque.calibration.joint.outcome import JointOutcome
+from forcetorque.calibration.joint.posterior_and_calibrations import joint_posterior, sensor_artefact
+from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.joint.unknowns import JointFit, SensorPrior
 from forcetorque.calibration.joint.untouched_interval import JointInterval, joint_interval, required_prior
-from forcetorque.calibration.moments import assumptions_of
+from forcetorque.calibration.moments_of_samples import assumptions_of
 from forcetorque.calibration.summary import information_gains
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration, calibrations_in, read_calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance, TermKind
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignRecording
 from forcetorque.experiment.experiment import Experiment
+from forcetorque.experiment.interval_samples import logged_content
 from forcetorque.experiment.long_recording import first_segment, segment_experiments
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.sensor_samples import logged_content
 from forcetorque.inspection.plausibility.checks import require_sense
 from forcetorque.recording.recording import Use
 

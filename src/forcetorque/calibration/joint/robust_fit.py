@@ -14,8 +14,8 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.calibration.contact_windows import FEWEST, disagreeing, minority, with_neighbours
 from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.model_error_columns import delay_terms, error_terms
-from forcetorque.calibration.joint.nodes import Stretch
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit, SensorPrior
+from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows, part_windows
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelTolerance

@@ -12,10 +12,10 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, OutputError, RecordingError
 from forcetorque.base.rows_on_disk import row_blocks
-from forcetorque.calibration.joint.nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.robust_fit import PartResidual, UntouchedStretch, residuals_by
+from forcetorque.calibration.joint.window_nodes import Stretch, StretchRows
 from forcetorque.calibration.joint.windows import part_windows, window_means
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.long_recording import forget_recording, segment_experiments

@@ -20,8 +20,8 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.rows_on_disk import RowsOnDisk, forget_pages, rows_where
 from forcetorque.calibration.joint.model_error_columns import model_error_columns, weight_error_columns
-from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
+from forcetorque.calibration.joint.window_nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import DELAY, ZERO, ErrorTerm
 from forcetorque.robot.mechanics.sub_model_equations import (

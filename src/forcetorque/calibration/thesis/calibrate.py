@@ -22,7 +22,7 @@ from forcetorque.calibration.thesis.lambda_choice import (
     jackknife_errors,
 )
 from forcetorque.calibration.thesis.regression import MatrixFit, fit_matrix, require_determined, solve
-from forcetorque.experiment.calibration.artefact import CalibratedVariable, Calibration, Prior, SessionOffset
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration, Prior, SessionOffset
 from forcetorque.experiment.calibration.estimation_type import Estimation, EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.excitation import Excitation
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled

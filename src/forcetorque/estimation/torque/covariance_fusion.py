@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import EstimationError
 from forcetorque.base.units import NORMAL_95
-from forcetorque.estimation.torque.source import TorqueSource
+from forcetorque.estimation.torque.torque_source import TorqueSource
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -16,10 +16,10 @@ from forcetorque.estimation.estimate import IntervalEstimates
 from forcetorque.estimation.section import FUSION
 from forcetorque.estimation.torque.covariance_fusion import Fusion, fuse
 from forcetorque.estimation.torque.experiment_sources import TorqueSources
-from forcetorque.estimation.torque.motor import Friction
-from forcetorque.estimation.torque.source import TorqueSource
+from forcetorque.estimation.torque.motor_torque import Friction
+from forcetorque.estimation.torque.torque_source import TorqueSource
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, Use

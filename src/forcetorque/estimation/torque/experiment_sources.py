@@ -13,18 +13,24 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.section import FUSION, MOTORS, FusionTable
 from forcetorque.estimation.skin_contacts import SkinSource, clock_stream, frames_of_patches, sources_at
-from forcetorque.estimation.torque.motor import Friction, drive_torque, fit_friction, motor_source
-from forcetorque.estimation.torque.source import TorqueSource, wrench_source
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.torque.motor_torque import Friction, drive_torque, fit_friction, motor_source
+from forcetorque.estimation.torque.torque_source import TorqueSource, wrench_source
+from forcetorque.estimation.uncertain.input_errors import Uncertainty
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in
 from forcetorque.experiment.experiment import Experiment, ExperimentContact
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from forcetorque.robot.mechanics.estimated_quantities import (
+    MinimumNorm,
+    Question,
+    TorqueSum,
+    moving_joints,
+    required_joints_of,
+)
 from forcetorque.robot.mechanics.measured_and_expected_wrench import pick_samples
-from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from forcetorque.skin.section import force_patches

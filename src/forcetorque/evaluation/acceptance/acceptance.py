@@ -15,9 +15,9 @@ from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion, RecordingCriterion, Subject, criteria_of
 from forcetorque.evaluation.acceptance.static_checks import RecordingChecks, StaticChecks, check
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, use_verdicts
-from forcetorque.experiment.additions import with_recording_notes
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.campaign import Campaign, Runs
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.seen_and_outside_samples import (
     SamplesOutside,
     doubts_about_choice,

@@ -23,7 +23,7 @@ from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict
 from forcetorque.evaluation.matrix_checks import most_unusual
 from forcetorque.evaluation.section import LoadCaseTable
 from forcetorque.evaluation.validation.contact_force_errors import ContactForceErrors, contact_forces
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import measured_components
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.campaign import Campaign

@@ -19,10 +19,10 @@ from forcetorque.evaluation.matrix_checks import (
     offset_change,
     position_in_population,
 )
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.raw_counts import IntervalQuality, has_counts, interval_qualities
 from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.acceptance.criteria import Criterion
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     LIMIT_LINE,
     headline,

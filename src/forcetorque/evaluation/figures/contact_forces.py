@@ -10,7 +10,7 @@ from forcetorque.evaluation.validation.answers import answered_choices, best_tex
 from forcetorque.evaluation.validation.contact_force_errors import ContactForceErrors
 from forcetorque.evaluation.validation.validation import JointTorqueErrors
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     ROW_INCHES,
     Look,
     headline,

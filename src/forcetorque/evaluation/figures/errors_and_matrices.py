@@ -13,7 +13,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.noise.autocorrelation import Autocorrelation, autocorrelation
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     GUIDE,
     PAPER,

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.load_cases.verdict import LoadCaseError, LoadCaseVerdict
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     LIMIT_LINE,
     PAPER,

@@ -16,7 +16,7 @@ from forcetorque.calibration.figures.excitation import outline
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, EllipsoidFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere
 from forcetorque.evaluation.trials.trials import TrialGroup, mean_of_trials
-from forcetorque.results.figures import (
+from forcetorque.results.figure_style import (
     GRID,
     MUTED,
     PAPER,

@@ -21,7 +21,7 @@ from forcetorque.base.errors import FitError
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.section import LoadCaseOffset
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.sensor_model import measured_components
 

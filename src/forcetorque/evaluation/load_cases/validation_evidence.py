@@ -12,11 +12,11 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import joined_times, mean_error, means_of_parts
 from forcetorque.base.noise.paired_comparison import Conclusion, ErrorRatio, PairedErrors, compare_errors
+from forcetorque.base.noise.window_means import joined_times, mean_error, means_of_parts
 from forcetorque.base.rows_on_disk import in_blocks, mean_over_rows
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.excitation import hardly_moved
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches

@@ -24,16 +24,16 @@ from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud, sha
 from forcetorque.evaluation.sphere.ellipsoid import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, may_be_flat
 from forcetorque.experiment.applicability import overlapping
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.long_recording import is_long, segment_runs
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction, Readings
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree

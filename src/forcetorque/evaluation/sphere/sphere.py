@@ -13,12 +13,12 @@ from forcetorque.base.errors import ExperimentError, ForceTorqueError
 from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.result import EllipsoidRow, FailureRow, SphereRow
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.applicability import by_sensor
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import Calibrations, named
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.number_text import interval, number
 from forcetorque.results.result import DrawnResult

@@ -17,12 +17,12 @@ from forcetorque.evaluation.sphere.pooled_fit import PooledSphere, pool_trials
 from forcetorque.evaluation.sphere.resampling import BLOCKS
 from forcetorque.evaluation.sphere.result import FailureRow, bounded
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
-from forcetorque.experiment.additions import added_to
 from forcetorque.experiment.applicability import calibrations_of
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import finite_or_none

@@ -11,13 +11,13 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import EstimationError, ShapeError, known_names, require_known
-from forcetorque.base.noise.means import joined_times
+from forcetorque.base.noise.window_means import joined_times
 from forcetorque.base.rows_on_disk import RowsOnDisk, concatenated
 from forcetorque.base.wrench import WRENCH_COMPONENTS, transform_wrench
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import ContactForceValidation, FreeSubModel
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.validation_offset import LeftOut, Offset
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval

@@ -11,13 +11,13 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names, require_shape
 from forcetorque.base.errors import RobotError, ShapeError, known_names
-from forcetorque.base.noise.means import joined_times, mean_error
+from forcetorque.base.noise.window_means import joined_times, mean_error
 from forcetorque.base.pose import invert_pose
 from forcetorque.evaluation.validation.contact_wrenches import add_segments
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import (
     KNOWN_BEFORE,
@@ -32,7 +32,7 @@ from forcetorque.results.table import Row, Shown
 from forcetorque.robot.dynamics import body_poses
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion
 from forcetorque.robot.tree import BodyTree, Connection, outboard_bodies, sub_models
 

@@ -10,8 +10,8 @@ import numpy as np
 from pydantic import ConfigDict, Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
-from forcetorque.experiment.calibration.artefact import JOINT_SCHEMA
+from forcetorque.base.stored_table import StoredTable, read_stored_table, write_stored_table
+from forcetorque.experiment.calibration.calibration_file import JOINT_SCHEMA
 from forcetorque.experiment.calibration.robot_model_error import ModelError
 
 LENGTH_M: Final = 0.1

@@ -21,7 +21,7 @@ from forcetorque.base.arrays import (
     require_shape,
 )
 from forcetorque.base.errors import FitError, ShapeError
-from forcetorque.base.noise.means import means_over, windows_of
+from forcetorque.base.noise.window_means import means_over, windows_of
 from forcetorque.base.rows_on_disk import concatenated
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import WrenchModel

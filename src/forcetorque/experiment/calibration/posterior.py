@@ -11,7 +11,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
 from forcetorque.base.errors import ShapeError, require_known
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 

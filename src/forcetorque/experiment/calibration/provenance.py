@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.fingerprint import joined_fingerprint, kept_hashes, share_in
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts

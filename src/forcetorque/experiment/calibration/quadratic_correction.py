@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import model_validator
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray, require_last_axis
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 
 PAIRS: Final = np.triu_indices(6)
 """Pairs of components of the load whose products are the 21 quadratic terms."""

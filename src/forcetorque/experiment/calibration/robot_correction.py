@@ -11,8 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RobotError, known_names
-from forcetorque.base.stored_model import read_json
-from forcetorque.experiment.calibration.artefact import JOINT_SCHEMA, read_calibration
+from forcetorque.base.stored_table import read_json
+from forcetorque.experiment.calibration.calibration_file import JOINT_SCHEMA, read_calibration
 from forcetorque.experiment.calibration.joint_posterior import read_joint_posterior
 from forcetorque.experiment.calibration.robot_model_error import CENTRE, MASS, ZERO, ModelError
 from forcetorque.robot.model import RobotModel

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 
 MASS: Final = "mass of "
 """How the name of the error of a mass begins."""

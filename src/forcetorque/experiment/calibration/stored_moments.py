@@ -12,7 +12,7 @@ from pydantic import ConfigDict, Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.stored_model import StoredTable, read_stored_table, write_stored_table
+from forcetorque.base.stored_table import StoredTable, read_stored_table, write_stored_table
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, Moments, WindowMeans
 from forcetorque.experiment.calibration.posterior import LoadError

@@ -16,7 +16,13 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import LogTable, StreamReading
-from forcetorque.formats.signals import SpecifiedRate, SpecifiedSignal, even_stamps, specified_quantity, units_in_si
+from forcetorque.formats.specified_signals import (
+    SpecifiedRate,
+    SpecifiedSignal,
+    even_stamps,
+    specified_quantity,
+    units_in_si,
+)
 from forcetorque.recording.orientation import orientation_signals
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream

@@ -22,7 +22,7 @@ from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.units import SI_FACTORS
 from forcetorque.base.wrench import WRENCH_UNITS
 from forcetorque.formats.c3d.c3d_file import C3dFile
-from forcetorque.formats.c3d.conventions import C3dLog, OriginFrom, factor_of, stated_unit
+from forcetorque.formats.c3d.plate_conventions import C3dLog, OriginFrom, factor_of, stated_unit
 
 _CHANNELS: Final = {1: 6, 2: 6, 3: 8, 4: 6}
 """Number of channels of each type that is read."""

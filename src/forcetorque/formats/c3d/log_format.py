@@ -16,8 +16,15 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.formats.c3d.c3d_file import C3dFile, is_c3d, read_c3d
-from forcetorque.formats.c3d.conventions import QUESTIONS, C3dLog, factor_of, require_open, stated_unit, unanswered
 from forcetorque.formats.c3d.force_platform import ForcePlate, force_plates, plate_names, undetermined_keys, zero_frames
+from forcetorque.formats.c3d.plate_conventions import (
+    QUESTIONS,
+    C3dLog,
+    factor_of,
+    require_open,
+    stated_unit,
+    unanswered,
+)
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream

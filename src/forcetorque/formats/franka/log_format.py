@@ -24,19 +24,20 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.rows_on_disk import computed_rows, row_blocks
 from forcetorque.base.toml_file import Text, checked_tables
 from forcetorque.base.wrench import FORCE, MOMENT, MeasureDirection, transform_wrench
-from forcetorque.formats.arm_log import ArmLogTable
-from forcetorque.formats.franka.kinematics import joint_frames
-from forcetorque.formats.franka.logged_states import LoggedStates, is_logged_states, read_states
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
-from forcetorque.formats.logged_torques import LoggedTorques, holding_torques
-from forcetorque.formats.logged_wrist import (
+from forcetorque.formats.arm_log import (
     FLANGE,
+    LoggedTorques,
     LoggedWrist,
     declared_loads,
+    holding_torques,
     motions,
     repeats_finding,
     weight_of,
 )
+from forcetorque.formats.arm_log_table import ArmLogTable
+from forcetorque.formats.franka.kinematics import joint_frames
+from forcetorque.formats.franka.logged_states import LoggedStates, is_logged_states, read_states
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
 

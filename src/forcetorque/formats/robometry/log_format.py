@@ -27,7 +27,7 @@ from forcetorque.formats.robometry.channels import (
     sensor_stream,
     texts,
 )
-from forcetorque.formats.signals import SPECIFY_SENSE, SenseTable
+from forcetorque.formats.specified_signals import SPECIFY_SENSE, SenseTable
 from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Stream

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.formats.kept_parts import parts_kept
+from forcetorque.formats.arm_log import BAG
+from forcetorque.formats.decoded_parts_cache import parts_kept
 from forcetorque.formats.log_format import LogContext, LogDescription, LoggedRobot, LogReading, StreamReading
-from forcetorque.formats.logged_wrist import BAG
 from forcetorque.formats.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.formats.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUATERNION_TYPE
 from forcetorque.formats.ros.robot_topics import is_description, is_static, robot_of_bag
 from forcetorque.formats.ros.specified_topics import RosLog, RosOrientation, RosStream, read_specified
 from forcetorque.formats.ros.wrist_of_bag import describe_wrist
-from forcetorque.formats.signals import SPECIFY_SENSE
+from forcetorque.formats.specified_signals import SPECIFY_SENSE
 from forcetorque.recording.orientation import OrientationSense
 from forcetorque.recording.recording import Finding
 

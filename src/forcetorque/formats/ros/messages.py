@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
-from forcetorque.formats.kept_parts import are_kept, kept
+from forcetorque.formats.decoded_parts_cache import are_kept, kept
 from forcetorque.formats.ros.bag import Bag
 
 _LITTLE_ENDIAN_CDR = b"\x00\x01"

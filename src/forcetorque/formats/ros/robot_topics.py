@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose
-from forcetorque.formats.kept_parts import kept
+from forcetorque.formats.decoded_parts_cache import kept
 from forcetorque.formats.log_format import FixedFrame, LoggedRobot, namespace_depth
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.messages import TRANSFORM_TYPES, Batch, Cursor, Fields, topic_batches

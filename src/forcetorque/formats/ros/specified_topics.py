@@ -25,7 +25,7 @@ from forcetorque.formats.ros.messages import (
     WRENCH_TYPE,
 )
 from forcetorque.formats.ros.topic_stream import CLOCK, topic_stream
-from forcetorque.formats.signals import SPECIFY_SENSE, WorldTable
+from forcetorque.formats.specified_signals import SPECIFY_SENSE, WorldTable
 from forcetorque.recording.orientation import QUATERNION_XYZW, OrientationLayout, OrientationSense
 from forcetorque.recording.stream import Stream
 

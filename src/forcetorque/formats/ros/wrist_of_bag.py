@@ -18,8 +18,8 @@ from forcetorque.base.errors import FormatError, known_names
 from forcetorque.base.toml_file import Positive, Table, Text, checked_tables
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
+from forcetorque.formats.arm_log import BAG, DeclaredLoad, LoggedWrist, motions
 from forcetorque.formats.log_format import LogDescription, LogReading
-from forcetorque.formats.logged_wrist import BAG, DeclaredLoad, LoggedWrist, motions
 from forcetorque.formats.ros.bag import Bag
 from forcetorque.formats.ros.frame_tree import FrameTree, read_frame_tree
 from forcetorque.formats.ros.messages import WRENCH_TYPE

@@ -31,7 +31,7 @@ from forcetorque.formats.log_format import (
     median_step,
     sketched_numbers,
 )
-from forcetorque.formats.signals import SpecifiedRate, SpecifiedSignal
+from forcetorque.formats.specified_signals import SpecifiedRate, SpecifiedSignal
 from forcetorque.formats.tabular.dialect import (
     LOOKED_AT,
     MOST_COLUMNS,

@@ -18,7 +18,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.rows_on_disk import rows_for
 from forcetorque.formats.log_format import LogReading
-from forcetorque.formats.signals import even_stamps, specified_quantity, units_in_si
+from forcetorque.formats.specified_signals import even_stamps, specified_quantity, units_in_si
 from forcetorque.formats.tabular.numbers import column_floats, column_stamps
 from forcetorque.formats.tabular.row_readers import (
     columnar_columns,

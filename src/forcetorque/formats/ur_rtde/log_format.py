@@ -25,9 +25,7 @@ from forcetorque.base.pose import cross
 from forcetorque.base.rows_on_disk import computed_rows, row_blocks
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.formats.arm_log import ArmLogTable
-from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
-from forcetorque.formats.logged_wrist import (
+from forcetorque.formats.arm_log import (
     FLANGE,
     LoggedWrist,
     declared_loads,
@@ -35,7 +33,9 @@ from forcetorque.formats.logged_wrist import (
     repeats_finding,
     weight_of,
 )
-from forcetorque.formats.ur_rtde.consistency import (
+from forcetorque.formats.arm_log_table import ArmLogTable
+from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
+from forcetorque.formats.ur_rtde.moment_point_axes_and_gravity import (
     agreeing_point,
     is_about_other_point,
     require_gravity_as_felt,

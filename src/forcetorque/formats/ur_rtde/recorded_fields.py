@@ -22,8 +22,8 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import require_file, require_unpacked
 from forcetorque.base.rows_on_disk import rows_for, rows_where
-from forcetorque.formats.kept_parts import kept
-from forcetorque.formats.logged_wrist import first_of_repeats
+from forcetorque.formats.arm_log import first_of_repeats
+from forcetorque.formats.decoded_parts_cache import kept
 from forcetorque.formats.tabular.table import read_numbers
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
 

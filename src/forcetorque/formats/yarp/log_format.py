@@ -22,7 +22,7 @@ from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
-from forcetorque.formats.signals import SPECIFY_SENSE
+from forcetorque.formats.specified_signals import SPECIFY_SENSE
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, sensor_sizes
 from forcetorque.formats.yarp.message import Bottle, is_number
 from forcetorque.formats.yarp.plain_ports import INERTIAL_COLUMNS, read_inertial

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import StreamReading
-from forcetorque.formats.signals import SenseTable, WorldTable
+from forcetorque.formats.specified_signals import SenseTable, WorldTable
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin, read_skin_events

@@ -8,7 +8,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
-from forcetorque.inspection.draft.edits import Edit, edit_between, key_edit, table_blocks, table_edit
+from forcetorque.inspection.draft.toml_edits import Edit, edit_between, key_edit, table_blocks, table_edit
 from forcetorque.inspection.draft.toml_lines import tables_of, toml_value
 from forcetorque.inspection.fault_messages import clock_of_division, motion_name
 from forcetorque.recording.alignment import ClockShift

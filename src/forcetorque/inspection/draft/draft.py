@@ -15,13 +15,13 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, relative_path, write_bytes_atomically
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.formats.kept_parts import parts_kept
+from forcetorque.formats.decoded_parts_cache import parts_kept
 from forcetorque.formats.log_format import LoggedRobot, LogSketch, not_read_message
-from forcetorque.inspection.draft.bench import bench_lines, bench_table, is_bench
 from forcetorque.inspection.draft.column_matches import is_estimated, is_measured
+from forcetorque.inspection.draft.drafted_streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.first_look import read_drafted
-from forcetorque.inspection.draft.gravity import GravityFit, contact_spans, fit_gravity
-from forcetorque.inspection.draft.intervals import (
+from forcetorque.inspection.draft.gravity_fit import GravityFit, contact_spans, fit_gravity
+from forcetorque.inspection.draft.intervals_and_clocks import (
     WHOLE_LOG,
     DraftedInterval,
     clock_lines,
@@ -30,7 +30,6 @@ from forcetorque.inspection.draft.intervals import (
     whole_log,
 )
 from forcetorque.inspection.draft.joints import standing_lines
-from forcetorque.inspection.draft.log import ColumnNames, draft_log, recording_lines, without_streams
 from forcetorque.inspection.draft.logged_robot import (
     difference,
     logged_robot,
@@ -40,6 +39,7 @@ from forcetorque.inspection.draft.logged_robot import (
     wrist_load_lines,
 )
 from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
+from forcetorque.inspection.draft.recording_table import ColumnNames, draft_log, recording_lines, without_streams
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
     base_of_arm,
@@ -52,7 +52,6 @@ from forcetorque.inspection.draft.sensors_and_supports import (
     sensor_lines,
     support_lines,
 )
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.tables_and_arrays import (
     INERTIAL,
     example_names,
@@ -61,12 +60,13 @@ from forcetorque.inspection.draft.tables_and_arrays import (
     unread_columns,
 )
 from forcetorque.inspection.draft.toml_lines import likeliest_text, line, listed, question, toml_value
+from forcetorque.inspection.draft.workbench_file import bench_lines, bench_table, is_bench
 from forcetorque.inspection.file_contents import StreamRow, stream_rows, stream_table
 from forcetorque.recording.recording import NO_MOTION, Recording
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of
-from forcetorque.robot.installed import is_robot_name, urdf_file
+from forcetorque.robot.installed_robots import is_robot_name, urdf_file
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.urdf import read_urdf
 

@@ -12,9 +12,9 @@ from pydantic import ValidationError
 
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.toml_file import expected_text, unanswered_keys
-from forcetorque.experiment.input_files import ExperimentContext, Inputs
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.registry import format_named
-from forcetorque.inspection.draft.log import draft_log, recording_lines
+from forcetorque.inspection.draft.recording_table import draft_log, recording_lines
 from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, draft_sensors
 from forcetorque.inspection.draft.toml_lines import Question, likeliest_text
 from forcetorque.recording.recording import Recording

@@ -7,9 +7,9 @@ import re
 from collections.abc import Sequence
 
 from forcetorque.formats.yarp.plain_ports import NO_JOINT
-from forcetorque.inspection.draft.gravity import required_joints_of_sensor
+from forcetorque.inspection.draft.drafted_streams import DraftedLog
+from forcetorque.inspection.draft.gravity_fit import required_joints_of_sensor
 from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, sensor_joints
-from forcetorque.inspection.draft.streams import DraftedLog
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark, toml_value
 from forcetorque.robot.model import JointType, RobotModel
 

@@ -12,15 +12,15 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, FormatError
 from forcetorque.base.pose import split_pose
+from forcetorque.formats.arm_log import DeclaredLoad, LoggedWrist
 from forcetorque.formats.log_format import FixedFrame, LoggedRobot, RobotLoggingFormat
-from forcetorque.formats.logged_wrist import DeclaredLoad, LoggedWrist
 from forcetorque.formats.registry import format_named, recognised_format
+from forcetorque.inspection.draft.drafted_streams import DraftedStream
 from forcetorque.inspection.draft.sensors_and_supports import DraftedMount, DraftedSensor
-from forcetorque.inspection.draft.streams import DraftedStream
 from forcetorque.inspection.draft.toml_lines import line, listed
 from forcetorque.recording.recording import Finding, Recording
 from forcetorque.robot.model import JointType, RobotModel
-from forcetorque.robot.mounting import rotation_vector
+from forcetorque.robot.mount_estimate import rotation_vector
 from forcetorque.robot.urdf import read_urdf_text
 
 _SAME_MASS_KG, _SAME_POSE = 1e-6, 1e-6

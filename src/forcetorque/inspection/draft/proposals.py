@@ -19,18 +19,18 @@ import numpy as np
 
 from forcetorque.base.run_files import files_of_one_run
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.file import parse_experiment
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.intervals import with_intervals_of_files
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.comparison import Comparison
+from forcetorque.inspection.comparison_with_model import Comparison
 from forcetorque.inspection.diagnosis import diagnosed
-from forcetorque.inspection.draft.contact_free import FreeTime, free_time
-from forcetorque.inspection.draft.corrections import correction_of
-from forcetorque.inspection.draft.edits import Edit, interval_edit
-from forcetorque.inspection.draft.gravity import SHORTEST_S
-from forcetorque.inspection.draft.intervals import NOT_ENOUGH_MOTION, MovingLoad, divided
+from forcetorque.inspection.draft.contact_free_search import FreeTime, free_time
+from forcetorque.inspection.draft.fault_corrections import correction_of
+from forcetorque.inspection.draft.gravity_fit import SHORTEST_S
+from forcetorque.inspection.draft.intervals_and_clocks import NOT_ENOUGH_MOTION, MovingLoad, divided
 from forcetorque.inspection.draft.residuals import Improvement, Residual, comparison_of, experiment_of
+from forcetorque.inspection.draft.toml_edits import Edit, interval_edit
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, write_text_of
 from forcetorque.inspection.fault_messages import fault_text, remedy
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation

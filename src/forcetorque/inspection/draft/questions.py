@@ -18,13 +18,13 @@ from forcetorque.base.toml_file import (
     unanswered_keys,
     with_answer,
 )
-from forcetorque.experiment.bench_file import BenchFile
-from forcetorque.experiment.file import experiment_file
-from forcetorque.inspection.draft.bench import is_bench, logs_of_bench
+from forcetorque.experiment.experiment_file import experiment_file
+from forcetorque.experiment.workbench_file import BenchFile
 from forcetorque.inspection.draft.draft import LEFT_OUT, Draft, ProposalRow, QuestionRow
 from forcetorque.inspection.draft.priors import serial_of
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, toml_value, write_text_of
+from forcetorque.inspection.draft.workbench_file import is_bench, logs_of_bench
 
 OPEN_QUESTIONS = 4
 """Exit code of commands that end with questions, or proposals, that only a person can answer."""

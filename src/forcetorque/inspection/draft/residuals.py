@@ -16,7 +16,7 @@ from forcetorque.base.output_file import temporary_beside
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.comparison import Comparison, compared
+from forcetorque.inspection.comparison_with_model import Comparison, compared
 from forcetorque.inspection.draft.toml_lines import line
 from forcetorque.inspection.findings import whole_log_samples
 from forcetorque.inspection.plausibility.evidence import Evidence

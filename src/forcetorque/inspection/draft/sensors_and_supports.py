@@ -12,11 +12,11 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.pose import make_pose
-from forcetorque.inspection.draft.gravity import LIGHT_KG, GravityFit, mass_beyond
-from forcetorque.inspection.draft.streams import DraftedStream
+from forcetorque.inspection.draft.drafted_streams import DraftedStream
+from forcetorque.inspection.draft.gravity_fit import LIGHT_KG, GravityFit, mass_beyond
 from forcetorque.inspection.draft.toml_lines import line, listed, question
 from forcetorque.robot.model import Joint, RobotModel
-from forcetorque.robot.mounting import rotation_by
+from forcetorque.robot.mount_estimate import rotation_by
 
 _OF_SENSORS = {
     "ft",

@@ -26,8 +26,8 @@ from forcetorque.inspection.draft.column_matches import (
     is_measured,
     time_column,
 )
+from forcetorque.inspection.draft.drafted_streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.joints import joints_question
-from forcetorque.inspection.draft.streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.toml_lines import (
     RATE_LINES,
     TIME_UNITS,

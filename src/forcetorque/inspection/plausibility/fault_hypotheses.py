@@ -18,7 +18,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.inspection.plausibility.evidence import Evidence, Fit
-from forcetorque.robot.mounting import nearest_rotation, rotation_by, rotation_vector
+from forcetorque.robot.mount_estimate import nearest_rotation, rotation_by, rotation_vector
 
 FaultKind = Literal[
     "reversed",

@@ -14,14 +14,14 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import sample_statistics
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.base.noise.window_means import sample_statistics
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.offsets import offset_policies
 from forcetorque.experiment.validation_offset import Offset, OffsetPolicy
-from forcetorque.locomotion.net_force.net_contact import (
+from forcetorque.locomotion.net_force.net_contact_wrench import (
     NetContact,
     Reader,
     contact_warnings,

@@ -16,15 +16,15 @@ from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.estimation.skin_contacts import clock_stream, uncertainty_of
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
-from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates, estimate_with_covariance
+from forcetorque.estimation.uncertain.input_errors import Uncertainty
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.file import parse_experiment
-from forcetorque.experiment.input_files import Inputs, stated_in
+from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.intervals import RecordedSpan, read_spans
+from forcetorque.experiment.named_files import Inputs, stated_in
 from forcetorque.experiment.offsets import intervals_in_use
+from forcetorque.experiment.robot_and_streams import read_streams
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
-from forcetorque.experiment.streams import read_streams
 from forcetorque.locomotion.section import SOLES, ExperimentSole, read_soles, refuse_without_soles
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole, centre_of_pressure, mass_of
 from forcetorque.locomotion.standing.interval_balance import BalanceOptions, FootPressure, IntervalBalance

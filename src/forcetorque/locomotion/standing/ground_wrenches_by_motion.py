@@ -13,7 +13,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.pose import invert_pose
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.experiment.experiment import Experiment
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.offsets import intervals_in_use
 from forcetorque.locomotion.section import SOLES, ExperimentSole, refuse_without_soles
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
@@ -30,8 +30,8 @@ from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
-from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.tree import build_tree
 
 

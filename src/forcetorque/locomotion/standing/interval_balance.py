@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.units import NORMAL_95
-from forcetorque.formats.sample_table import Column
+from forcetorque.formats.sample_table_writing import Column
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import (
     ComAcceleration,
     PlaneTolerance,

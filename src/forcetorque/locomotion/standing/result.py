@@ -10,8 +10,8 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.autocorrelation import autocorrelation
-from forcetorque.base.noise.means import SampleStatistics, joined_times, sample_statistics
 from forcetorque.base.noise.slow_noise import half_width
+from forcetorque.base.noise.window_means import SampleStatistics, joined_times, sample_statistics
 from forcetorque.locomotion.standing.centre_of_mass_and_pressure import ComAcceleration, PressureCentres
 from forcetorque.locomotion.standing.interval_balance import FootPressure, IntervalBalance, RobotBalance, half_widths
 from forcetorque.locomotion.standing.support_phases import SupportPhase

@@ -36,8 +36,8 @@ from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.mechanics.estimate import estimate
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
-from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree
 

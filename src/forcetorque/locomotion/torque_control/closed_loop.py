@@ -13,12 +13,12 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.pose import cross
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.locomotion.torque_control.balancing import Balance, Reference
-from forcetorque.locomotion.torque_control.controller import JointDrive, TorqueController, TorqueGains
-from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped, Posture, World
+from forcetorque.locomotion.torque_control.balancing_controller import Balance, Reference
+from forcetorque.locomotion.torque_control.biped_in_mujoco import JOINTS, SENSORS, Biped, Posture, World
+from forcetorque.locomotion.torque_control.joint_torque_controller import JointDrive, TorqueController, TorqueGains
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.question import Question, TorqueSum
+from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 _BODY_WEIGHT_N: Final = 324.711

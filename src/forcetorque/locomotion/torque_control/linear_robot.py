@@ -16,10 +16,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ControlError
-from forcetorque.locomotion.torque_control.balancing import Phase, Reference
+from forcetorque.locomotion.torque_control.balancing_controller import Phase, Reference
+from forcetorque.locomotion.torque_control.biped_in_mujoco import JOINTS, SENSORS, Biped, World
 from forcetorque.locomotion.torque_control.closed_loop import LoopSetting, estimated_torques, moved, torque_question
 from forcetorque.locomotion.torque_control.stability import GROWTH, LinearPlant, Onset, Stability, TorqueLoop, stability
-from forcetorque.locomotion.torque_control.world import JOINTS, SENSORS, Biped, World
 
 _STEP: Final = 1e-5
 """Differences are taken over so much; rad, m, rad/s, N m, N. The error is its square, rounding 1e-11 of the torques."""

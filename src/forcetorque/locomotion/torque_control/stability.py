@@ -18,7 +18,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_shape
 from forcetorque.base.errors import ControlError
-from forcetorque.locomotion.torque_control.controller import TorqueGains
+from forcetorque.locomotion.torque_control.joint_torque_controller import TorqueGains
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -24,8 +24,8 @@ from forcetorque.base.pose import invert_pose
 from forcetorque.base.toml_file import NotNegative, Positive, Table
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import wrench_matrix
+from forcetorque.locomotion.torque_control.biped_in_mujoco import Biped
 from forcetorque.locomotion.torque_control.stability import Stability
-from forcetorque.locomotion.torque_control.world import Biped
 
 _STEP_S: Final = 0.001
 """Step in which delays are counted; s."""

@@ -26,7 +26,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import rotation_from_rpy, rpy_from_rotation
 from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
-from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.formats.arm_log import FLANGE
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.export.load_parameters import FlangeLoad
 from forcetorque.payload.export.yaml_parameters import number

@@ -16,7 +16,7 @@ from forcetorque.base.output_file import STANDARD_OUTPUT, refuse_output, write_b
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.formats.logged_wrist import FLANGE
+from forcetorque.formats.arm_log import FLANGE
 from forcetorque.payload.export.arm_controllers_and_simulators import ARMS, arm_text, not_held
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.export.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text

@@ -10,8 +10,8 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, check_arrays
 from forcetorque.base.errors import FormatError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
-from forcetorque.formats.logged_wrist import FLANGE
-from forcetorque.robot.mounting import quarter_turns
+from forcetorque.formats.arm_log import FLANGE
+from forcetorque.robot.mount_estimate import quarter_turns
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

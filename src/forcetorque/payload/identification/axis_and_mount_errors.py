@@ -20,7 +20,7 @@ from forcetorque.payload.identification.load_estimates import HypothesisRow
 from forcetorque.payload.identification.measurement_model import changes, load_wrench
 from forcetorque.payload.identification.parameter_vector import Guess, Kind, places
 from forcetorque.payload.identification.robust_fit import Fit, fit, plain_fit
-from forcetorque.robot.mounting import rotation_vector, rotation_words
+from forcetorque.robot.mount_estimate import rotation_vector, rotation_words
 
 _LEAVES = 0.7
 """A cause is named if it leaves less than this part of what is left of the axes that it changes."""

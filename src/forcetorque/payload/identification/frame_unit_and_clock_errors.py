@@ -27,7 +27,7 @@ from forcetorque.payload.identification.measurement_model import (
 )
 from forcetorque.payload.identification.parameter_vector import Kind
 from forcetorque.payload.identification.robust_fit import Fit, plain_fit, scales
-from forcetorque.robot.mounting import quarter_turns
+from forcetorque.robot.mount_estimate import quarter_turns
 
 _BETTER = 0.5
 """A hypothesis is named if it leaves less than this part of what the problem as stated leaves."""

@@ -20,7 +20,7 @@ from forcetorque.payload.identification.parameter_vector import (
     places,
     six_of,
 )
-from forcetorque.robot.mounting import nearest_rotation, rotation_by
+from forcetorque.robot.mount_estimate import nearest_rotation, rotation_by
 
 _SMALL = 1e-5
 """rad: step of the differences that give derivatives by rotations; what is left is of the order of its square."""

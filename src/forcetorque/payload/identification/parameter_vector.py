@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
-from forcetorque.robot.mounting import rotation_by
+from forcetorque.robot.mount_estimate import rotation_by
 
 AXES = ("x", "y", "z")
 SECOND_MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")

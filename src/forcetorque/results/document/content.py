@@ -14,7 +14,7 @@ from importlib import resources
 from typing import TYPE_CHECKING
 
 from forcetorque.base.errors import ForceTorqueError, FormatError, needs_extra
-from forcetorque.results.figures import png_bytes
+from forcetorque.results.figure_style import png_bytes
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table
 from forcetorque.results.visual_roles import css_variables

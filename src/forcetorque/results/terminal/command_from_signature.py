@@ -20,14 +20,7 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
 from forcetorque.results.capability import named
 from forcetorque.results.command import Command, Option, Saved, command_of
-from forcetorque.results.terminal.options import (
-    DetailsOption,
-    ExperimentArgument,
-    ExperimentsArgument,
-    ForceOption,
-    FormatOption,
-)
-from forcetorque.results.terminal.output import (
+from forcetorque.results.terminal.command_output import (
     Format,
     drawn_to,
     end_with,
@@ -40,11 +33,18 @@ from forcetorque.results.terminal.output import (
     show_warnings,
     start_logging,
 )
+from forcetorque.results.terminal.options import (
+    DetailsOption,
+    ExperimentArgument,
+    ExperimentsArgument,
+    ForceOption,
+    FormatOption,
+)
 
 if TYPE_CHECKING:
     from logging import Logger
 
-    from forcetorque.experiment.calibration.artefact import Calibration
+    from forcetorque.experiment.calibration.calibration_file import Calibration
     from forcetorque.experiment.experiment import Experiment
     from forcetorque.results.result import DrawnResult, Result
 
@@ -180,8 +180,8 @@ class _Analysis:
 
     def result(self, given: Mapping[str, Any], log: Logger, refusals: list[ForceTorqueError]) -> Result:
         """Read what is named, and compute; sensors that are refused beside others are added to the refusals."""
-        from forcetorque.experiment.input_files import stated_in
-        from forcetorque.results.terminal.input import read_experiment
+        from forcetorque.experiment.named_files import stated_in
+        from forcetorque.results.terminal.command_inputs import read_experiment
 
         files, options = self.read(given, log)
         if _EXPERIMENT in self.named_by_kind:
@@ -229,7 +229,7 @@ class _Analysis:
     ) -> Iterator[Callable[[], Result]]:
         """Computations of the sensors that are named, else of those of the calibrations, else of all."""
         from forcetorque.experiment.applicability import by_sensor, one_per_sensor
-        from forcetorque.results.terminal.input import (
+        from forcetorque.results.terminal.command_inputs import (
             read_calibrations,
             read_experiment,
             read_experiments,
@@ -259,8 +259,8 @@ class _Analysis:
         self, sensor: str, contents: Mapping[Path, Experiment], options: Mapping[str, Any], log: Logger
     ) -> Result:
         """Result of one sensor; errors name file and sensor."""
-        from forcetorque.experiment.input_files import stated_in
-        from forcetorque.results.terminal.input import campaign_of
+        from forcetorque.experiment.named_files import stated_in
+        from forcetorque.results.terminal.command_inputs import campaign_of
 
         file, where, subject = next(iter(contents)), f"sensor {sensor!r}", campaign_of(contents, sensor)
         if _RUN in self.named_by_kind:
@@ -291,7 +291,7 @@ def _written(result: Any, saved: Saved, path: Path) -> Result:
 @contextmanager
 def _located(where: str, options: Mapping[str, Any]) -> Iterator[None]:
     """Put file and sensor in front of errors, but of those that begin with another file that is an option."""
-    from forcetorque.experiment.input_files import stated_in
+    from forcetorque.experiment.named_files import stated_in
 
     try:
         yield

@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar
 import typer
 from typer.core import TyperGroup
 
-from forcetorque.results.terminal.output import TYPED, Format
+from forcetorque.results.terminal.command_output import TYPED, Format
 
 ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
 ExperimentsArgument = Annotated[

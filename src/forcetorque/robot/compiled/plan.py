@@ -13,7 +13,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import split_pose
 from forcetorque.robot.contacts import Contact
-from forcetorque.robot.mechanics.question import QUESTIONS, Needs, Question, closed_form
+from forcetorque.robot.mechanics.estimated_quantities import QUESTIONS, Needs, Question, closed_form
 from forcetorque.robot.tree import Connection, Coordinate, SubModel, path_to_root
 
 

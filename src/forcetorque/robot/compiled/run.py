@@ -17,13 +17,13 @@ import numpy.typing as npt
 from numba import njit
 
 from forcetorque.base.arrays import FloatArray, IntArray
-from forcetorque.base.compiled import announced, frozen, source_digest
+from forcetorque.base.compiled_functions import announced, frozen, source_digest
 from forcetorque.robot.compiled import stages
 from forcetorque.robot.compiled.plan import plan_of
 from forcetorque.robot.compiled.recursion import DRIVER, LANES, STRIDE
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.inputs import Inputs, refuse_infinite
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimate_inputs import Inputs, refuse_infinite
+from forcetorque.robot.mechanics.estimated_quantities import Question
 
 
 class Scratch(NamedTuple):

@@ -22,8 +22,8 @@ from forcetorque.base.wrench import transform_wrench
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.dynamics import BodyState, in_body, in_parent, move_to, net_wrench, root_state
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.inputs import activity_of, checked_inputs
-from forcetorque.robot.mechanics.question import Needs, Question
+from forcetorque.robot.mechanics.estimate_inputs import activity_of, checked_inputs
+from forcetorque.robot.mechanics.estimated_quantities import Needs, Question
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import Connection, SubModel, path_to_root
 

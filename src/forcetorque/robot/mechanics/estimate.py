@@ -13,8 +13,8 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, BlockEvaluation
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.inputs import Inputs, checked_inputs, refuse_infinite
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimate_inputs import Inputs, checked_inputs, refuse_infinite
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.motion import JointMotion, RootMotion
 
 _FEW = 20000

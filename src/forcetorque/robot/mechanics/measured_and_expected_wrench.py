@@ -12,14 +12,14 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
-from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality, UnusableCounts, repeated_samples
+from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.shared_filters import SharedFilters
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW, EvenGrid, SavitzkyGolay, smooth
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate, evaluator_of_samples
-from forcetorque.robot.mechanics.question import Question, required_joints_of
+from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import LoggedSupport, joints_to_support
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.model import RobotModel

@@ -16,9 +16,9 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array, require_last
 from forcetorque.base.errors import SensorError
 from forcetorque.sensor.choice.load_case import considerable_sizes
 from forcetorque.sensor.choice.result import PrincipleCurve, PrincipleRow
-from forcetorque.sensor.elastic import Bending, ElasticElement
+from forcetorque.sensor.elastic_element import Bending, ElasticElement
 from forcetorque.sensor.electronics import HALF_BRIDGE, QUARTER_BRIDGE, Y_ELEMENT, Bridge, Electronics
-from forcetorque.sensor.gauge import (
+from forcetorque.sensor.gauges import (
     GAUGE_MATERIALS,
     FibreBraggGrating,
     ParallelPlates,

@@ -12,11 +12,11 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, names, require_shape
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.noise.window_means import means_over
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.raw_counts import RawCounts, raw_counts
+from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sample_quality import expected_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.alignment import seconds_since

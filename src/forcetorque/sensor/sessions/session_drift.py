@@ -13,10 +13,10 @@ from pydantic import Field
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
-from forcetorque.base.noise.means import joined_times, means_over, window_for
 from forcetorque.base.noise.slow_noise import Timeline
+from forcetorque.base.noise.window_means import joined_times, means_over, window_for
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use

@@ -11,8 +11,8 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.base.noise.means import WINDOW_S, means_over
 from forcetorque.base.noise.slow_noise import Timeline
+from forcetorque.base.noise.window_means import WINDOW_S, means_over
 
 TURN_SHARE = 0.1
 """Share of the range by which a temperature has to go back before it has turned: less is noise of a thermometer, or a

@@ -13,7 +13,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, ForceTorqueError, ShapeError
-from forcetorque.base.noise.means import means_over
+from forcetorque.base.noise.window_means import means_over
 from forcetorque.experiment.raw_counts import chosen_intervals
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval

@@ -13,7 +13,7 @@ from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.dynamics import body_pose, expected_wrenches
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.model import JointType
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.simulation.motions.held_robot import Limb, Stand, legs_of, limb_of

@@ -16,7 +16,7 @@ from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.dynamics import link_pose, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.question import Question
+from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree

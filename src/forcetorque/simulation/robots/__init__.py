@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from forcetorque.base.errors import MissingExtraError
-from forcetorque.robot.installed import installed_robot
+from forcetorque.robot.installed_robots import installed_robot
 
 ARM_URDF = Path(__file__).parent / "arm.urdf"
 """A small arm; its sensor is `arm_ft`, its base stands level."""

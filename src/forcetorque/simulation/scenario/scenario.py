@@ -19,7 +19,7 @@ from forcetorque.experiment.validation_offset import OFFSET_S
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.installed_robots import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.modified_robot import RobotErrors, with_load
 from forcetorque.robot.urdf import read_urdf
@@ -40,9 +40,9 @@ from forcetorque.simulation.motions.on_both_feet import (
 )
 from forcetorque.simulation.motions.stance import Stance, random_placement
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.scenario.file import Imu, Recorded, RobotErrorSizes, ScenarioFile
-from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.scenario.scenario_file import Imu, Recorded, RobotErrorSizes, ScenarioFile
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
+from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import EPOCH_NS, SimulatedImu, Trace, trace_movement
 
 _MOVEMENTS, _STAMPS, _PLACEMENTS = 3, 5, 7

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.arrays import ArrayField, FloatArray
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table

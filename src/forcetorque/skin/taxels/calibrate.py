@@ -10,8 +10,8 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, FitError, known_names
-from forcetorque.experiment.additions import ADDED, added_to, with_recording_notes
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
+from forcetorque.experiment.recording_notes import ADDED, added_to, with_recording_notes
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, optional_table, table_of

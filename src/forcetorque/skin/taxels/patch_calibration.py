@@ -23,7 +23,7 @@ from forcetorque.base.arrays import (
 )
 from forcetorque.base.errors import FormatError, ShapeError, SkinError
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.base.stored_model import StoredTable, read_json, validated_table, write_stored_table
+from forcetorque.base.stored_table import StoredTable, read_json, validated_table, write_stored_table
 from forcetorque.skin.taxels.taxel_curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.taxel_faults import require_counts
 from forcetorque.skin.temperature.taxel_temperature_drift import WarmUp

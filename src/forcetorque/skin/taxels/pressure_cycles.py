@@ -10,8 +10,8 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, require_shape
 from forcetorque.base.errors import ExperimentError, SkinError
-from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.intervals import RecordedSpan
+from forcetorque.experiment.named_files import stated_in
 from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
 from forcetorque.recording.recording import Use
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment

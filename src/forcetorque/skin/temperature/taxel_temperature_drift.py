@@ -13,7 +13,7 @@ from pydantic import Field
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array
 from forcetorque.base.errors import SkinError
-from forcetorque.base.stored_model import StoredTable
+from forcetorque.base.stored_table import StoredTable
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.taxels.taxel_faults import taxel_faults
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ExperimentError, SkinError
-from forcetorque.experiment.additions import added_to
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.experiment.recording_notes import added_to
 from forcetorque.recording.recording import Use
 from forcetorque.results.table import Row, Shown
 from forcetorque.skin.contact.contact_tracking import FASTER

@@ -14,8 +14,8 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, SkinError
 from forcetorque.base.output_file import write_bytes_atomically
-from forcetorque.experiment.additions import added_to, with_recording_notes
-from forcetorque.experiment.input_files import stated_in
+from forcetorque.experiment.named_files import stated_in
+from forcetorque.experiment.recording_notes import added_to, with_recording_notes
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Table, optional_table, table_of
 from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts

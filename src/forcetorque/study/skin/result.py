@@ -16,8 +16,8 @@ from forcetorque.evaluation.sphere.resampling import jackknife_margin
 from forcetorque.results.number_text import number
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.study.skin.load_trial import LoadTrial, PrintedLoad, contradictions, printed_load
 from forcetorque.study.skin.raised_leg import LOADS, Load
-from forcetorque.study.skin.trial import LoadTrial, PrintedLoad, contradictions, printed_load
 
 LEVEL_DEG: Final = 90
 """Angle of the leg in Tables 7.1 and 7.2."""
@@ -111,7 +111,7 @@ class ComparedRow(Row):
 class SkinStudy(DrawnResult):
     """Forces and torques by skin on a simulated leg, as in thesis 7.3."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.study.command:skin_study_answer"
+    answered_by: ClassVar[str | None] = "forcetorque.study.answers:skin_study_answer"
     drawn_by: ClassVar[str] = "forcetorque.study.figures:skin_study_figure"
 
     schema_name: Literal["forcetorque/study_skin/1"] = Field(default="forcetorque/study_skin/1", alias="schema")

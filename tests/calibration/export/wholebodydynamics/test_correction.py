@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.calibration.export.wholebodydynamics import SensorCorrection, corrected, from_calibration
-from forcetorque.experiment.calibration.artefact import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration
 from tests.calibration.export.wholebodydynamics.device import bottle
 from tests.scenes.calibrations import FACTORY, MOUNTED, make_calibration, make_variable
 

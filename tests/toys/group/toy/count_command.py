@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.results.terminal.command_output import Format, show
 from forcetorque.results.terminal.options import FormatOption
-from forcetorque.results.terminal.output import Format, show
 
 
 def count(

@@ -17,7 +17,7 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, SkinError
 from forcetorque.base.toml_file import Table, read_toml
-from forcetorque.robot.installed import urdf_file
+from forcetorque.robot.installed_robots import urdf_file
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
