@@ -14,7 +14,7 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError, FormatError, MissingFileError, RecordingError
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.toml_file import parsed_toml
-from forcetorque.experiment.additions import with_recording_notes
+from forcetorque.experiment.additions import with_continuous_joints, with_recording_notes
 from forcetorque.experiment.applicability import one_per_sensor
 from forcetorque.experiment.calibration.artefact import Calibration, read_calibration
 from forcetorque.experiment.experiment import Experiment
@@ -381,7 +381,8 @@ def _recorded(
                     f"{source}: {key}: expected {words}; got none, without which no sample is read; `forcetorque init "
                     f"{source}` begins an experiment file that asks for it"
                 )
-        recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
+        streams = {stream.name: stream for stream in reading.streams}
+        recording = with_continuous_joints(Recording(streams=streams, findings=reading.findings))
         findings = inspect_recording(recording)
         if isinstance(log_format, RobotLoggingFormat):
             findings = (*robot_findings(log_format.robot(source), recording), *findings)

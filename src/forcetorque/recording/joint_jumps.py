@@ -32,8 +32,6 @@ _SPIKE = 5
 """Samples that a reading may be elsewhere, also at an end of the log, and count as wrong rows, which are left out."""
 _BESIDE = round(GAP_PERIODS) // 2 + 1
 """Samples on either side of a lasting jump that are left out: no filter of derivatives reaches across such a gap."""
-MOST_LEFT_OUT = max(_SPIKE, 2 * _BESIDE)
-"""Samples in a row that are left out for one jump at most."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -186,15 +184,23 @@ def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Fi
             continue
         values = signal.values.copy() if values is None else values
         values[:, column] = joint.repaired(signal.values[:, column])
-        findings += _findings(stream, signal.columns[column], signal.units[column], joint, start_ns)
+        left_out = stream.stamp_ns[np.isfinite(signal.values).all(axis=1) & np.isnan(values[:, column])]
+        finding = partial(
+            Finding,
+            stream=stream.name,
+            channel=signal.columns[column],
+            unit=signal.units[column],
+            left_out_ns=tuple(left_out.tolist()),
+        )
+        findings += _findings(stream, joint, start_ns, finding)
     if values is None:
         return stream, ()
     return replace(stream, signals={**stream.signals, "position": replace(signal, values=values)}), tuple(findings)
 
 
-def _findings(stream: Stream, name: str, unit: str, joint: _Joint, start_ns: int) -> Iterator[Finding]:
+def _findings(stream: Stream, joint: _Joint, start_ns: int, finding: partial[Finding]) -> Iterator[Finding]:
+    name, unit = finding.keywords["channel"], finding.keywords["unit"]
     stamps, last = stream.stamp_ns[joint.rows], int(stream.stamp_ns.max())
-    finding = partial(Finding, stream=stream.name, channel=name, unit=unit)
     brief = [one for one in joint.excursions if one.is_brief]
     if brief:
         size = max(one.size for one in brief)
