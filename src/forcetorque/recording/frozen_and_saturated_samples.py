@@ -32,7 +32,9 @@ fifty one may be a measurement."""
 _LONGEST_NS = 150_000_000
 """Time that a reading repeats; one that stays for longer may be of a load that rests."""
 _RECURS = 0.01
-"""Share of one change among all, from which on readings have steps."""
+"""Share of one change among all, from which on readings have steps; those of written digits are finer."""
+_DIGITS = 8.0
+"""Last digits by which changes of as many counts may differ where readings are written."""
 _BESIDE = 2
 """Neighbours on either side of a sample, whose cubic follows a smooth motion and no noise."""
 _NEIGHBOURS = -56.0 / 36.0
@@ -266,9 +268,13 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
     changes = np.diff(samples, axis=0)
     changes = changes[np.isfinite(changes).all(axis=1)]
     step, ranges = smallest_steps(values), ranges_of(values)
-    if not _are_of_converter(changes, step, ranges).all():
+    of_grid = _are_of_converter(changes, step, ranges)
+    changed = changes != 0.0
+    by_one = (changed & (np.abs(changes) < 1.5 * step)).sum(axis=0) > _RECURS * changed.sum(axis=0)
+    if not (of_grid & by_one)[step > 0.0].all():
         # wrenches of a converter's counts: their steps are not known, but small changes come again and again
-        whole = np.rint(changes / np.maximum(_FINEST * ranges, np.finfo(np.float64).tiny))
+        finest = np.maximum(np.where(of_grid, _DIGITS * step, _FINEST * ranges), np.finfo(np.float64).tiny)
+        whole = np.rint(changes / finest)
         often = int(np.unique(whole, axis=0, return_counts=True)[1].max())
         if often > _RECURS * len(changes) or count <= _FAR_MORE * often:
             return marks
