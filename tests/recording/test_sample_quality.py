@@ -148,6 +148,32 @@ def test_readings_that_come_again_under_new_stamps_are_found(repeats: BoolArray,
         assert not found[~repeats].any()
 
 
+@pytest.mark.parametrize("held", [2, 5, 12, 25])
+@pytest.mark.parametrize("noise", [0.0, 0.1, 3.0])
+@pytest.mark.parametrize("step", [0.0, 1.0])
+def test_a_slow_sensor_is_found_by_the_motion_of_its_load(held: int, noise: float, step: float) -> None:
+    """Down to 4 Hz in a log of 100 Hz, whatever its noise, also where readings stay for some samples more or less."""
+    read = np.arange(COUNT) % held == 0
+    between = np.random.default_rng(5).integers(held // 2 + 1, held + held // 2 + 1, size=COUNT).cumsum()
+    uneven = np.isin(np.arange(COUNT), between)
+    for reads, least in ((read, 0.98), (uneven, 0.9)) if held > 2 else ((read, 0.98),):
+        before = np.maximum.accumulate(np.where(reads, np.arange(COUNT), 0))
+        repeats = before != np.arange(COUNT)
+        found = repeated_readings(STAMPS, _read(_motion(rests=False), noise, step)[before])
+        assert found[repeats].mean() > least
+        assert not found[~repeats].any()
+
+
+def test_slower_readings_are_of_poses() -> None:
+    """Poses that are held for 0.3 s, or for 1 s with the motion between them, repeat nothing."""
+    held = _read(_motion(rests=False), 0.0, 1.0)[np.arange(COUNT) // 30 * 30]
+    assert not repeated_readings(STAMPS, held).any()
+    moves = np.arange(COUNT) % 120 < 20
+    pose = np.cumsum(np.where(moves, 5.0, 0.0))
+    values = np.rint(np.sin(0.01 * pose[:, None] * np.arange(1, 7)) * SIZES)
+    assert not repeated_readings(STAMPS, values).any()
+
+
 @pytest.mark.parametrize("noise", NOISES)
 @pytest.mark.parametrize("step", STEPS)
 def test_a_load_at_rest_repeats_nothing(noise: float, step: float) -> None:

@@ -294,10 +294,8 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
 
 
 def _period_of_slow_sensor(stamps: IntArray, samples: FloatArray, same: BoolArray, step: FloatArray) -> int:
-    """Usual time between readings of a log where nearly every one that moves by several steps stays; ns, 0 of others.
-
-    Noise is not needed for it: a load moves on from one sample to the next.
-    """
+    """Usual time between the readings of a log where nearly every one moves and stays; ns; 0 of others."""
+    # noise is not needed for it: a load that moves goes on from one sample to the next
     many = np.count_nonzero(np.abs(np.diff(samples, axis=0)) > _MOVES * step, axis=1) >= 0.5 * samples.shape[1]
     moves = np.flatnonzero(many[1:-1]) + 1
     if len(moves) < _FEWEST or np.mean(same[moves - 1] & same[moves + 1]) < _NEARLY_ALL:
