@@ -82,7 +82,7 @@ def package_names() -> list[str]:
 
 
 def offered(package: str) -> tuple[str, ...]:
-    """Read the names that a package offers: `__all__`, or the keys of its `lazy_names`.
+    """Read the names that a package offers: `__all__`, or the arguments of its `lazy_names`.
 
     Args:
         package: Name of a package.
@@ -92,8 +92,8 @@ def offered(package: str) -> tuple[str, ...]:
     """
     for node in _tree(package).body:
         match node:
-            case ast.Assign(value=ast.Call(func=ast.Name(id="lazy_names"), args=[_, modules])):
-                return tuple(ast.literal_eval(modules))
+            case ast.Assign(value=ast.Call(func=ast.Name(id="lazy_names"), keywords=modules)):
+                return tuple(str(module.arg) for module in modules)
             case ast.Assign(targets=[ast.Name(id="__all__")], value=value):
                 return tuple(ast.literal_eval(value))
     return ()

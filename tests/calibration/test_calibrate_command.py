@@ -73,6 +73,12 @@ def test_the_answer_counts_many_intervals(arm: Path, run: Run) -> None:
     )
     assert f"{fitted.provenance.means} means of 1 s of '{interval.label}': residual" in one
     assert several == one.replace(f"of '{interval.label}':", "of 200 intervals:")
+    commands = [
+        calibration_answer(calibration, None, "made.json", saved=True, doubtful=False, has_validation=False).command
+        for calibration in (fitted, campaign, fitted.model_copy(update={"prior": None}))
+    ]
+    assert "init --resume" in commands[0]
+    assert commands[1:] == ["", ""], "nothing is divided of many intervals, or of raw counts without a prior"
 
 
 def test_a_fit_to_fewer_means_than_unknowns_states_no_residual(arm: Path, run: Run) -> None:

@@ -20,6 +20,7 @@ from forcetorque.robot.modified_robot import RobotErrors
 from forcetorque.robot.urdf import read_urdf
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, TWO
+from tests.scenes.robots import link_xml, robot_xml
 
 EXACT = 'urdf = "arm.urdf"\ntolerance = "exact"\n'
 WRONG = RobotErrors(mass={"hand": -0.08, "tool": -0.08}, centre_m={}, joint_zero_rad={"wrist": 0.015})
@@ -71,6 +72,16 @@ def test_the_line_of_an_error_in_the_urdf_is_named(tmp_path: Path) -> None:
     }
     assert {name: place_in_urdf(file, name) for name in places} == places
     assert place_in_urdf(None, "mass of hand") == ""
+
+
+def test_a_dtd_that_a_urdf_names_is_not_opened(tmp_path: Path) -> None:
+    """The URDF is read, and its lines are found, whether the DTD is missing or no DTD."""
+    (tmp_path / "bad.dtd").write_text("<", encoding="utf-8")
+    for dtd in ("missing.dtd", "bad.dtd"):
+        file = tmp_path / "arm.urdf"
+        file.write_text(f'<!DOCTYPE robot SYSTEM "{dtd}">\n{robot_xml(link_xml("hand"))}', encoding="utf-8")
+        assert list(read_urdf(file).links) == ["hand"]
+        assert place_in_urdf(file, "mass of hand") == " (arm.urdf:3, <mass>)"
 
 
 def test_a_correction_takes_most_of_the_error_of_the_model_away(arm: Path, run: Run) -> None:

@@ -15,7 +15,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import evaluate, validate
-from forcetorque.experiment import sensor_run as run_module, sensor_samples as samples_module
+from forcetorque.experiment import sensor_samples as samples_module
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -43,7 +43,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
         return call
 
     monkeypatch.setattr(samples_module, "sensor_samples", counted("samples", samples_module.sensor_samples))
-    monkeypatch.setattr(run_module, "robot_motion_at", counted("motion", run_module.robot_motion_at))
+    monkeypatch.setattr(SensorRun, "motion_at", counted("motion", SensorRun.motion_at))
     return counts
 
 

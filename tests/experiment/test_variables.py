@@ -145,6 +145,19 @@ def test_a_glitch_of_the_thermometer_is_left_out_and_named(warm_log: Path, place
     assert "1e+04; the others lie from 2" in said
 
 
+def test_glitches_of_the_thermometer_that_are_too_many_are_named(warm_log: Path) -> None:
+    """Every third value of the slow stream; they are used."""
+    stream = read_recording(warm_log / "recording").stream("board")
+    temperature = stream.signal("temperature")
+    values = np.array(temperature.values)
+    values[1::3] = 1e4
+    put(warm_log, replace(stream, signals={**stream.signals, "temperature": replace(temperature, values=values)}))
+    recording = load_experiment(with_variables(warm_log / PARQUET, SLOW_TEMPERATURE)).recording
+    (said,) = added_to(recording)
+    assert f"temperature (degC): {len(values[1::3])} of {len(values)} values are nowhere near the others" in said
+    assert np.isfinite(recording.stream("board").signal("temperature").values).all()
+
+
 def test_a_missing_temperature_leaves_its_sample_out(warm_log: Path) -> None:
     """In the sensor's own stream one NaN costs one sample, and none where the variable is not fitted."""
     stream = read_recording(warm_log / "recording").stream("arm_ft")

@@ -16,8 +16,10 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.inspection.draft.divided_stream import DividedStream
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.proposals import Proposal, proposals
+from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
@@ -328,6 +330,58 @@ def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pos
     assert comments
     assert set(comments) <= set(changed.splitlines())
     file.write_text(changed, encoding="utf-8")
+    assert not [one for one in proposals(file) if one.kind == "delay"]
+
+
+SLOW_TO_LOG = 'stream = "slow"\nto = "log"\ndelay_s = 5.0\n'
+LOG_TO_SLOW = 'stream = "log"\nto = "slow"\ndelay_s = -5.0\ndrift = 1e-3\n'
+
+
+def _late_wrist_beside(folder: Path, clock: str) -> str:
+    _csv(folder / "slow.csv", "time_s,temp_degC\n", (f"{k + 5},25.0\n" for k in range(40)))
+    slow = '[[recording.stream]]\nname = "slow"\nfile = "slow.csv"\nstamp = { column = "time_s", unit = "s" }\n'
+    slow += '[[recording.stream.signal]]\nquantity = "temperature"\ncolumns = ["temp_degC"]\nunits = ["degC"]\n\n'
+    return _late_wrist(folder, 3).replace("[[sensor]]", f"{slow}[[clock]]\n{clock}\n[[sensor]]", 1)
+
+
+@pytest.mark.parametrize("clock", [SLOW_TO_LOG, LOG_TO_SLOW])
+def test_a_table_of_another_clock_is_divided(tmp_path: Path, clock: str) -> None:
+    """The delay between wrench and motion changes by what is found; what the file does to other stamps stays."""
+    file, text = tmp_path / "experiment.toml", _late_wrist_beside(tmp_path, clock)
+    file.write_text(text, encoding="utf-8")
+    before = load_experiment(file).recording
+    content = tomllib.loads(text)
+    division = DividedStream.of(content, "log", 0.12, before.clocks)
+    assert division is not None
+    edit = division.edit(text, content)
+    assert edit is not None
+    file.write_text(edit.applied(text), encoding="utf-8")
+    after = load_experiment(file).recording
+    wrench, motion = after.stream("log"), after.stream("log_motion")
+    assert list(wrench.signals) == ["wrench"]
+    np.testing.assert_allclose(motion.stamp_ns - wrench.stamp_ns, 0.12e9, atol=1.0)
+    assert wrench.clock == motion.clock == before.stream("log").clock
+    kept = wrench if clock == LOG_TO_SLOW else motion
+    np.testing.assert_array_equal(kept.stamp_ns, before.stream("log").stamp_ns)
+    np.testing.assert_array_equal(after.stream("slow").stamp_ns, before.stream("slow").stamp_ns)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("clock", "written"),
+    [
+        (SLOW_TO_LOG, r'stream = "log", to = "log_motion", delay_s = 0\.1\d\d, in front of the others'),
+        (LOG_TO_SLOW, r'stream = "log_motion", to = "log", delay_s = -5\.1\d\d, drift = 0\.001;'),
+    ],
+)
+def test_two_streams_are_proposed_beside_other_clocks(tmp_path: Path, clock: str, written: str) -> None:
+    """`inspect` names the same clock; with it no delay is left."""
+    file, text = tmp_path / "experiment.toml", _late_wrist_beside(tmp_path, clock)
+    file.write_text(text, encoding="utf-8")
+    assert any(re.search(written, one.message) for one in inspect_experiment(load_experiment(file)))
+    (proposal,) = (one for one in proposals(file) if one.kind == "delay")
+    assert proposal.edit is not None
+    file.write_text(proposal.edit.applied(text), encoding="utf-8")
     assert not [one for one in proposals(file) if one.kind == "delay"]
 
 

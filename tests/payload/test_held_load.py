@@ -253,7 +253,7 @@ def test_a_sensor_beyond_the_sensor_is_named(arm: Path) -> None:
 @pytest.mark.long
 def test_a_tool_that_an_arm_weighed_is_told_with_the_links_it_hangs_on(tmp_path: Path) -> None:
     """What the recording says of the load, moved into the frame of the sensor, and the same load where it is stated."""
-    example = SimpleNamespace(**runpy.run_path(str(Path(__file__).parents[3] / "examples" / "27_arm_and_tools.py")))
+    example = SimpleNamespace(**runpy.run_path(str(Path(__file__).parents[2] / "examples" / "27_arm_and_tools.py")))
     tool = {"gripper": (1.3, [0.01, 0.02, 0.06])}
     example.simulate(tmp_path, example_robot("ur_description/urdf/ur5_robot.urdf"), seed=8, tools=tool, duration_s=10.0)
     file = tmp_path / "gripper.toml"

@@ -15,9 +15,9 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.export.export import export_load, robot_load
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.export.hrpsys_and_mc_rtc import read_hrpsys
 from forcetorque.payload.tare_offset import tare
 from tests.page_scripts import unmarked
+from tests.payload.export.written_loads import read_hrpsys
 from tests.results.showing import require_shown
 from tests.scenes.experiments import OFFSET, PARQUET
 from tests.scenes.wrist_postures import BIAS, CENTRE, MASS, POSTURES, SLOW, weight, write_postures
@@ -74,7 +74,7 @@ def test_the_robot_is_told_the_new_offset(tmp_path: Path) -> None:
     (row,) = tare(run, "first").sensors
     words = export_load(robot_load(run, row.bias), tmp_path / "offsets", LoadFormat.HRPSYS)
     assert "taken off" in words
-    load = read_hrpsys(tmp_path / "offsets", sensor="wrist", frame="tool")
+    load = read_hrpsys(tmp_path / "offsets", "tool")
     assert load.mass == MASS
     np.testing.assert_allclose(load.centre_of_mass, CENTRE, atol=1e-15)
     assert np.array_equal(load.bias, -row.offset)
@@ -96,12 +96,12 @@ def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None
 
 def test_the_script_of_its_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It writes the file that the page says."""
-    (code,) = unmarked((Path(__file__).parents[3] / "docs" / "payload" / "robot_load.md").read_text(encoding="utf-8"))
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "payload" / "robot_load.md").read_text(encoding="utf-8"))
     path = write_postures(tmp_path, seed=4)
     path.write_text(path.read_text().replace('label = "first"', 'label = "still"'))
     monkeypatch.chdir(tmp_path)
     exec(compile(code, "robot_load.md", "exec"), {})
-    assert read_hrpsys(tmp_path / "offsets.txt", sensor="wrist", frame="tool").mass == MASS
+    assert read_hrpsys(tmp_path / "offsets.txt", "tool").mass == MASS
 
 
 @pytest.mark.long

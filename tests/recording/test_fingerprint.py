@@ -39,6 +39,26 @@ def test_samples_are_known_again(written: object) -> None:
     assert _found(values, written(values)) > 0  # type: ignore[operator]
 
 
+@pytest.mark.parametrize("rows", [2, 5, 60])
+def test_readings_that_the_log_repeats_are_known_again(rows: int) -> None:
+    """Of a sensor that is slower than its log: in a copy that is cut, in one of another rate, not with other noise."""
+    first, second = _reading(1, 1000), _reading(1, 1000) + 0.05 * np.random.default_rng(2).normal(size=(1000, 6))
+    logged = first.repeat(rows, axis=0)
+    assert len(kept_hashes(fingerprint(logged))) == KEPT
+    assert _found(logged, logged[501 * rows + 1 :]) > 0
+    assert _found(logged, first) == KEPT
+    assert _found(logged, second.repeat(rows, axis=0)) == 0
+
+
+@pytest.mark.parametrize("channels", [1, 6])
+def test_steps_of_a_converter_that_a_slow_load_crosses_are_not_known(channels: int) -> None:
+    """Without noise: other logs cross the same steps."""
+    slow = np.rint(_reading(1, 20_000, noise=0.0))
+    slow[:, channels:] = 0.0
+    assert len(window_hashes(slow)) == 0
+    assert len(window_hashes(slow[np.append(True, np.diff(slow, axis=0).any(axis=1))])) > 0, "control: steps alone"
+
+
 @pytest.mark.long
 def test_other_samples_of_the_same_motion_are_others() -> None:
     """Of a hundred recordings that differ in their noise alone none is taken for another."""

@@ -168,8 +168,28 @@ def _with(base: FloatArray, first: int, last: int, value: float) -> FloatArray:
         (_with(np.full(400, 25.0), 100, 104, 27.0), set()),  # warmer by two steps of a thermometer
         (_with(np.zeros(400), 100, 104, 1.0), set()),  # a switch that is on for a moment
         (np.array([25.0, 1e4, 25.0]), set()),  # too few to tell
+        (_with(np.repeat(_WARMING, 25), 1000, 1025, 85.0), set(range(1000, 1025))),  # one value that the log holds
+        (_with(np.repeat(_WARMING, 25), 9925, 10_000, -273.15), set(range(9925, 10_000))),  # three, at the end
+        (_with(np.repeat(_WARMING, 25), 1000, 1275, 85.0), set()),  # eleven
+        (np.where(np.arange(400) % 5 == 2, 1e4, _WARMING), set(range(2, 400, 5))),  # every fifth
+        (np.where(np.arange(400) % 3 == 2, 1e4, _WARMING), set()),  # every third
     ],
 )
 def test_values_nowhere_near_the_others_are_glitches(values: FloatArray, glitched: set[int]) -> None:
     """Those that come and go by a jump; not steps, drifts or what lasts."""
-    assert set(np.flatnonzero(glitched_values(values)).tolist()) == glitched
+    assert set(np.flatnonzero(glitched_values(values)[0]).tolist()) == glitched
+
+
+def test_glitches_that_are_too_many_to_tell_are_counted() -> None:
+    """Every third value; not every fifth, which are found, nor steps of a reading that rests."""
+    rows = np.arange(400)
+    counts = [
+        glitched_values(values)[1]
+        for values in (
+            np.where(rows % 3 == 2, 1e4, _WARMING),
+            np.where(rows % 5 == 2, 1e4, _WARMING),
+            np.where(rows % 3 == 2, 1.0, 0.5),
+            _WARMING,
+        )
+    ]
+    assert counts == [133, 0, 0, 0]

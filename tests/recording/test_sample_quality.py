@@ -164,6 +164,13 @@ def test_a_slow_sensor_is_found_by_the_motion_of_its_load(held: int, noise: floa
         assert not found[~repeats].any()
 
 
+def test_pairs_between_gaps_repeat_nothing() -> None:
+    """No change is known of them."""
+    values = np.repeat(np.random.default_rng(8).normal(size=(4, 6)), 3, axis=0)
+    values[2::3] = np.nan
+    assert not repeated_readings(STAMPS[:12], values).any()
+
+
 def test_slower_readings_are_of_poses() -> None:
     """Poses that are held for 0.3 s, or for 1 s with the motion between them, repeat nothing."""
     held = _read(_motion(rests=False), 0.0, 1.0)[np.arange(COUNT) // 30 * 30]

@@ -360,10 +360,11 @@ def test_without_validation_or_calibration_there_is_no_study(recorded: Path) -> 
 
 @pytest.mark.long
 def test_progress_tells_every_step(data: StudyData) -> None:
-    """Fitting once, evaluating in each mode; no line of an interval where all are evaluated at once."""
+    """Each way to fit once, evaluating in each mode; no line of an interval where all are evaluated at once."""
     said: list[str] = []
     _study(data, kinds=[ESTIMATION_TYPES["OwTrTO"]], progress=said.append)
     assert said == [
+        "fitting 3 combinations of data sets by the generative model",
         "fitting 3 combinations of data sets, 1 types, 3 lambdas",
         "evaluating 13 matrices on 2 intervals, offset first-second",
         "evaluating 13 matrices on 2 intervals, offset fitted",

@@ -15,12 +15,10 @@ if TYPE_CHECKING:
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "design_device": "forcetorque.device.command",
-        "motion": "forcetorque.locomotion.commands",
-        "motion_of_arrays": "forcetorque.app.python.arrays",
-        "simulate": "forcetorque.simulation.command",
-        "study": "forcetorque.study.command",
-        "workbench": "forcetorque.workbench.command",
-    },
+    design_device="forcetorque.device.command",
+    motion="forcetorque.locomotion.commands",
+    motion_of_arrays="forcetorque.app.python.arrays",
+    simulate="forcetorque.simulation.command",
+    study="forcetorque.study.command",
+    workbench="forcetorque.workbench.command",
 )

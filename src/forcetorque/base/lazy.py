@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from importlib import import_module
 from types import ModuleType
 from typing import Any
 
 
-def lazy_names(
-    package: str, modules: Mapping[str, str]
-) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
+def lazy_names(package: str, **modules: str) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
     """Make the `__all__`, `__getattr__` and `__dir__` of a package.
 
     A name must not be that of a module in the package: importing the module would hide it. Type checkers know the
@@ -20,7 +18,7 @@ def lazy_names(
 
     Args:
         package: Name of the package.
-        modules: For every public name, the module that defines it.
+        **modules: For every public name, the module that defines it.
 
     Returns:
         `__all__`, `__getattr__` and `__dir__` of the package; an unknown name is an `AttributeError`.

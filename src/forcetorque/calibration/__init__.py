@@ -33,13 +33,11 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "calibrate_for_file": "forcetorque.calibration.calibrate",
-        "calibrate_jointly": "forcetorque.calibration.joint.calibrate",
-        "calibrate_sensor": "forcetorque.calibration.calibrate",
-        "export_calibrations": "forcetorque.calibration.export.command",
-        "information_figure": "forcetorque.calibration.summary",
-        "recording_moments": "forcetorque.calibration.reduced_recordings",
-        "store_moments": "forcetorque.calibration.reduced_recordings",
-    },
+    calibrate_for_file="forcetorque.calibration.calibrate",
+    calibrate_jointly="forcetorque.calibration.joint.calibrate",
+    calibrate_sensor="forcetorque.calibration.calibrate",
+    export_calibrations="forcetorque.calibration.export.command",
+    information_figure="forcetorque.calibration.summary",
+    recording_moments="forcetorque.calibration.reduced_recordings",
+    store_moments="forcetorque.calibration.reduced_recordings",
 )

@@ -26,7 +26,6 @@ from forcetorque.experiment.calibration.robot_model_error import (
 )
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
-from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.root_motion import imu_frame
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
@@ -220,16 +219,7 @@ def derivatives_at(
     terms = uncertain.terms_in(recording)
     if not terms:
         return nothing
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        uncertain.joints,
-        run.stream,
-        at_ns,
-        processing=experiment.processing,
-        filters=None if run.shared is None else run.shared.filters,
-    )
+    joints, root = run.motion_at(support, uncertain.joints, at_ns)
     return terms, uncertain.derivatives(joints, root, rates)
 
 

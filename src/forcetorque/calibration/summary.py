@@ -65,7 +65,9 @@ def calibration_answer(
     step, command = "evaluate it on data that were not fitted", typed("evaluate", EXPERIMENT, "-c", file)
     if not has_validation:
         step = 'add an [[interval]] with use = "validation", or evaluate it on another recording that has one'
-        command = typed("init", "--resume", FIRST_EXPERIMENT) if len(labels) == 1 else ""  # it divides the only one
+        # it divides the only one, where a prior matrix tells which times are free of contact
+        is_divided = len(labels) == 1 and calibration.prior is not None
+        command = typed("init", "--resume", FIRST_EXPERIMENT) if is_divided else ""
     return Answer(
         subject=f"{sensor.name} ({sensor.serial}), {file}",
         verdict=("FITTED, WITH WARNINGS" if doubtful else "FITTED") if saved else "FITTED, NOT WRITTEN YET",

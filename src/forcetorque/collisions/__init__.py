@@ -15,4 +15,4 @@ CAPABILITY = Capability(
     commands=("forcetorque.collisions.command:collisions", "forcetorque.collisions.command:joint_collisions"),
 )
 
-__all__, __getattr__, __dir__ = lazy_names(__name__, {"joint_collisions": "forcetorque.collisions.command"})
+__all__, __getattr__, __dir__ = lazy_names(__name__, joint_collisions="forcetorque.collisions.command")

@@ -106,8 +106,7 @@ def joint_collisions_figure(result: JointCollisions) -> Figure:
         panel.axhline(sign, **LIMIT_LINE)
     for row in result.contacts:
         panel.axvspan(row.start_s, row.end_s, color=_CONTACT["color"], alpha=0.25, linewidth=0.0)
-    panel.set_xlabel("time, s")
-    panel.set_ylabel("external torque over threshold")
+    panel.set(xlabel="time, s", ylabel="external torque over threshold")
     headline(figure, f"{shown_name(result.experiment)}: {_contacts(len(result.contacts))}")
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return figure

@@ -18,7 +18,6 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.units import NORMAL_95
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
-from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.sub_model_equations import PartEquation, joints_of_part, part_equations
 from forcetorque.robot.tree import BodyTree, build_tree, sub_models
 
@@ -70,15 +69,7 @@ def equation_at(run: SensorRun, interval: Interval, at_ns: IntArray) -> tuple[Bo
     part = next((part for part in sub_models(tree, [run.sensor.name]) if part.sensor == run.sensor.name), None)
     if part is None:
         raise ExperimentError(f"sensor {run.sensor.name!r}: no link lies beyond it, seen from {support.frame!r}")
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        joints_of_part(tree, part),
-        run.stream,
-        at_ns,
-        processing=experiment.processing,
-    )
+    joints, root = experiment.motion_at(support, joints_of_part(tree, part), run.stream, at_ns)
     return tree, next(part_equations(tree, [part], joints, root))
 
 

@@ -23,7 +23,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 from forcetorque.recording.recording import Interval, Support
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.robot.mechanics.question import Question, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree
@@ -97,9 +97,7 @@ class ArmMotion:
                 )
         clock, _ = logged[needed[0]]
         samples = padded_samples(recording, clock, interval, None)
-        motion, root = robot_motion_at(
-            recording, experiment.model, support, needed, clock, samples.stamp_ns, processing=experiment.processing
-        )
+        motion, root = experiment.motion_at(support, needed, clock, samples.stamp_ns)
         velocities = recording.joint_signals("velocity")
         if all(joint in velocities for joint in needed):
             # a filter of positions would smear the begin of a push over its window

@@ -13,7 +13,7 @@ from forcetorque.locomotion.standing.sole_limits import SoleEventRow
 from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Row, Shown, Table, Values, table_of
+from forcetorque.results.table import Row, Shown, Table, Values, optional_table, table_of
 
 
 class CollisionRow(Row):
@@ -147,13 +147,12 @@ class Collisions(DrawnResult):
         Yields:
             Tables.
         """
-        if self.collisions:
-            yield table_of(self.collisions, "contacts that the file does not state; ±: half a 95 % interval")
-        if self.sole_events:
-            yield table_of(self.sole_events, "what the ground cannot do to a sole, and slips; ±: half a 95 % interval")
+        yield from optional_table(self.collisions, "contacts that the file does not state; ±: half a 95 % interval")
+        yield from optional_table(
+            self.sole_events, "what the ground cannot do to a sole, and slips; ±: half a 95 % interval"
+        )
         yield table_of(self.sensitivity, "what is noticed")
-        if self.by_link:
-            yield table_of(self.by_link, "on which link, in its worst direction and place")
+        yield from optional_table(self.by_link, "on which link, in its worst direction and place")
 
     def records(self) -> list[dict[str, object]]:
         """Give the contacts as flat lines.
@@ -278,8 +277,7 @@ class JointCollisions(DrawnResult):
         Yields:
             Tables.
         """
-        if self.contacts:
-            yield table_of(self.contacts, "contacts that the file does not state; ±: half a 95 % interval")
+        yield from optional_table(self.contacts, "contacts that the file does not state; ±: half a 95 % interval")
         yield table_of(self.joints, "what the joints notice")
 
 

@@ -22,8 +22,6 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "contest": "forcetorque.contests.command",
-        "read_entries": "forcetorque.contests.entries",
-    },
+    contest="forcetorque.contests.command",
+    read_entries="forcetorque.contests.entries",
 )

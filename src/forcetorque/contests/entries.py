@@ -12,7 +12,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
@@ -95,11 +94,9 @@ class ContestantTable(Table):
     def _file_belongs_to_method(self) -> ContestantTable:
         for method, key in _FILE_OF.items():
             if getattr(self, key) is not None and self.method is not method:
-                raise PydanticCustomError(
-                    "file_of_method", "{key} belongs to method = {method}", {"key": key, "method": f'"{method}"'}
-                )
+                raise ValueError(f'{key} belongs to method = "{method}"')
         if self.catalogue is not None and self.full_scale is not None:
-            raise PydanticCustomError("full_scale_twice", "expected catalogue or full_scale, got both")
+            raise ValueError("expected catalogue or full_scale, got both")
         return self
 
 
@@ -129,9 +126,7 @@ class ContestFile(Table):
         ):
             (name, count), *_ = Counter(names).most_common(1)
             if count > 1:
-                raise PydanticCustomError(
-                    "twice", "{what}: expected each once, got {name} again", {"what": what, "name": repr(name)}
-                )
+                raise ValueError(f"{what}: expected each once, got {name!r} again")
         return self
 
 

@@ -55,8 +55,7 @@ def contest_figure(rows: Sequence[ContestLoadRow]) -> Figure:
         for k, name in enumerate(names):
             own = [row for row in rows if row.contestant == name]
             _draw(panel, own, j, k, shift=_BESIDE * width * (k - 0.5 * (len(names) - 1)))
-        panel.set_ylabel(f"{WRENCH_COMPONENTS[j]} error, {WRENCH_UNITS[j]}")
-        panel.set_yscale("log")
+        panel.set(ylabel=f"{WRENCH_COMPONENTS[j]} error, {WRENCH_UNITS[j]}", yscale="log")
     for panel in panels[1]:
         panel.set_xlabel("load, kg")
     heaviest = max(row.load_kg for row in rows)

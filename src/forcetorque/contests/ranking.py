@@ -22,7 +22,7 @@ from forcetorque.contests.pairwise_comparison import (
 )
 from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
+from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, optional_table, table_of
 
 
 class ContestantRow(Row):
@@ -278,8 +278,7 @@ class Contest(DrawnResult):
         yield table_of(self.loads, "root mean square error under every load")
         yield table_of([pair for pair in self.pairs if pair.error_of == "wrench"], "pairs, force and moment together")
         yield _RATES
-        if self.left_out:
-            yield table_of(self.left_out, "could not take part")
+        yield from optional_table(self.left_out, "could not take part")
 
     def _verdict(self) -> Iterator[str]:
         best = [row.contestant for row in self.contestants if row.rank == 1]

@@ -20,8 +20,6 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "check_dataset": "forcetorque.dataset.commands",
-        "compensate_dataset": "forcetorque.dataset.commands",
-    },
+    check_dataset="forcetorque.dataset.commands",
+    compensate_dataset="forcetorque.dataset.commands",
 )

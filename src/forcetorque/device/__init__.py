@@ -23,8 +23,6 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "design_device": "forcetorque.device.design",
-        "write_device": "forcetorque.device.simulated_recordings",
-    },
+    design_device="forcetorque.device.design",
+    write_device="forcetorque.device.simulated_recordings",
 )

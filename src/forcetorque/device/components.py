@@ -9,7 +9,6 @@ from typing import Annotated, Self
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import SensorError
@@ -100,8 +99,7 @@ class Hinge(Table):
         _require_order(self.range_deg, "range_deg")
         for lock in self.locks_deg:
             if not self.range_deg[0] <= lock <= self.range_deg[1]:
-                message = f"lock at {lock:g} deg: expected one within range_deg = {list(self.range_deg)}"
-                raise PydanticCustomError("lock", "{message}", {"message": message})
+                raise ValueError(f"lock at {lock:g} deg: expected one within range_deg = {list(self.range_deg)}")
         return self
 
 
@@ -206,8 +204,7 @@ class Device(Table):
         for field in ("name", "serial"):
             values = [getattr(sensor, field) for sensor in self.sensor]
             if len(set(values)) != len(values):
-                message = f"sensors: expected each {field} once, got {', '.join(values)}"
-                raise PydanticCustomError("sensor_names", "{message}", {"message": message})
+                raise ValueError(f"sensors: expected each {field} once, got {', '.join(values)}")
         return self
 
     @model_validator(mode="after")
@@ -217,14 +214,13 @@ class Device(Table):
                 f"expected 0 kg < carrier < weights.step_kg <= weights.most_kg, got a carrier of "
                 f"{self.carrier.mass_kg:g} kg, steps of {self.weights.step_kg:g} kg and {self.weights.most_kg:g} kg"
             )
-            raise PydanticCustomError("weights", "{message}", {"message": message})
+            raise ValueError(message)
         return self
 
 
 def _require_order(bounds: tuple[float, ...], field: str) -> None:
     if not bounds[0] < bounds[1]:
-        message = f"{field}: expected the lowest, then the highest, got {list(bounds)}"
-        raise PydanticCustomError("range", "{message}", {"message": message})
+        raise ValueError(f"{field}: expected the lowest, then the highest, got {list(bounds)}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -44,7 +44,7 @@ from forcetorque.device.requirements import (
     requirement_rows,
 )
 from forcetorque.device.tolerances import Tolerance
-from forcetorque.results.table import Row, Table, table_of
+from forcetorque.results.table import Row, Table, optional_table, table_of
 from forcetorque.robot.motion import JointMotion
 
 RATE_HZ = 20.0
@@ -108,8 +108,7 @@ class DeviceDemands(Row):
         yield table_of(self.requirements, f"requirements (6.2.1), with {stack}")
         yield from (f"{row.number}. {row.verdict}: {row.why}" for row in self.requirements)
         yield table_of(self.motors, f"motors, with {stack}")
-        if self.unwinding:
-            yield table_of(self.unwinding, "average (6.1) over peak, by how yaw returns in the 12 steps")
+        yield from optional_table(self.unwinding, "average (6.1) over peak, by how yaw returns in the 12 steps")
         yield table_of(self.hinge, f"moment of gravity about the hinge, {self.load}")
         yield table_of(self.locks, "locks of the hinge, by load")
         yield table_of(self.envelope, f"swept space: plates, and the arm within {ARM_RADIUS_M:g} m of its axis")

@@ -20,7 +20,7 @@ from forcetorque.device.requirements import Verdict
 from forcetorque.device.spanned_directions import DeviceSpan, device_span
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
 from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:
@@ -176,8 +176,7 @@ class DeviceDesign(DrawnResult):
         yield table_of(self.motions, "motions")
         yield from self.span.blocks()
         yield from self.demands.blocks()
-        if self.recordings:
-            yield table_of(self.recordings, "simulated recordings")
+        yield from optional_table(self.recordings, "simulated recordings")
         if self.folder is not None:
             yield f"all files are in {self.folder}"
         yield from (f"drawn to {figure}" for figure in self.figures)

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, read_toml
 from forcetorque.device.components import Device
@@ -69,8 +68,7 @@ class DeviceSimulation(Table):
         loads = (*self.loads_kg, *self.validation_kg)
         if len(set(loads)) != len(loads):
             listed = ", ".join(f"{load:g}" for load in loads)
-            message = f"expected each load once in loads_kg and validation_kg, got {listed}"
-            raise PydanticCustomError("loads", "{message}", {"message": message})
+            raise ValueError(f"expected each load once in loads_kg and validation_kg, got {listed}")
         return self
 
 

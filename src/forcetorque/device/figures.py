@@ -190,8 +190,7 @@ def _draw_envelope(panel: Axes, row: EnvelopeRow) -> None:
     panel.set_aspect("equal", adjustable="datalim")
     panel.set_title(f"from {row.view}, {row.rectangle_m2:.2f} m2")
     first, second = VIEWS[row.view]
-    panel.set_xlabel(f"{_AXES[first]}, m")
-    panel.set_ylabel(f"{_AXES[second]}, m")
+    panel.set(xlabel=f"{_AXES[first]}, m", ylabel=f"{_AXES[second]}, m")
 
 
 _SIZES = (
@@ -285,8 +284,7 @@ def predicted_error_figure(rows: Sequence[DirectionRow]) -> Figure:
             known = np.isfinite(values)
             style = look(number)
             panel.plot(at[known], values[known], linestyle="none", marker=style.marker, color=style.colour)
-        panel.set_yscale("log")
-        panel.set_ylabel(f"error of {error}")
+        panel.set(yscale="log", ylabel=f"error of {error}")
         panel.set_title(_least_worst([row for row in rows if row.error == error]), loc="left", fontweight="bold")
     panels[-1].set_xticks(range(6), WRENCH_COMPONENTS)
     panels[-1].set_xlabel("axis that is loaded, by 100 N or 5 N m")

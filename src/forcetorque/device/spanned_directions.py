@@ -33,7 +33,7 @@ from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.optimised_motion import Designer
 from forcetorque.device.tolerances import Tolerances
-from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
+from forcetorque.results.table import FloatOrNull, Row, Shown, Table, optional_table, table_of
 from forcetorque.workbench.bench import Placement
 from forcetorque.workbench.excitation import MatrixError, Span
 
@@ -203,8 +203,7 @@ class DeviceSpan(Row):
         yield table_of(self.sensors, "excitation by static poses")
         yield table_of(self.options, f"excitation options: errors predicted with {COMPARED_KG:g} kg")
         yield table_of(self.directions, "predicted errors under 100 N or 5 N m along one axis")
-        if self.motions:
-            yield table_of(self.motions, "an optimised motion under the same speeds, ranges and time")
+        yield from optional_table(self.motions, "an optimised motion under the same speeds, ranges and time")
         yield from self.impossible
         yield _nearest(self.options)
 

@@ -24,9 +24,7 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "estimate_experiment": "forcetorque.estimation.estimate",
-        "fuse_experiment": "forcetorque.estimation.torque.experiment_fusion",
-        "summarise_estimates": "forcetorque.estimation.result",
-    },
+    estimate_experiment="forcetorque.estimation.estimate",
+    fuse_experiment="forcetorque.estimation.torque.experiment_fusion",
+    summarise_estimates="forcetorque.estimation.result",
 )

@@ -33,7 +33,7 @@ from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import indistinguishable
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
-from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, outboard_bodies
@@ -183,15 +183,7 @@ class IntervalProblem:
         available = set(experiment.recording.joint_signals("position"))
         question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
         source = clock_stream(experiment)
-        joints, root = robot_motion_at(
-            experiment.recording,
-            experiment.model,
-            support,
-            required_joints_of(question),
-            source,
-            at_ns,
-            processing=experiment.processing,
-        )
+        joints, root = experiment.motion_at(support, required_joints_of(question), source, at_ns)
         for stream in (entry.stream for entry in present if entry.stream):
             require_overlap(source, experiment.recording.stream(stream))
         return cls(

@@ -31,7 +31,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table import Row, Shown, Table, optional_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -196,12 +196,9 @@ class EstimatedRecording(Row):
         Yields:
             Tables and sentences.
         """
-        if self.contacts:
-            yield table_of(self.contacts, self.experiment)
-        if self.skin:
-            yield table_of(self.skin, f"{self.experiment}: contacts on skin")
-        if self.sub_models:
-            yield table_of(self.sub_models, "")
+        yield from optional_table(self.contacts, self.experiment)
+        yield from optional_table(self.skin, f"{self.experiment}: contacts on skin")
+        yield from optional_table(self.sub_models, "")
         for row in self.sub_models:
             for group in row.ambiguous:
                 yield f"{row.sub_model}, {row.interval}: not separable: {', '.join(group)}"

@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
@@ -46,7 +45,7 @@ class MotorTable(Table):
                 f"motor of joint {self.joint!r}: expected {key} and a gear_ratio other than 0 with the quantity "
                 f"{self.quantity}, and no {other}; the torque cannot be computed from a motor without them"
             )
-            raise PydanticCustomError("motor_constant", "{message}", {"message": message})
+            raise ValueError(message)
         return self
 
 

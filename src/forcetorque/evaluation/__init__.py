@@ -38,17 +38,15 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "Evaluation": "forcetorque.evaluation.evaluation",
-        "Validation": "forcetorque.evaluation.validation.validation",
-        "accept": "forcetorque.evaluation.acceptance.acceptance",
-        "compare": "forcetorque.evaluation.commands",
-        "evaluate": "forcetorque.evaluation.commands",
-        "read_acceptance": "forcetorque.evaluation.acceptance.acceptance_file",
-        "spheres": "forcetorque.evaluation.sphere.sphere",
-        "spheres_of_sensors": "forcetorque.evaluation.sphere.sphere",
-        "use_verdicts": "forcetorque.evaluation.load_cases.verdict",
-        "validate": "forcetorque.evaluation.commands",
-        "wrench_errors": "forcetorque.experiment.calibrations_under_test",
-    },
+    Evaluation="forcetorque.evaluation.evaluation",
+    Validation="forcetorque.evaluation.validation.validation",
+    accept="forcetorque.evaluation.acceptance.acceptance",
+    compare="forcetorque.evaluation.commands",
+    evaluate="forcetorque.evaluation.commands",
+    read_acceptance="forcetorque.evaluation.acceptance.acceptance_file",
+    spheres="forcetorque.evaluation.sphere.sphere",
+    spheres_of_sensors="forcetorque.evaluation.sphere.sphere",
+    use_verdicts="forcetorque.evaluation.load_cases.verdict",
+    validate="forcetorque.evaluation.commands",
+    wrench_errors="forcetorque.experiment.calibrations_under_test",
 )

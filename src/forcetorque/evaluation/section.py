@@ -10,7 +10,6 @@ from typing import Annotated, Final
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names
@@ -73,28 +72,22 @@ class LoadCaseTable(Table):
     def _says_which_loads(self) -> LoadCaseTable:
         kinds = [key for key in _KINDS if getattr(self, key) is not None]
         if len(kinds) != 1:
-            raise PydanticCustomError(
-                "load_kind",
-                "expected one of {known}, got {given}",
-                {"known": ", ".join(_KINDS), "given": ", ".join(kinds) or "none"},
-            )
+            raise ValueError(f"expected one of {', '.join(_KINDS)}, got {', '.join(kinds) or 'none'}")
         (kind,) = kinds
         known = set().union(*_KINDS.values())
         for key in sorted(known - _KINDS[kind]):
             if getattr(self, key) is not None:
-                raise PydanticCustomError(
-                    "load_key", "{key} does not belong to {kind}; leave it out", {"key": key, "kind": kind}
-                )
+                raise ValueError(f"{key} does not belong to {kind}; leave it out")
         self._require_place(kind)
         return self
 
     def _require_place(self, kind: str) -> None:
         if kind == "force_N" and self.frame is None and self.radius_m is None:
-            raise PydanticCustomError("load_place", "force_N needs a frame, or radius_m around the sensor")
+            raise ValueError("force_N needs a frame, or radius_m around the sensor")
         if kind == "mass_kg" and self.centre_of_mass_m is None:
-            raise PydanticCustomError("load_place", "mass_kg needs centre_of_mass_m")
+            raise ValueError("mass_kg needs centre_of_mass_m")
         if self.direction is not None and (self.frame is None or not np.any(self.direction)):
-            raise PydanticCustomError("load_direction", "direction needs a frame, and may not be zero")
+            raise ValueError("direction needs a frame, and may not be zero")
 
 
 def _checked_load_cases(tables: tuple[LoadCaseTable, ...], loading: Loading) -> tuple[LoadCaseTable, ...]:

@@ -13,10 +13,8 @@ if TYPE_CHECKING:
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "Campaign": "forcetorque.experiment.campaign",
-        "Experiment": "forcetorque.experiment.experiment",
-        "SensorRun": "forcetorque.experiment.sensor_run",
-        "load_experiment": "forcetorque.experiment.loading",
-    },
+    Campaign="forcetorque.experiment.campaign",
+    Experiment="forcetorque.experiment.experiment",
+    SensorRun="forcetorque.experiment.sensor_run",
+    load_experiment="forcetorque.experiment.loading",
 )

@@ -135,24 +135,25 @@ def _without_glitches(parsed: schema.ExperimentFile, recording: Recording) -> Re
             continue  # whoever reads the variable says so
         place = 0 if column is None else signal.columns.index(column)
         values = signal.values[:, place]
-        glitched = glitched_values(values)
+        glitched, more = glitched_values(values)
+        about = f"{signal.columns[place]} ({signal.units[place]})"
+        if more:
+            message = (
+                f"{about}: {more} of {len(values)} values are nowhere near the others for a moment, too many to tell "
+                "which are wrong: they are used; correct the log, or leave the variable out"
+            )
+            finding = Finding(stream=name, kind="glitch", message=message, count=more, channel=signal.columns[place])
+            recording = replace(recording, findings=(*recording.findings, finding))
         if not glitched.any():
             continue
         rows, kept = np.flatnonzero(glitched), values[np.isfinite(values) & ~glitched]
         message = (
-            f"{signal.columns[place]} ({signal.units[place]}): left out {counted(len(rows), 'value')} of {len(values)} "
+            f"{about}: left out {counted(len(rows), 'value')} of {len(values)} "
             f"that {'is' if len(rows) == 1 else 'are'} nowhere near the others: "
             f"{', '.join(f'{value:.4g}' for value in np.unique(values[rows])[:3])}"
         ) + (f"; the others lie from {kept.min():.4g} to {kept.max():.4g}" if len(kept) else "")
-        finding = Finding(
-            stream=name,
-            kind="glitch",
-            message=message,
-            count=len(rows),
-            start_ns=int(stream.stamp_ns[rows[0]]),
-            end_ns=int(stream.stamp_ns[rows[-1]]),
-            channel=signal.columns[place],
-        )
+        ends, channel = rows[[0, -1]].tolist(), signal.columns[place]
+        finding = Finding.over(name, stream.stamp_ns, "glitch", message, *ends, count=len(rows), channel=channel)
         without = signal.values.copy()
         without[rows, place] = np.nan
         signals = {**stream.signals, quantity: replace(signal, values=without)}

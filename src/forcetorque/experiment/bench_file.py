@@ -8,7 +8,6 @@ from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import BoolArray
 from forcetorque.base.toml_file import Finite, NotNegative, Positive, Table, Text
@@ -49,10 +48,9 @@ class BenchSensorTable(Table):
     def _fewer_components_are_complete(self) -> BenchSensorTable:
         require_component_order(self.components)
         if not self.measured.all() and self.load_full_scale is None:
-            raise PydanticCustomError(
-                "components_rules",
+            raise ValueError(
                 "fewer than six components need load_full_scale, the largest fx, fy, fz, tx, ty, tz to come: loads "
-                "that are not measured disturb those that are in proportion to it",
+                "that are not measured disturb those that are in proportion to it"
             )
         return self
 
@@ -104,7 +102,7 @@ class BlockReadings(_Readings):
     @model_validator(mode="after")
     def _require_placeholder(self) -> BlockReadings:
         if isinstance(self.files, str) and self.files.count("{}") != 1:
-            raise PydanticCustomError("no_number", 'expected one "{}" for the number of the position, or a list')
+            raise ValueError('expected one "{}" for the number of the position, or a list')
         return self
 
 
@@ -136,7 +134,7 @@ class LogReadings(_Readings):
     @model_validator(mode="after")
     def _require_bias_first(self) -> LogReadings:
         if self.block[0].position != BIAS:
-            raise PydanticCustomError("no_bias", 'expected the first block to be "bias", without a load')
+            raise ValueError('expected the first block to be "bias", without a load')
         return self
 
 
@@ -159,9 +157,9 @@ class RowReadings(_Readings):
     @model_validator(mode="after")
     def _require_units(self) -> RowReadings:
         if (self.known is None) != (self.known_units is None):
-            raise PydanticCustomError("half_known", "give known and known_units, or neither")
+            raise ValueError("give known and known_units, or neither")
         if self.known is not None and self.known_units is not None and len(self.known) != len(self.known_units):
-            raise PydanticCustomError("known_units", "known_units: expected one for each column of known")
+            raise ValueError("known_units: expected one for each column of known")
         return self
 
 

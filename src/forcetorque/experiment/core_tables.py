@@ -16,7 +16,6 @@ from pydantic import (
     WithJsonSchema,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import known_names
@@ -38,7 +37,7 @@ Component = Literal["fx", "fy", "fz", "tx", "ty", "tz"]
 
 def _of_six_axes(values: Any) -> Any:
     if isinstance(values, list | tuple) and len(values) != _AXES:
-        raise PydanticCustomError("six_axes", "expected six numbers, of fx, fy, fz in N and of tx, ty, tz in N m")
+        raise ValueError("expected six numbers, of fx, fy, fz in N and of tx, ty, tz in N m")
     return values
 
 
@@ -71,9 +70,7 @@ FullScale = Annotated[SixPositive, BeforeValidator(_one_of_all), _ONE_OR_SIX]
 def _percent_of_six(value: Any) -> Any:
     values = _one_of_all(value)
     if isinstance(values, list | tuple) and len(values) != _AXES:
-        raise PydanticCustomError(
-            "six_percent", "expected one number, or six of fx, fy, fz, tx, ty, tz, percent of the full scale"
-        )
+        raise ValueError("expected one number, or six of fx, fy, fz, tx, ty, tz, percent of the full scale")
     return values
 
 
@@ -135,10 +132,10 @@ def require_component_order(components: Sequence[str] | None) -> None:
         components: Their names; None for all six.
 
     Raises:
-        PydanticCustomError: If so.
+        ValueError: If so.
     """
     if components is not None and list(components) != [name for name in WRENCH_COMPONENTS if name in components]:
-        raise PydanticCustomError("component_order", "components: expected each once, in the order fx to tz")
+        raise ValueError("components: expected each once, in the order fx to tz")
 
 
 class Sensor(Table):
@@ -200,14 +197,11 @@ class Sensor(Table):
     @model_validator(mode="after")
     def _untagged_is_complete(self) -> Sensor:
         if self.joint is None and (self.measure_direction or self.frame):
-            raise PydanticCustomError(
-                "tag_rules", "measure_direction and frame are for a sensor without a URDF tag, which also needs joint"
-            )
+            raise ValueError("measure_direction and frame are for a sensor without a URDF tag, which also needs joint")
         if self.joint is not None and self.measure_direction is None:
-            raise PydanticCustomError(
-                "direction_missing",
+            raise ValueError(
                 "a sensor without a URDF tag needs measure_direction, child_to_parent or parent_to_child; "
-                "it is never guessed",
+                "it is never guessed"
             )
         return self
 
@@ -217,10 +211,9 @@ class Sensor(Table):
         if isinstance(content, dict) and isinstance(content.get("full_scale"), int | float):
             components = content.get("components")
             if isinstance(components, list | tuple) and len(components) < _AXES:
-                raise PydanticCustomError(
-                    "one_full_scale",
+                raise ValueError(
                     "full_scale: expected a number for each of fx, fy, fz, tx, ty, tz with fewer than six components, "
-                    "got one for newtons and newton metres",
+                    "got one for newtons and newton metres"
                 )
         return content
 
@@ -230,29 +223,25 @@ class Sensor(Table):
         if self.components is None:
             return self
         if len(self.components) < _AXES and (self.full_scale is None or self.prior is None):
-            raise PydanticCustomError(
-                "components_rules",
+            raise ValueError(
                 "fewer than six components need prior, and full_scale of all six: loads that are not measured disturb "
-                "those that are in proportion to it",
+                "those that are in proportion to it"
             )
         return self
 
     @model_validator(mode="after")
     def _uncertainty_is_of_a_prior(self) -> Sensor:
         if self.prior_uncertainty_percent is not None and (self.prior is None or self.components is not None):
-            raise PydanticCustomError(
-                "uncertainty_rules",
+            raise ValueError(
                 "prior_uncertainty_percent needs prior, of which it states the uncertainty, and a sensor of all six "
-                "components",
+                "components"
             )
         return self
 
     @model_validator(mode="after")
     def _allowed_gains_need_the_present_ones(self) -> Sensor:
         if self.allowed_gains is not None and self.amplifier_gain is None:
-            raise PydanticCustomError(
-                "gain_missing", "allowed_gains needs amplifier_gain, the gains with which the recording was made"
-            )
+            raise ValueError("allowed_gains needs amplifier_gain, the gains with which the recording was made")
         return self
 
 
@@ -313,18 +302,13 @@ class TransformTable(Table):
     @model_validator(mode="after")
     def _moment_has_a_place(self) -> TransformTable:
         if (self.orientation is None) == (self.pose is None):
-            raise PydanticCustomError(
-                "transform_pose", "expected orientation, a stream, or pose, where it does not change: one of them"
-            )
+            raise ValueError("expected orientation, a stream, or pose, where it does not change: one of them")
         if self.pose is not None and (self.moment_about == "own_frame") != (self.pose.position_m is not None):
-            raise PydanticCustomError(
-                "transform_point",
-                'position_m of pose is needed where moment_about = "own_frame", and moves nothing elsewhere',
+            raise ValueError(
+                'position_m of pose is needed where moment_about = "own_frame", and moves nothing elsewhere'
             )
         if (self.moment_about == "point") != (self.point_m is not None):
-            raise PydanticCustomError(
-                "transform_point", 'point_m is needed where moment_about = "point", and moves nothing elsewhere'
-            )
+            raise ValueError('point_m is needed where moment_about = "point", and moves nothing elsewhere')
         return self
 
 
@@ -348,21 +332,19 @@ class ClockTable(Table):
     @model_validator(mode="after")
     def _estimated_or_stated(self) -> ClockTable:
         if self.to in self.streams:
-            raise PydanticCustomError(
-                "clock_itself",
+            raise ValueError(
                 "expected to, another stream, got the same one; for columns of one table list two [[recording.stream]] "
-                "with the same file",
+                "with the same file"
             )
         estimated = self.delay_s == "estimate"
         if self.drift == "estimate" and not estimated:
-            raise PydanticCustomError("clock_drift", 'drift = "estimate" needs delay_s = "estimate"')
+            raise ValueError('drift = "estimate" needs delay_s = "estimate"')
         if estimated and self.drift not in ("estimate", 0.0):
-            raise PydanticCustomError(
-                "clock_drift",
-                'with delay_s = "estimate" drift is left out, or "estimate": a specified one needs a specified delay',
+            raise ValueError(
+                'with delay_s = "estimate" drift is left out, or "estimate": a specified one needs a specified delay'
             )
         if not estimated and (self.around_s is not None or self.within_s is not None):
-            raise PydanticCustomError("clock_search", 'around_s and within_s are for delay_s = "estimate"')
+            raise ValueError('around_s and within_s are for delay_s = "estimate"')
         return self
 
     @property
@@ -401,7 +383,7 @@ def processing_of(table: ProcessingTable, *, gravity: float) -> Processing:
 
 def _lambda(value: Any) -> Any:
     if isinstance(value, str) and value != "held-out":
-        raise PydanticCustomError("lambda_word", "expected a number of at least 0 counts2 or `held-out`")
+        raise ValueError("expected a number of at least 0 counts2 or `held-out`")
     return None if value == "held-out" else value
 
 
@@ -448,21 +430,16 @@ class CalibrationTable(Table):
     def _by_name_or_by_options(self) -> CalibrationTable:
         plain = (self.offset, self.with_variables, self.from_reference)
         if self.type is not None and any(option is not None for option in plain):
-            raise PydanticCustomError(
-                "type_twice", "type stands for offset, with_variables and from_reference; give the one or the others"
-            )
+            raise ValueError("type stands for offset, with_variables and from_reference; give the one or the others")
         types = (GENERATIVE, *ESTIMATION_TYPES)
         if self.type is not None and self.type not in types:
-            message = f"no estimation type is called {self.type!r}; {known_names(self.type, types)}"
-            raise PydanticCustomError("type_name", "{message}", {"message": message})
+            raise ValueError(f"no estimation type is called {self.type!r}; {known_names(self.type, types)}")
         if self.with_variables is False and self.from_reference:
-            raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
+            raise ValueError("from_reference belongs to with_variables = true")
         if self.type == GENERATIVE and "lambda_counts2" in self.model_fields_set:
-            raise PydanticCustomError("generative_lambda", "the generative model has no lambda; leave it out")
+            raise ValueError("the generative model has no lambda; leave it out")
         if self.nonlinear and not self.generative:
-            raise PydanticCustomError(
-                "linear_type", "nonlinear belongs to the generative model; leave it out, or type, offset and lambda"
-            )
+            raise ValueError("nonlinear belongs to the generative model; leave it out, or type, offset and lambda")
         return self
 
     @property

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError, known_names
 from forcetorque.experiment.calibration.estimation_type import EstimationType, OffsetStrategy
 from forcetorque.experiment.calibration.expected_sensor_errors import REPEATABILITY
@@ -22,9 +22,12 @@ from forcetorque.experiment.sensor_mount import SensorMount, with_mount
 from forcetorque.recording.column import ScalarSource
 from forcetorque.recording.frozen_and_saturated_samples import SampleQuality
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.recording.shared_filters import SharedFilters
+from forcetorque.recording.stream import Stream
 from forcetorque.robot.contacts import Contact
-from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing
+from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
+from forcetorque.robot.motion import JointMotion, RootMotion
 
 Content = TypeVar("Content")
 
@@ -329,6 +332,41 @@ class Experiment:
             ExperimentError: If the recording does not determine a load that is to be estimated.
         """
         return self.mounted(self.model if self.loads is None else self.loads.model_on(support, self))
+
+    def motion_at(
+        self,
+        support: Support | MovingSupport,
+        joints: Sequence[str],
+        source: Stream,
+        at_ns: IntArray,
+        *,
+        filters: SharedFilters | None = None,
+        overlap_checked: bool = False,
+    ) -> tuple[JointMotion, RootMotion]:
+        """Give the motion of joints and support at instants of a stream, as of `LoggedRobot`.
+
+        Args:
+            support: The support.
+            joints: Joints whose motion is wanted.
+            source: Stream that the instants are of.
+            at_ns: Instants; shape (n,); ns.
+            filters: As of `LoggedJoints`.
+            overlap_checked: As of `LoggedRobot`.
+
+        Returns:
+            Motion of the joints, and of those between an IMU and the support; motion of the support frame.
+        """
+        return robot_motion_at(
+            self.recording,
+            self.model,
+            support,
+            joints,
+            source,
+            at_ns,
+            processing=self.processing,
+            filters=filters,
+            overlap_checked=overlap_checked,
+        )
 
     def mounted(self, model: RobotModel) -> RobotModel:
         """Put the sensors of a robot where they are mounted.

@@ -97,7 +97,7 @@ class Section(Generic[TableT, ContentT]):
             file: Content of the file, an `ExperimentFile`.
 
         Raises:
-            PydanticCustomError: If they contradict each other.
+            ValueError: If they contradict each other.
         """
 
     def gives_forces(self, table: TableT) -> bool:

@@ -8,7 +8,7 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.artefact import Calibration
@@ -25,7 +25,7 @@ from forcetorque.experiment.sensor_samples import IntervalSamples, readings_over
 from forcetorque.experiment.validation_offset import EvaluatedInstants, mean_offset
 from forcetorque.recording.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.stream import Stream
-from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, path_to_root
@@ -258,19 +258,15 @@ class SensorRun:
         for motion in motions:
             if set(joints) <= set(motion[0].names):
                 return motion
-        motions.append(
-            robot_motion_at(
-                self.experiment.recording,
-                self.experiment.model,
-                support,
-                joints,
-                self.stream,
-                self.instants(interval).at_ns,
-                processing=self.experiment.processing,
-                filters=None if self.shared is None else self.shared.filters,
-            )
-        )
+        motions.append(self.motion_at(support, joints, self.instants(interval).at_ns))
         return motions[-1]
+
+    def motion_at(
+        self, support: Support | MovingSupport, joints: Sequence[str], at_ns: IntArray
+    ) -> tuple[JointMotion, RootMotion]:
+        """Give the motion of joints and support at instants of the stream of the sensor, as of the experiment."""
+        filters = None if self.shared is None else self.shared.filters
+        return self.experiment.motion_at(support, joints, self.stream, at_ns, filters=filters)
 
     def measured(self, interval: Interval, correction: Correction) -> FloatArray:
         """Give what the sensor measured at the instants of an interval.

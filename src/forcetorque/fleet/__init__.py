@@ -23,11 +23,9 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "Dataset": "forcetorque.fleet.dataset",
-        "fleet_add": "forcetorque.fleet.commands",
-        "fleet_report": "forcetorque.fleet.commands",
-        "fleet_run": "forcetorque.fleet.commands",
-        "fleet_table": "forcetorque.fleet.commands",
-    },
+    Dataset="forcetorque.fleet.dataset",
+    fleet_add="forcetorque.fleet.commands",
+    fleet_report="forcetorque.fleet.commands",
+    fleet_run="forcetorque.fleet.commands",
+    fleet_table="forcetorque.fleet.commands",
 )

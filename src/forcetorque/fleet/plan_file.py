@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text, read_toml
@@ -31,9 +30,7 @@ class RecordingsTable(Table):
     @model_validator(mode="after")
     def _states_one_kind(self) -> Self:
         if (self.experiments is None) == (self.logs is None) or (self.logs is None) != (self.template is None):
-            raise PydanticCustomError(
-                "one_kind", "expected experiments, a pattern of experiment files, or template and logs, one of both"
-            )
+            raise ValueError("expected experiments, a pattern of experiment files, or template and logs, one of both")
         return self
 
 

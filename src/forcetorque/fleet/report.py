@@ -27,7 +27,7 @@ from forcetorque.results.answer import typed
 from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, table_of
+from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, optional_table, table_of
 from forcetorque.results.terminal.input import read_calibrations
 
 DECISIONS: Final[Sequence[Decision]] = sorted(CONCERN, key=CONCERN.__getitem__, reverse=True)
@@ -181,13 +181,10 @@ class FleetReport(DrawnResult):
         Yields:
             Tables.
         """
-        if self.ranked:
-            yield table_of(self.ranked, f"{self.dataset}: evaluated sensors, the worst first")
-        if self.unranked:
-            yield table_of(self.unranked, "sensors that were not evaluated")
+        yield from optional_table(self.ranked, f"{self.dataset}: evaluated sensors, the worst first")
+        yield from optional_table(self.unranked, "sensors that were not evaluated")
         yield table_of(self.coverage, "standard deviation of the expected loads in calibration intervals")
-        if self.failures:
-            yield table_of(self.failures, "recordings that could not be added")
+        yield from optional_table(self.failures, "recordings that could not be added")
 
     def records(self) -> list[dict[str, object]]:
         """Give all sensors as flat records.

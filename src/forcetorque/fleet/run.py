@@ -27,7 +27,7 @@ from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.fleet.source import RecordingSource
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult, created_now
-from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table import Row, Shown, Table, optional_table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -213,10 +213,8 @@ class FleetRun(DrawnResult):
         Yields:
             Tables.
         """
-        if self.sensors:
-            yield table_of(self.sensors, f"{self.dataset}: sensors")
-        if self.failures:
-            yield table_of(self.failures, "failed")
+        yield from optional_table(self.sensors, f"{self.dataset}: sensors")
+        yield from optional_table(self.failures, "failed")
 
     def records(self) -> list[dict[str, object]]:
         """Give sensors and failures as flat records.

@@ -9,7 +9,6 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import field_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import FormatError
@@ -50,7 +49,7 @@ class ArmLogTable(LogTable):
     @classmethod
     def _refuse_no_direction(cls, value: FloatArray | None) -> FloatArray | None:
         if value is not None and not 0.0 < np.linalg.norm(value) < np.inf:
-            raise PydanticCustomError("direction", "expected a direction, finite and not zero")
+            raise ValueError("expected a direction, finite and not zero")
         return value
 
     @property

@@ -9,7 +9,6 @@ from typing import Annotated, Self
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, UnitError, known_names
@@ -42,7 +41,7 @@ class WorldTable(Table):
         try:
             self.applied_to(self._form())
         except FormatError as error:
-            raise PydanticCustomError("orientation_rules", "{message}", {"message": str(error)}) from error
+            raise ValueError(str(error)) from error
         return self
 
     def _form(self) -> OrientationLayout:
@@ -114,11 +113,9 @@ class SpecifiedSignal(Table):
     @model_validator(mode="after")
     def _orientation_is_specified(self) -> SpecifiedSignal:
         if (self.quantity == "orientation") != (self.orientation is not None):
-            raise PydanticCustomError(
-                "orientation_rules", "orientation, with form and sense, is for the quantity orientation, which needs it"
-            )
+            raise ValueError("orientation, with form and sense, is for the quantity orientation, which needs it")
         if self.orientation is not None and self.frame is None:
-            raise PydanticCustomError("orientation_frame", "an orientation needs frame, the frame that it is of")
+            raise ValueError("an orientation needs frame, the frame that it is of")
         return self
 
 
@@ -137,9 +134,8 @@ class SpecifiedRate(Table):
     @model_validator(mode="after")
     def _rate_has_a_start(self) -> SpecifiedRate:
         if (self.rate_hz is None) != (self.start_s is None):
-            raise PydanticCustomError(
-                "rate_rules",
-                "rate_hz needs start_s, the time of the first row on its clock, such as 0.0; and start_s needs rate_hz",
+            raise ValueError(
+                "rate_hz needs start_s, the time of the first row on its clock, such as 0.0; and start_s needs rate_hz"
             )
         return self
 

@@ -22,10 +22,8 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "draft_experiment": "forcetorque.inspection.draft.draft",
-        "inspect_log": "forcetorque.inspection.inspect",
-        "inspected": "forcetorque.inspection.inspect",
-        "resume_experiment": "forcetorque.inspection.draft.questions",
-    },
+    draft_experiment="forcetorque.inspection.draft.draft",
+    inspect_log="forcetorque.inspection.inspect",
+    inspected="forcetorque.inspection.inspect",
+    resume_experiment="forcetorque.inspection.draft.questions",
 )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -18,7 +18,6 @@ from forcetorque.experiment.sensor_samples import IntervalSamples
 from forcetorque.inspection.plausibility.fault_hypotheses import Changes, Robot
 from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
-from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.model import JointType
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -247,7 +246,7 @@ class _Limb:
         support = interval.required_support(ExperimentError)
         tree = build_tree(run.experiment.model_on(support), support.frame)
         question = Question(tree=tree, expected=(run.sensor.name,), equations=())
-        joints, root = _motion(run, interval, required_joints_of(question), at_ns)
+        joints, root = run.motion_at(support, required_joints_of(question), at_ns)
         return cls(run=run, interval=interval, rows=rows, at_ns=at_ns, question=question, joints=joints, root=root)
 
     @property
@@ -310,7 +309,8 @@ class _Limb:
         """The motion of the joints on a grid, from which delayed ones are interpolated."""
         reach = round(_LONGEST_DELAY_S * 1e9)
         grid_ns = np.arange(self.at_ns.min() - reach, self.at_ns.max() + reach, round(_GRID_S * 1e9))
-        return grid_ns, _motion(self.run, self.interval, self.joints.names, grid_ns)[0]
+        support = self.interval.required_support(ExperimentError)
+        return grid_ns, self.run.motion_at(support, self.joints.names, grid_ns)[0]
 
 
 def _limbs(comparison: Comparison) -> tuple[_Limb, ...]:
@@ -333,19 +333,3 @@ def _of_limbs(
     for limb in limbs:
         expected[:, limb.rows] = expected_of(limb)
     return expected
-
-
-def _motion(
-    run: SensorRun, interval: Interval, joints: Collection[str], at_ns: IntArray
-) -> tuple[JointMotion, RootMotion]:
-    experiment = run.experiment
-    return robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        interval.required_support(ExperimentError),
-        tuple(joints),
-        run.stream,
-        at_ns,
-        processing=experiment.processing,
-        filters=None if run.shared is None else run.shared.filters,
-    )

@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.inspection.comparison import Comparison
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
+from forcetorque.recording.alignment import ClockShift
 
 
 def fault_size(one: Explanation) -> tuple[float | None, str | None]:
@@ -174,16 +176,43 @@ def remedy(comparison: Comparison, one: Explanation) -> str:
         )
     if one.kind == "delay":
         late, other = late_and_kept(comparison, one)
-        clock = f'[[clock]] stream = "{late}", to = "{{}}", delay_s = {one.value or 0.0:.3f}'
+        shifts, delay_s = run.experiment.recording.clocks, one.value or 0.0
+        if late != other and any(shift.stream == late for shift in shifts):
+            return f"add {delay_s:.3f} to delay_s of [[clock]] {late!r}"
+        clock, is_first = clock_of_division(late, delay_s, shifts)
         if late != other:
-            return f"write {clock.format(other)}"
-        own = motion_name(late)
+            clock |= {"to": other}
+        keys = f'stream = "{clock["stream"]}", to = "{clock["to"]}", delay_s = {clock["delay_s"]:.3f}'
+        keys += "".join(f", drift = {clock[key]:g}" for key in clock if key == "drift")
+        write = f"write [[clock]] {keys}" + (", in front of the others" if is_first else "")
+        if late != other:
+            return write
         return (
-            f'of a table list the signals of the motion in a [[recording.stream]] of their own, name = "{own}", with '
-            f"the same file and stamp, and write {clock.format(own)}; `forcetorque init --resume` proposes both, and "
-            "writes them where each signal is a [[recording.stream.signal]]"
+            "of a table list the signals of the motion in a [[recording.stream]] of their own, name = "
+            f'"{motion_name(late)}", with the same file and stamp, and {write}; `forcetorque init --resume` proposes '
+            "both, and writes them where each signal is a [[recording.stream.signal]]"
         )
     return f"turn <origin rpy> of the fixed joint of {name!r} in the URDF, or mount the sensor as the URDF has it"
+
+
+def clock_of_division(stream: str, delay_s: float, shifts: Sequence[ClockShift]) -> tuple[dict[str, Any], bool]:
+    """Give the `[[clock]]` that brings wrench and motion of one table together, once they are two streams.
+
+    Args:
+        stream: The stream, which the motion leaves.
+        delay_s: By how much the stamps of the sensor's signals are late; s.
+        shifts: What the clocks that the file has did.
+
+    Returns:
+        Its keys, and whether it stands in front of the others. A stream is brought to a clock once, before others are
+        brought to its: where the stream is brought to one, the motion is brought to the stream.
+    """
+    known = next((one for one in shifts if one.stream == stream), None)
+    if known is None:
+        clock = {"stream": stream, "to": motion_name(stream), "delay_s": round(delay_s, 4)}
+        return clock, any(one.to == stream for one in shifts)
+    clock = {"stream": motion_name(stream), "to": stream, "delay_s": round(known.delay_s - delay_s, 4)}
+    return clock | ({"drift": known.drift} if known.drift else {}), False
 
 
 def motion_name(stream: str) -> str:

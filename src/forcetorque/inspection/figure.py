@@ -64,9 +64,7 @@ def findings_figure(result: Inspection) -> Figure:
             textcoords="offset points", va="center", color=MUTED, annotation_clip=False,
         )  # fmt: skip
     panel.set_yticks(range(len(names)), names)
-    panel.set_ylim(len(names) - 0.4, -0.6)
-    panel.set_xlim(0.0, duration)
-    panel.set_xlabel("time, s")
+    panel.set(ylim=(len(names) - 0.4, -0.6), xlim=(0.0, duration), xlabel="time, s")
     panel.grid(axis="x", color=GRID, linewidth=0.6)
     headline(figure, _message(result, len(rows) - len(shown)))
     return figure

@@ -438,15 +438,9 @@ def _without_pressure(experiment: PatchExperiment, patch: ExperimentPatch) -> It
     lost: BoolArray = np.any(read, axis=1) & ~np.any(np.nan_to_num(counts), axis=1)
     read &= ~lost[:, None]
     if lost.any():
-        ends = np.flatnonzero(lost)[[0, -1]]
-        yield Finding(
-            stream=patch.counts,
-            kind="missing",
-            message=f"{patch.name}: {np.count_nonzero(lost)} of {len(lost)} messages of zeros, without power or lost",
-            count=int(np.count_nonzero(lost)),
-            start_ns=int(stream.stamp_ns[ends[0]]),
-            end_ns=int(stream.stamp_ns[ends[1]]),
-        )
+        count, ends = int(np.count_nonzero(lost)), np.flatnonzero(lost)[[0, -1]].tolist()
+        text = f"{patch.name}: {count} of {len(lost)} messages of zeros, without power or lost"
+        yield Finding.over(patch.counts, stream.stamp_ns, "missing", text, *ends, count=count)
     faults: list[tuple[TaxelFault, ...]] = []
     for rows, column in zip(read.T, counts.T, strict=True):
         faults += taxel_faults(column[rows, None], np.full(1, np.inf)) if np.count_nonzero(rows) > 1 else [()]

@@ -70,16 +70,9 @@ class _Residual:
         return max(1, round(seconds * self.rate_hz))
 
     def finding(self, kind: str, message: str, first: int, last: int, axis: int | None, size: float) -> Finding:
-        return Finding(
-            stream=self.stream,
-            kind=kind,
-            message=message,
-            count=last - first + 1,
-            start_ns=int(self.stamp_ns[first]),
-            end_ns=int(self.stamp_ns[last]),
-            channel=None if axis is None else WRENCH_COMPONENTS[axis],
-            size=size,
-            unit="N" if axis is None else WRENCH_UNITS[axis],
+        channel, unit = (None, "N") if axis is None else (WRENCH_COMPONENTS[axis], WRENCH_UNITS[axis])
+        return Finding.over(
+            self.stream, self.stamp_ns, kind, message, first, last, channel=channel, size=size, unit=unit
         )
 
 

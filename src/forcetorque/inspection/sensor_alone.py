@@ -238,16 +238,9 @@ def _other_findings(stream: Stream) -> list[Finding]:
 
 def _losses(stream: Stream, stamps: IntArray, pauses: Sequence[tuple[int, int]]) -> Iterator[Finding]:
     for k, lost in pauses:
-        yield Finding(
-            stream=stream.name,
-            kind="lost_samples",
-            message=f"{lost} sample(s) are missing: a pause that no later samples make up for",
-            count=lost,
-            start_ns=int(stamps[k]),
-            end_ns=int(stamps[k + 1]),
-            size=float(lost),
-            unit="samples",
-        )
+        text = f"{lost} sample(s) are missing: a pause that no later samples make up for"
+        size = float(lost)
+        yield Finding.over(stream.name, stamps, "lost_samples", text, k, k + 1, count=lost, size=size, unit="samples")
 
 
 def _tare_finding(stream: Stream, signal: Signal, instant: int, jump: FloatArray) -> Finding:
@@ -269,16 +262,10 @@ def _clipping(
 ) -> Iterator[Finding]:
     for k, name in enumerate(signal.columns):
         for first, last in true_runs(clipped[:, k]):
-            yield Finding(
-                stream=stream.name,
-                kind="clipped",
-                message=f"{name} jumps to {values[first, k]:.6g} {signal.units[k]}, an end of its range, and stays",
-                count=last - first + 1,
-                channel=name,
-                start_ns=int(stamps[first]),
-                end_ns=int(stamps[last]),
-                size=float(abs(values[first, k])),
-                unit=signal.units[k],
+            value, unit = float(values[first, k]), signal.units[k]
+            text = f"{name} jumps to {value:.6g} {unit}, an end of its range, and stays"
+            yield Finding.over(
+                stream.name, stamps, "clipped", text, first, last, channel=name, size=abs(value), unit=unit
             )
 
 

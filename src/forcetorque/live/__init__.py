@@ -25,14 +25,12 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "Corrected": "forcetorque.live.corrector",
-        "Corrector": "forcetorque.live.corrector",
-        "CorrectorOptions": "forcetorque.live.corrector",
-        "FaultPolicy": "forcetorque.live.choices",
-        "OffsetSource": "forcetorque.live.choices",
-        "Status": "forcetorque.live.sample_status",
-        "Tool": "forcetorque.live.tool",
-        "Tracking": "forcetorque.live.bias_tracking",
-    },
+    Corrected="forcetorque.live.corrector",
+    Corrector="forcetorque.live.corrector",
+    CorrectorOptions="forcetorque.live.corrector",
+    FaultPolicy="forcetorque.live.choices",
+    OffsetSource="forcetorque.live.choices",
+    Status="forcetorque.live.sample_status",
+    Tool="forcetorque.live.tool",
+    Tracking="forcetorque.live.bias_tracking",
 )

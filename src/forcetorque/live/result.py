@@ -13,7 +13,16 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
+from forcetorque.results.table import (
+    FloatOrNull,
+    Row,
+    Shown,
+    ShownWrench,
+    Table,
+    WrenchValues,
+    optional_table,
+    table_of,
+)
 
 
 class LiveSensor(Row):
@@ -250,8 +259,7 @@ class LiveRun(DrawnResult):
         """
         yield table_of(self.sensors, "samples of sensors, and the last wrench")
         yield table_of((self.packets,), "packets")
-        if self.checks:
-            yield table_of(self.checks, "largest differences to programs, with half of our 95 % interval there")
+        yield from optional_table(self.checks, "largest differences to programs, with half of our 95 % interval there")
         slowest = "" if self.slowest_s != self.slowest_s else f", slowest sample {1e3 * self.slowest_s:.1f} ms"
         yield f"ended by {self.ended_by} after {self.duration_s:.1f} s, stamps of the {self.stamps}{slowest}"
 

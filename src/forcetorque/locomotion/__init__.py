@@ -41,15 +41,13 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "balance": "forcetorque.locomotion.commands",
-        "coherence": "forcetorque.locomotion.commands",
-        "load_foot_forces": "forcetorque.locomotion.standing.foot_wrenches",
-        "motion": "forcetorque.locomotion.motion_quality",
-        "motion_signals": "forcetorque.locomotion.logged_signals",
-        "motion_signals_of_arrays": "forcetorque.locomotion.logged_signals",
-        "oscillation_causes": "forcetorque.locomotion.commands",
-        "read_torque_loop": "forcetorque.locomotion.torque_control.file",
-        "torque_loop": "forcetorque.locomotion.commands",
-    },
+    balance="forcetorque.locomotion.commands",
+    coherence="forcetorque.locomotion.commands",
+    load_foot_forces="forcetorque.locomotion.standing.foot_wrenches",
+    motion="forcetorque.locomotion.motion_quality",
+    motion_signals="forcetorque.locomotion.logged_signals",
+    motion_signals_of_arrays="forcetorque.locomotion.logged_signals",
+    oscillation_causes="forcetorque.locomotion.commands",
+    read_torque_loop="forcetorque.locomotion.torque_control.file",
+    torque_loop="forcetorque.locomotion.commands",
 )

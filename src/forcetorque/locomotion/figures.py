@@ -113,8 +113,7 @@ def _draw_loads(panel: Axes, interval: IntervalBalance) -> None:
         )
     if interval.weight_N is not None:
         panel.axhline(interval.weight_N, **_WEIGHT)
-    panel.set_xlabel("time, s")
-    panel.set_ylabel("load, N")
+    panel.set(xlabel="time, s", ylabel="load, N")
 
 
 def _draw_points(panel: Axes, points: FloatArray, k: int) -> None:
@@ -124,9 +123,7 @@ def _draw_points(panel: Axes, points: FloatArray, k: int) -> None:
 
 
 def _plane(panel: Axes, title: str) -> None:
-    panel.set_title(shown_name(title))
-    panel.set_xlabel("x, mm")
-    panel.set_ylabel("y, mm")
+    panel.set(title=shown_name(title), xlabel="x, mm", ylabel="y, mm")
     panel.set_aspect("equal", adjustable="datalim")
 
 
@@ -273,8 +270,7 @@ def _draw_motion(panel: Axes, curve: MotionCurve, motion: Motion) -> None:
     swings = [row for row in motion.oscillations if row.oscillates and curve.title == f"{row.interval}: {row.column}"]
     words = ", ".join(f"{row.frequency_hz:.3g} Hz" for row in swings) or "no oscillation"
     panel.set_title(shown_name(f"{curve.title}: {words}"), loc="left")
-    panel.set_ylabel(shown_name(curve.unit))
-    panel.set_xlabel("time, s")
+    panel.set(ylabel=shown_name(curve.unit), xlabel="time, s")
     panel.set_xlim(*np.array([curve.time_s[0], curve.time_s[-1]]))
 
 
@@ -303,8 +299,7 @@ def torque_loop_figure(loop: TorqueLoopStudy) -> Figure:
         _from_error_on([(row.force_error_N, row.falls) for row in loop.rows], "Falls"),
     )
     for panel, name, message in zip(panels, names, messages, strict=True):
-        panel.set_xlabel("force error of the sensors under the weight, N")
-        panel.set_ylabel(name)
+        panel.set(xlabel="force error of the sensors under the weight, N", ylabel=name)
         panel.set_title(message, loc="left", fontweight="bold")
     for panel in panels[1:]:
         panel.set_ylim(-3.0, 103.0)

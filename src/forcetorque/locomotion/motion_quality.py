@@ -24,7 +24,7 @@ from forcetorque.locomotion.oscillation.settling import (
 )
 from forcetorque.locomotion.oscillation.spectrum import ResampledSignal, resampled
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, table_of
+from forcetorque.results.table import FloatOrNull, Row, Shown, Table, Values, optional_table, table_of
 
 
 class OscillationRow(Row):
@@ -125,12 +125,10 @@ class Motion(DrawnResult):
                     f"Hz; a steady one of {row.seen_amplitude:.3g} {row.unit} or more would be seen, at "
                     f"{middle_hz:.2g} Hz one of {row.seen_amplitude_middle:.2g} {row.unit}"
                 )
-        if self.settling:
-            yield table_of(
-                self.settling, f"after steps: when it stays within {self.band_percent:g} % of the step; 95 % intervals"
-            )
-        if self.tracking:
-            yield table_of(self.tracking, "tracking errors; 95 % intervals that count how long errors go on")
+        yield from optional_table(
+            self.settling, f"after steps: when it stays within {self.band_percent:g} % of the step; 95 % intervals"
+        )
+        yield from optional_table(self.tracking, "tracking errors; 95 % intervals that count how long errors go on")
 
     def records(self) -> list[dict[str, object]]:
         """Give oscillations, settling times and tracking errors as flat lines.

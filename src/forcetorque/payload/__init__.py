@@ -23,10 +23,8 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "export_load": "forcetorque.payload.export.export",
-        "robot_load": "forcetorque.payload.export.export",
-        "tare": "forcetorque.payload.tare_offset",
-        "weigh_load": "forcetorque.payload.identify",
-    },
+    export_load="forcetorque.payload.export.export",
+    robot_load="forcetorque.payload.export.export",
+    tare="forcetorque.payload.tare_offset",
+    weigh_load="forcetorque.payload.identify",
 )

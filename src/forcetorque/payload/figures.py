@@ -130,8 +130,7 @@ def tare_figure(sensors: Sequence[TaredSensor]) -> Figure:
             errors.plot(time, drawn[:, 0], color=key["color"], linestyle=key["linestyle"], linewidth=1.2)
         errors.set_ylim(bottom=0.0)
         errors.set_title(shown_name(row.sensor), loc="left")
-        errors.set_ylabel("error of the force, N")
-        errors.set_xlabel(f"time in {shown_name(row.interval)}, s")
+        errors.set(ylabel="error of the force, N", xlabel=f"time in {shown_name(row.interval)}, s")
     headline(figure, "; ".join(_tared(row) for row in sensors))
     keys = [("offset and error after the tare; line: 95 % interval", _ALL.key | {"linestyle": "-"})]
     before = "before" if any(row.offset_before is not None for row in sensors) else "error before"

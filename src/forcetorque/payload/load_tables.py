@@ -17,7 +17,7 @@ from pydantic import (
     WithJsonSchema,
     model_validator,
 )
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, core_schema
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import known_names
@@ -34,7 +34,7 @@ def _streams(value: Any) -> Any:
     if value == NO_MOTION:
         return ()
     if value == []:
-        raise PydanticCustomError("no_streams", 'expected a stream or more, or "none" for a sensor by itself')
+        raise ValueError('expected a stream or more, or "none" for a sensor by itself')
     return value
 
 
@@ -84,20 +84,16 @@ class Load(Table):
     @model_validator(mode="after")
     def _motion_or_wrench(self) -> Load:
         if (self.motion is None) == (self.applied is None):
-            raise PydanticCustomError(
-                "load_motion",
+            raise ValueError(
                 "expected motion, the streams that tell how the load moves, or applied, a known wrench; "
-                'motion = "none" is for a sensor by itself',
+                'motion = "none" is for a sensor by itself'
             )
         if self.motion != () and "measure_direction" not in self.model_fields_set:
-            raise PydanticCustomError(
-                "direction_missing",
-                "expected measure_direction, child_to_parent or parent_to_child; it is never guessed",
-            )
+            raise ValueError("expected measure_direction, child_to_parent or parent_to_child; it is never guessed")
         if self.applied is not None and (self.mass_kg is not None or self.centre_of_mass_m is not None):
-            raise PydanticCustomError("load_twice", "applied says what the sensor must read: leave the mass out")
+            raise ValueError("applied says what the sensor must read: leave the mass out")
         if self.weighed is not None and (self.applied is not None or self.motion == ()):
-            raise PydanticCustomError("load_twice", "from names a load that moves: expected motion with its streams")
+            raise ValueError("from names a load that moves: expected motion with its streams")
         _require_stated_once(self)
         return self
 
@@ -148,16 +144,15 @@ def require_one_sensor(loads: Sequence[Load]) -> None:
     """Refuse no load, one on a link, loads of one name, or that say different things of the sensor.
 
     Raises:
-        PydanticCustomError: If it is so.
+        ValueError: If it is so.
     """
     if not loads:
-        raise PydanticCustomError("load_none", "expected [load], or [[load]] for each of several, got none")
+        raise ValueError("expected [load], or [[load]] for each of several, got none")
     if len({load.name for load in loads}) < len(loads):
-        raise PydanticCustomError("load_names", "expected [[load]] with names that differ")
+        raise ValueError("expected [[load]] with names that differ")
     for key in _OF_SENSOR:
         if any(getattr(load, key) != getattr(loads[0], key) for load in loads):
-            message = f"{key} is of the sensor: state it in the first [[load]] only"
-            raise PydanticCustomError("load_shared", "{message}", {"message": message})
+            raise ValueError(f"{key} is of the sensor: state it in the first [[load]] only")
 
 
 class _Named(Protocol):
@@ -180,7 +175,7 @@ def require_loads_of(loads: Sequence[_Named], intervals: Sequence[_Interval]) ->
         intervals: Intervals that are used.
 
     Raises:
-        PydanticCustomError: If there are several loads and an interval names none, or one that is not there.
+        ValueError: If there are several loads and an interval names none, or one that is not there.
     """
     names = [load.name for load in loads]
     for interval in intervals:
@@ -190,8 +185,7 @@ def require_loads_of(loads: Sequence[_Named], intervals: Sequence[_Interval]) ->
         elif interval.load is not None and interval.load not in names:
             message = f"no [[load]] {interval.load!r}; {known_names(interval.load, names)}"
         if message:
-            words = f"interval {interval.label!r}: {message}"
-            raise PydanticCustomError("load_of_interval", "{message}", {"message": words})
+            raise ValueError(f"interval {interval.label!r}: {message}")
 
 
 _OF_A_SENSOR = {"frame", "motion", "applied", "measure_direction"}
@@ -225,9 +219,7 @@ class LinkLoad(Table):
 def _require_stated_once(load: Load | LinkLoad) -> None:
     stated = (load.mass_kg, load.centre_of_mass_m, load.inertia_kgm2)
     if load.weighed is not None and any(value is not None for value in stated):
-        raise PydanticCustomError(
-            "load_twice", "from says what the load is: leave mass_kg, centre_of_mass_m and inertia_kgm2 out"
-        )
+        raise ValueError("from says what the load is: leave mass_kg, centre_of_mass_m and inertia_kgm2 out")
 
 
 def _kind_of_load(value: Any) -> str:
@@ -247,16 +239,15 @@ def require_link_loads(loads: Sequence[Load | LinkLoad]) -> None:
     """Refuse loads beside a robot that are not fastened to a link, or share a name.
 
     Raises:
-        PydanticCustomError: If it is so.
+        ValueError: If it is so.
     """
     if any(isinstance(load, Load) for load in loads):
-        raise PydanticCustomError(
-            "load_link",
+        raise ValueError(
             "beside [robot] a [[load]] needs link, the link of the URDF that it is fastened to; frame, motion and "
-            "measure_direction are for a wrist sensor without [robot]",
+            "measure_direction are for a wrist sensor without [robot]"
         )
     if len({load.name for load in loads}) < len(loads):
-        raise PydanticCustomError("load_names", "expected [[load]] with names that differ")
+        raise ValueError("expected [[load]] with names that differ")
 
 
 Loads = tuple[Load | LinkLoad, ...]

@@ -28,7 +28,7 @@ from forcetorque.payload.identification.load_estimates import (
 from forcetorque.payload.identification.parameter_vector import SECOND_MOMENTS, SIX_PLACES, six_of
 from forcetorque.results.number_text import finite_or_none, plus_minus, with_error
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
+from forcetorque.results.table import Row, Shown, Table, WrenchValues, optional_table, table_of
 
 _ROUNDING = 1e-12
 """Share of the inertia that a mass in the centre of mass has about the sensor, below which an inertia is rounding."""
@@ -431,8 +431,7 @@ class WeighedLoad(DrawnResult):
             if (inertia := inertia_words(load)) is not None:
                 yield inertia
         yield table_of(self.sessions, "bias: reading without load")
-        if self.variables:
-            yield table_of(self.variables, "what variables add to the reading, per unit")
+        yield from optional_table(self.variables, "what variables add to the reading, per unit")
         if self.mount_rad is not None:
             yield mount_words(self.mount_rad, self.mount_half_width_rad)
         if self.tilt_rad is not None:
@@ -441,13 +440,13 @@ class WeighedLoad(DrawnResult):
         yield from (text for session in self.sessions if (text := _drift_text(session)) is not None)
         yield from (bias_words(test, self.loads) for test in self.bias_tests)
         yield from self.undetermined
-        if self.disagreeing:
-            yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
+        yield from optional_table(self.disagreeing, "rows that disagree with all others, and count less")
         if self.recordings:
             yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
             yield from self.disagreements or ("the recordings agree within their intervals",)
-        if self.validation:
-            yield table_of(self.validation, "what the loads leave of intervals that were not fitted, about its middle")
+        yield from optional_table(
+            self.validation, "what the loads leave of intervals that were not fitted, about its middle"
+        )
         rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
         yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
 

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic_core import PydanticCustomError
-
 from forcetorque.experiment.file import ExperimentFile
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.section import Loading, Section, StandIn
@@ -74,30 +72,25 @@ class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
 
 def _require_robot_or_load(loads: Loads | None, file: ExperimentFile) -> None:
     if file.robot is None and loads is None:
-        raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
+        raise ValueError("expected [robot] with a URDF, or [load] for a wrist sensor")
     if loads is not None and file.robot is not None:
         require_link_loads(loads)
     if file.robot is None and link_tables(loads):
-        raise PydanticCustomError(
-            "load_link", "[[load]] with link hangs on a link of a robot: expected [robot] with its URDF, got none"
-        )
+        raise ValueError("[[load]] with link hangs on a link of a robot: expected [robot] with its URDF, got none")
     if file.robot is not None and not file.support and not any(one.contact_links for one in file.interval):
-        raise PydanticCustomError(
-            "no_support", "expected [[support]]: the frame that the robot stands on, or contact_links in [[interval]]"
-        )
+        raise ValueError("expected [[support]]: the frame that the robot stands on, or contact_links in [[interval]]")
     alone = loads is not None and file.robot is None
     if alone and (file.support or len(file.sensor) > 1):
-        raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
+        raise ValueError("with [load] there is one [[sensor]] and no [[support]]")
     if alone and any(one.contact_links for one in file.interval):
-        raise PydanticCustomError("load_touched", "with [load] nothing else touches: leave out contact_links")
+        raise ValueError("with [load] nothing else touches: leave out contact_links")
     if loads is not None and any(one.contact_links and one.use is not Use.IGNORE for one in file.interval):
-        raise PydanticCustomError(
-            "load_touched",
+        raise ValueError(
             "with [[load]] on a link every interval names its support: leave out contact_links, or state the load "
-            "in the URDF",
+            "in the URDF"
         )
     if loads is None and any(one.load for one in file.interval):
-        raise PydanticCustomError("load_of_none", "load of [[interval]] names a [[load]], of which there is none")
+        raise ValueError("load of [[interval]] names a [[load]], of which there is none")
 
 
 def _read(table: Loads | None, loading: Loading) -> WristLoads | LinkLoads | None:

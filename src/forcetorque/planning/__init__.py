@@ -24,9 +24,7 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "plan": "forcetorque.planning.planning",
-        "plan_jointly": "forcetorque.planning.joint_calibration_plan",
-        "write_plan": "forcetorque.planning.trajectory_files",
-    },
+    plan="forcetorque.planning.planning",
+    plan_jointly="forcetorque.planning.joint_calibration_plan",
+    write_plan="forcetorque.planning.trajectory_files",
 )

@@ -54,8 +54,7 @@ def plan_figure(plan: Plan) -> Figure:
         panel.vlines(range(len(typical[k])), typical[k], at_most[k], color=style.colour, linewidth=1.4)
         if np.isfinite(limits[k]):
             panel.axhline(limits[k], **LIMIT_LINE)
-        panel.set_ylabel(unit)
-        panel.set_ylim(bottom=0.0)
+        panel.set(ylabel=unit, ylim=(0.0, None))
         places = [f"{row.recording}: {shown_name(row.support)},\n{shown_name(row.tool)}" for row in rows]
         panel.set_xticks(range(len(rows) + 1), ["now", *places])
     before, after = amount(first.force_before_N, "N"), amount(last.force_after_N, "N")
@@ -101,8 +100,7 @@ def joint_plan_figure(plan: JointPlan) -> Figure:
         keys.append((shown_name(f"{sensor}: {case}"), style.key))
     for panel, quantity in ((forces, "force"), (moments, "moment")):
         panel.axhline(1.0, **LIMIT_LINE)
-        panel.set_ylabel(f"predicted {quantity} error over what is allowed")
-        panel.set_ylim(bottom=0.0)
+        panel.set(ylabel=f"predicted {quantity} error over what is allowed", ylim=(0.0, None))
         panel.set_xticks(range(count + 1), ["prior", *map(str, range(1, count + 1))])
         panel.set_xlabel("recordings fitted")
     headline(

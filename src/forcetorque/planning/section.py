@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ExperimentError, known_names, require_known
@@ -62,15 +61,11 @@ class PlanTable(Table):
     def _does_not_contradict_itself(self) -> PlanTable:
         for joint, (low, high) in self.ranges.items():
             if low > high:
-                raise PydanticCustomError(
-                    "plan_range",
-                    "ranges: joint {joint}: expected [lowest, highest], got {low} to {high}",
-                    {"joint": joint, "low": f"{low:g}", "high": f"{high:g}"},
-                )
+                raise ValueError(f"ranges: joint {joint}: expected [lowest, highest], got {low:g} to {high:g}")
         names = ["none", *(tool.name for tool in self.tool)]
         for name in names:
             if names.count(name) > 1:
-                raise PydanticCustomError("plan_tool", "two tools are called {name}; name them apart", {"name": name})
+                raise ValueError(f"two tools are called {name}; name them apart")
         return self
 
 

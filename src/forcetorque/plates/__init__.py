@@ -17,8 +17,6 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "fit_plate": "forcetorque.plates.commands",
-        "plate": "forcetorque.plates.commands",
-    },
+    fit_plate="forcetorque.plates.commands",
+    plate="forcetorque.plates.commands",
 )

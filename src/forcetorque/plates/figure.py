@@ -95,9 +95,11 @@ def _draw_standing(panel: Axes, row: PlateRow) -> None:
     if row.half_edges_mm is not None:
         _draw_edges(panel, row.half_edges_mm)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.set_title(f"plate {row.plate}: ({centre[0]:.0f}, {centre[1]:.0f}) mm, sway {row.sway_mm or 0.0:.1f} mm")
-    panel.set_xlabel("x of the plate, mm")
-    panel.set_ylabel("y of the plate, mm")
+    panel.set(
+        title=f"plate {row.plate}: ({centre[0]:.0f}, {centre[1]:.0f}) mm, sway {row.sway_mm or 0.0:.1f} mm",
+        xlabel="x of the plate, mm",
+        ylabel="y of the plate, mm",
+    )
 
 
 def _draw_edges(panel: Axes, half_edges_mm: FloatArray) -> None:
@@ -129,9 +131,11 @@ def centre_error_figure(picture: PlatePicture) -> Figure:
         panel.plot(*picture.place_mm.T, **_LOAD)
         _draw_edges(panel, extent)
         panel.set_aspect("equal", adjustable="datalim")
-        panel.set_title(f"{name}: up to {two_digits(largest)} mm, drawn {two_digits(scale)} times as long")
-        panel.set_xlabel("x of the plate, mm")
-        panel.set_ylabel("y of the plate, mm")
+        panel.set(
+            title=f"{name}: up to {two_digits(largest)} mm, drawn {two_digits(scale)} times as long",
+            xlabel="x of the plate, mm",
+            ylabel="y of the plate, mm",
+        )
     before, after = (
         two_digits(float(np.linalg.norm(errors, axis=1).max())) for errors in (picture.before_mm, picture.after_mm)
     )

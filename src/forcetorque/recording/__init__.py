@@ -12,11 +12,9 @@ if TYPE_CHECKING:
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "Interval": "forcetorque.recording.recording",
-        "Recording": "forcetorque.recording.recording",
-        "Stream": "forcetorque.recording.stream",
-        "read_recording": "forcetorque.recording.storage",
-        "write_recording": "forcetorque.recording.storage",
-    },
+    Interval="forcetorque.recording.recording",
+    Recording="forcetorque.recording.recording",
+    Stream="forcetorque.recording.stream",
+    read_recording="forcetorque.recording.storage",
+    write_recording="forcetorque.recording.storage",
 )

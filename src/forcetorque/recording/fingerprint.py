@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """By what samples are known again: hashes of windows of them, for any stamps and any cut of the log.
 
-Every window of `WINDOW` samples has a hash of its values, rounded to so many digits as every way of writing a log
-keeps. Of these the smallest are kept: they are distributed over all of the samples, and the same of every log that
-holds them. Of samples whose share p another log holds, none of `KEPT` is found again with the probability (1 - p)^KEPT.
+Every window of `WINDOW` samples, repeats left out, has a hash of its values, rounded to so many digits as every way of
+writing a log keeps. Of these the smallest are kept: they are distributed over all of the samples, and the same of every
+log that holds them. Of samples whose share p another log holds, none of `KEPT` is found again with the probability
+(1 - p)^KEPT.
 """
 
 from __future__ import annotations
@@ -39,16 +40,34 @@ def window_hashes(values: FloatArray) -> Hashes:
         values: Samples; shape (n, k).
 
     Returns:
-        Hashes, each once, the smallest first; none of windows with a missing value, or with few different samples.
+        Hashes, each once, the smallest first; none of windows with a missing value, or with few different samples, and
+        of samples that repeat not of all in which two blocks of rows meet.
     """
     hashes = [np.empty(0, dtype=np.uint64)]
     for start in range(0, max(len(values) - WINDOW + 1, 0), BLOCK_ROWS):
-        hashes.append(_hashes(values[start : start + BLOCK_ROWS + WINDOW - 1]))
+        hashes.append(_hashes(_each_reading_once(values[start : start + BLOCK_ROWS + WINDOW - 1])))
         forget_pages([values])
     return np.unique(np.concatenate(hashes))
 
 
+def _each_reading_once(values: FloatArray) -> FloatArray:
+    """Samples without repeats of a sensor that is slower than its log; most channels change before and after them."""
+    # a load that moves slowly changes few channels at a time: other logs cross the same steps of the converter
+    changed = np.diff(values, axis=0) != 0.0
+    same = ~changed.any(axis=1)
+    if not same.any():
+        return values
+    by_reading = np.concatenate([[True], np.count_nonzero(changed, axis=1) >= 0.5 * values.shape[1], [True]])
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8))).reshape(-1, 2)
+    once = np.ones(len(values), dtype=bool)
+    for first, last in edges[by_reading[edges[:, 0]] & by_reading[edges[:, 1] + 1]].tolist():
+        once[first + 1 : last + 1] = False
+    return values[once]
+
+
 def _hashes(values: FloatArray) -> Hashes:
+    if len(values) < WINDOW:
+        return np.empty(0, dtype=np.uint64)
     rounded = _rounded(values)
     row = np.zeros(len(values), dtype=np.uint64)
     with np.errstate(over="ignore"):

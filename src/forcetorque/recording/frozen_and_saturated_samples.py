@@ -272,6 +272,8 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
     samples = values[usable][first]
     changes = np.diff(samples, axis=0)
     changes = changes[np.isfinite(changes).all(axis=1)]
+    if not len(changes):
+        return marks
     step, ranges = smallest_steps(values), ranges_of(values)
     of_grid = _are_of_converter(changes, step, ranges)
     changed = changes != 0.0

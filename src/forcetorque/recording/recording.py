@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from operator import index
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 
@@ -176,6 +176,51 @@ class Finding:
     """Sensor whose reading was compared; None for what is of the stream itself."""
     left_out_ns: tuple[int, ...] = field(default=(), repr=False)
     """Stamps of samples that are left out for it and were whole before; not stored."""
+
+    @classmethod
+    def over(
+        cls,
+        stream: str,
+        stamp_ns: IntArray,
+        kind: str,
+        message: str,
+        first: int = 0,
+        last: int | None = None,
+        *,
+        count: int | None = None,
+        channel: str | None = None,
+        size: float | None = None,
+        unit: str | None = None,
+    ) -> Self:
+        """Give a finding on samples of a stream: by default on all.
+
+        Args:
+            stream: Name of the stream.
+            stamp_ns: Its stamps; shape (n,); ns.
+            kind: As of the fields.
+            message: As of the fields.
+            first: Index of the first sample.
+            last: Index of the last sample; None for that of the stream.
+            count: How many it concerns; None for all between these.
+            channel: As of the fields.
+            size: As of the fields.
+            unit: As of the fields.
+
+        Returns:
+            The finding.
+        """
+        last = len(stamp_ns) - 1 if last is None else last
+        return cls(
+            stream=stream,
+            kind=kind,
+            message=message,
+            count=last - first + 1 if count is None else count,
+            start_ns=int(stamp_ns[first]),
+            end_ns=int(stamp_ns[last]),
+            channel=channel,
+            size=size,
+            unit=unit,
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -52,81 +52,66 @@ class Quantity:
 
 _XYZ = ("x", "y", "z")
 
+
+def _wrench(name: str, description: str) -> Quantity:
+    return Quantity(name=name, columns=WRENCH_COMPONENTS, units=WRENCH_UNITS, has_frame=True, description=description)
+
+
+def _vector(name: str, unit: str, description: str) -> Quantity:
+    return Quantity(name=name, columns=_XYZ, units=(unit,) * 3, has_frame=True, description=description)
+
+
+def _number(name: str, unit: str, description: str) -> Quantity:
+    return Quantity(name=name, columns=(name,), units=(unit,), description=description)
+
+
+def _several(
+    name: str, labels: Labels, units: tuple[str, ...], description: str, *, has_frame: bool = False
+) -> Quantity:
+    return Quantity(name=name, labels=labels, units=units, has_frame=has_frame, description=description)
+
+
 QUANTITIES = {
     quantity.name: quantity
     for quantity in (
-        Quantity(
-            name="wrench",
-            columns=WRENCH_COMPONENTS,
-            units=WRENCH_UNITS,
-            has_frame=True,
-            description="Measurement of a force-torque sensor, already converted to force, then moment.",
+        _wrench("wrench", "Measurement of a force-torque sensor, already converted to force, then moment."),
+        _wrench(
+            "applied_wrench",
+            "Known wrench, as of a dead weight: what an exact sensor without bias reads, in its direction.",
         ),
-        Quantity(
-            name="applied_wrench",
-            columns=WRENCH_COMPONENTS,
-            units=WRENCH_UNITS,
-            has_frame=True,
-            description="Known wrench, as of a dead weight: what an exact sensor without bias reads, in its direction.",
+        _number(
+            "vertical_force",
+            "N",
+            "Force of the ground on a foot along the normal of its sole, positive where it presses.",
         ),
-        Quantity(
-            name="vertical_force",
-            columns=("vertical_force",),
-            units=("N",),
-            description="Force of the ground on a foot along the normal of its sole, positive where it presses.",
+        _several(
+            "raw", Labels.CHANNELS, ("counts",), "Raw samples of a force-torque sensor as its electronics deliver it."
         ),
-        Quantity(
-            name="raw",
-            labels=Labels.CHANNELS,
-            units=("counts",),
-            description="Raw samples of a force-torque sensor as its electronics deliver it.",
+        _several(
+            "position", Labels.JOINTS, ("rad", "m"), "Joint positions: rad for rotary joints, m for prismatic ones."
         ),
-        Quantity(
-            name="position",
-            labels=Labels.JOINTS,
-            units=("rad", "m"),
-            description="Joint positions: rad for rotary joints, m for prismatic ones.",
+        _several("velocity", Labels.JOINTS, ("rad/s", "m/s"), "Joint velocities as logged."),
+        _several("acceleration", Labels.JOINTS, ("rad/s2", "m/s2"), "Joint accelerations as logged."),
+        _several(
+            "torque",
+            Labels.JOINTS,
+            ("N m", "N"),
+            "Joint torques along +q as the robot has them: N m for rotary joints, N for prismatic ones.",
         ),
-        Quantity(
-            name="velocity", labels=Labels.JOINTS, units=("rad/s", "m/s"), description="Joint velocities as logged."
+        _several(
+            "motor_current",
+            Labels.JOINTS,
+            ("A",),
+            "Current of the motor of every joint, positive where it drives along +q times the gear ratio.",
         ),
-        Quantity(
-            name="acceleration",
-            labels=Labels.JOINTS,
-            units=("rad/s2", "m/s2"),
-            description="Joint accelerations as logged.",
+        _several(
+            "pwm",
+            Labels.JOINTS,
+            ("1",),
+            "PWM duty of the motor of every joint, from -1 to 1, with the sign of the current.",
         ),
-        Quantity(
-            name="torque",
-            labels=Labels.JOINTS,
-            units=("N m", "N"),
-            description="Joint torques along +q as the robot has them: N m for rotary joints, N for prismatic ones.",
-        ),
-        Quantity(
-            name="motor_current",
-            labels=Labels.JOINTS,
-            units=("A",),
-            description="Current of the motor of every joint, positive where it drives along +q times the gear ratio.",
-        ),
-        Quantity(
-            name="pwm",
-            labels=Labels.JOINTS,
-            units=("1",),
-            description="PWM duty of the motor of every joint, from -1 to 1, with the sign of the current.",
-        ),
-        Quantity(
-            name="temperature",
-            columns=("temperature",),
-            units=("degC",),
-            description="Temperature of a sensor.",
-        ),
-        Quantity(
-            name="proper_acceleration",
-            columns=_XYZ,
-            units=("m/s2",) * 3,
-            has_frame=True,
-            description="Measurement of an accelerometer: +9.8 m/s2 upwards at rest.",
-        ),
+        _number("temperature", "degC", "Temperature of a sensor."),
+        _vector("proper_acceleration", "m/s2", "Measurement of an accelerometer: +9.8 m/s2 upwards at rest."),
         Quantity(
             name="orientation",
             columns=tuple(f"r{row}{column}" for row in "123" for column in "123"),
@@ -134,70 +119,40 @@ QUANTITIES = {
             has_frame=True,
             description="Rotation matrix of a frame, row by row: it rotates vectors along its axes to the world's.",
         ),
-        Quantity(
-            name="translation",
-            columns=_XYZ,
-            units=("m",) * 3,
+        _vector("translation", "m", "Where the origin of a frame is in the world, along the world's axes."),
+        _vector("gravity", "m/s2", "Acceleration of free fall along the axes of a frame: it points down."),
+        _vector("angular_velocity", "rad/s", "Measurement of a gyroscope."),
+        _vector("angular_acceleration", "rad/s2", "Angular acceleration, where a device gives it."),
+        _number(
+            "saturated",
+            "0 or 1",
+            "Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
+        ),
+        _several(
+            "taxel_counts",
+            Labels.TAXELS,
+            ("counts",),
+            "Counts of every taxel of a patch of skin as its electronics deliver it; pressure lowers them.",
+        ),
+        _several(
+            "skin_event",
+            Labels.CHANNELS,
+            ("m", "1", "counts", "heuristic"),
+            "Contacts that a skinManager sees on a patch; its force is a heuristic, not newtons.",
             has_frame=True,
-            description="Where the origin of a frame is in the world, along the world's axes.",
         ),
-        Quantity(
-            name="gravity",
-            columns=_XYZ,
-            units=("m/s2",) * 3,
-            has_frame=True,
-            description="Acceleration of free fall along the axes of a frame: it points down.",
+        _number(
+            "pressure",
+            "Pa",
+            "Pressure of a chamber or bag above that of the air around, which skin is calibrated with.",
         ),
-        Quantity(
-            name="angular_velocity",
-            columns=_XYZ,
-            units=("rad/s",) * 3,
-            has_frame=True,
-            description="Measurement of a gyroscope.",
+        _several(
+            "scalar",
+            Labels.CHANNELS,
+            (),
+            "Any other variable that may change a measurement, such as a supply voltage, as logged.",
         ),
-        Quantity(
-            name="angular_acceleration",
-            columns=_XYZ,
-            units=("rad/s2",) * 3,
-            has_frame=True,
-            description="Angular acceleration, where a device gives it.",
-        ),
-        Quantity(
-            name="saturated",
-            columns=("saturated",),
-            units=("0 or 1",),
-            description="Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
-        ),
-        Quantity(
-            name="taxel_counts",
-            labels=Labels.TAXELS,
-            units=("counts",),
-            description="Counts of every taxel of a patch of skin as its electronics deliver it; pressure lowers them.",
-        ),
-        Quantity(
-            name="skin_event",
-            labels=Labels.CHANNELS,
-            units=("m", "1", "counts", "heuristic"),
-            has_frame=True,
-            description="Contacts that a skinManager sees on a patch; its force is a heuristic, not newtons.",
-        ),
-        Quantity(
-            name="pressure",
-            columns=("pressure",),
-            units=("Pa",),
-            description="Pressure of a chamber or bag above that of the air around, which skin is calibrated with.",
-        ),
-        Quantity(
-            name="scalar",
-            labels=Labels.CHANNELS,
-            description="Any other variable that may change a measurement, such as a supply voltage, as logged.",
-        ),
-        Quantity(
-            name="device_stamp",
-            columns=("device_stamp",),
-            units=("tick",),
-            description="The device's own clock, in its own unit: shows transport delay and jitter.",
-        ),
+        _number("device_stamp", "tick", "The device's own clock, in its own unit: shows transport delay and jitter."),
     )
 }
 """Every quantity by name."""

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
+from scipy.special import ndtri
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.recording.alignment import gap_limit_ns, usable_samples
@@ -30,10 +32,15 @@ STUCK_NOISY_SECONDS = 0.2
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
-_GLITCH_SHARE, _GLITCH_SIZE, _GLITCH_REACH = 0.05, 0.05, 10.0
-_GLITCH_LENGTH, _GLITCH_AT_ENDS = 10, 3
-"""Values beyond ten times the distance from the median within which 95 % of them lie, or half of their size, are
-glitches if they come and go by jumps of as much, for at most ten samples; three at an end of the log."""
+_GLITCH_SHARE, _GLITCH_SHARE_AT_REST, _GLITCH_SHARE_TO_SEE = 0.25, 0.05, 0.5
+"""Most values that may be glitches; of a column that rests, which may change by single steps of its resolution; and
+that are seen to be too many to tell."""
+_GLITCH_REACH, _GLITCH_SIZE = 12.0, 0.5
+"""Standard deviations, by the distances from the median of all values that are no glitches, and part of the median
+beyond which a value is a glitch, if it comes and goes by a jump of as much."""
+_GLITCH_LENGTH, _GLITCH_AT_ENDS, _SHORTEST_HOLD = 10, 3, 0.1
+"""Values in a row that may be glitches, three at an end of the log; and quantile of the lengths of runs of equal rows
+that is the length for which a log holds one value."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -77,6 +84,7 @@ def saturation_findings(
         One finding per segment of time and channel; none where the board reports saturation itself, which is exact;
         one alone where raw samples go beyond the limit, which is then not that of their converter.
     """
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     if "saturated" in stream.signals:
         return ()
     if not recovered and exceeds_limit(counts, limit_counts):
@@ -93,8 +101,7 @@ def saturation_findings(
             largest = float(np.abs(counts[first : last + 1, channel]).max())
             note = " (recovered counts)" if recovered else ""
             findings.append(
-                _finding(
-                    stream,
+                over(
                     "saturation",
                     f"ch{channel} within {100 * SATURATION_SHARE:g} % of {limit_counts:g} counts{note}",
                     first,
@@ -109,37 +116,55 @@ def saturation_findings(
 
 def _reported_saturation(stream: Stream) -> list[Finding]:
     """Segments in which the board flags that it holds its last valid sample."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     text = "the board reports saturation and holds its last valid sample"
-    return [
-        _finding(stream, "saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)
-    ]
+    return [over("saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)]
 
 
-def glitched_values(values: FloatArray) -> BoolArray:
+def glitched_values(values: FloatArray) -> tuple[BoolArray, int]:
     """Find values that a quantity takes for a moment and that are nowhere near its others, such as a failed conversion.
+
+    A value that the log holds over several rows counts as one.
 
     Args:
         values: One column in the order of the log; shape (n,); NaN where it is missing.
 
     Returns:
-        Which they are; shape (n,).
+        Which they are; shape (n,). Number of others that come and go as they do, too many to tell which are wrong.
     """
     seen = np.flatnonzero(np.isfinite(values))
-    glitched = np.isinf(values)
+    glitched, known = np.isinf(values), values[seen]
     if len(seen) < 2 * _GLITCH_AT_ENDS:
-        return glitched
-    known = values[seen]
+        return glitched, 0
     away = np.abs(known - np.median(known))
-    reach = float(np.quantile(away, 1.0 - _GLITCH_SHARE, method="higher"))
-    # a reading that rests may yet move by steps of its resolution
-    limit = _GLITCH_REACH * max(reach, _GLITCH_SIZE * abs(float(np.median(known))))
+    deviation = _deviation(away, _GLITCH_SHARE) or _deviation(away, _GLITCH_SHARE_AT_REST)
+    apart = _brief(known, away, deviation)
+    glitched[seen[apart]] = True
+    of_half = _deviation(away, _GLITCH_SHARE_TO_SEE)
+    more = int(np.count_nonzero(_brief(known, away, of_half) & ~apart)) if of_half > 0.0 else 0
+    return glitched, more if more > _GLITCH_SHARE_AT_REST * len(known) else 0
+
+
+def _deviation(away: FloatArray, share: float) -> float:
+    """Standard deviation of normal values, of which this share of the largest distances says nothing."""
+    return float(np.quantile(away, 1.0 - share, method="higher") / ndtri(1.0 - share / 2.0))
+
+
+def _brief(known: FloatArray, away: FloatArray, deviation: float) -> BoolArray:
+    """Values beyond the limit that come and go by a jump of as much; shape (n,)."""
+    brief = np.zeros(len(known), dtype=bool)
+    limit = max(_GLITCH_REACH * deviation, _GLITCH_SIZE * abs(float(np.median(known))))
+    if limit == 0.0:
+        return brief
     steps = np.abs(np.diff(known))
-    for first, last in true_runs(away > limit) if limit > 0.0 else ():
+    rows = np.diff(np.flatnonzero(np.concatenate([[True], steps > 0.0, [True]])))
+    held = int(np.quantile(rows, _SHORTEST_HOLD, method="lower")) if len(rows) >= 2 * _GLITCH_LENGTH else 1
+    for first, last in true_runs(away > limit):
         ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
-        longest = _GLITCH_LENGTH if len(ends) == 2 else _GLITCH_AT_ENDS
+        longest = held * (_GLITCH_LENGTH if len(ends) == 2 else _GLITCH_AT_ENDS)
         if min(ends) > limit and last - first < longest:
-            glitched[seen[first : last + 1]] = True
-    return glitched
+            brief[first : last + 1] = True
+    return brief
 
 
 def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
@@ -155,32 +180,8 @@ def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
     return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _finding(
-    stream: Stream,
-    kind: str,
-    message: str,
-    first: int,
-    last: int,
-    *,
-    count: int | None = None,
-    channel: str | None = None,
-    size: float | None = None,
-    unit: str | None = None,
-) -> Finding:
-    return Finding(
-        stream=stream.name,
-        kind=kind,
-        message=message,
-        count=last - first + 1 if count is None else count,
-        start_ns=int(stream.stamp_ns[first]),
-        end_ns=int(stream.stamp_ns[last]),
-        channel=channel,
-        size=size,
-        unit=unit,
-    )
-
-
 def _gaps(stream: Stream) -> list[Finding]:
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     usable = usable_samples(stream.stamp_ns)
     steps = np.diff(stream.stamp_ns[usable])
     findings = []
@@ -188,11 +189,12 @@ def _gaps(stream: Stream) -> list[Finding]:
         seconds = float(steps[k]) * 1e-9
         before, after = int(usable[k]), int(usable[k + 1])
         text = f"no sample for {seconds:.3f} s, {steps[k] / float(np.median(steps)):.0f} periods"
-        findings.append(_finding(stream, "gap", text, before, after, count=1, size=seconds, unit="s"))
+        findings.append(over("gap", text, before, after, count=1, size=seconds, unit="s"))
     return findings
 
 
 def _bad_stamps(stream: Stream) -> list[Finding]:
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     steps = np.diff(stream.stamp_ns)
     findings = []
     for kind, bad, text in (
@@ -203,13 +205,14 @@ def _bad_stamps(stream: Stream) -> list[Finding]:
         if len(at):
             size = float(np.abs(steps[at - 1]).max()) * 1e-9
             findings.append(
-                _finding(stream, kind, f"{len(at)} {text}", int(at[0]), int(at[-1]), count=len(at), size=size, unit="s")
+                over(kind, f"{len(at)} {text}", int(at[0]), int(at[-1]), count=len(at), size=size, unit="s")
             )
     return findings
 
 
 def _lost_messages(stream: Stream) -> list[Finding]:
     """Compare sequence numbers, which may start again at zero when their counter is full."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     if stream.sequence is None or len(stream) < 2 or (stream.sequence < 0).any():
         return []
     wrap = next((size for size in _WRAPS if size > int(stream.sequence.max())), None)
@@ -227,20 +230,20 @@ def _lost_messages(stream: Stream) -> list[Finding]:
         )
         size = None if restarted else float(lost)
         unit = None if restarted else "messages"
-        findings.append(_finding(stream, kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
+        findings.append(over(kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
     return findings
 
 
 def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     missing = np.logical_not(np.isfinite(signal.values).all(axis=1))
     text = f"no {signal.quantity}"
-    return [
-        _finding(stream, "missing", text, first, last, channel=signal.quantity) for first, last in true_runs(missing)
-    ]
+    return [over("missing", text, first, last, channel=signal.quantity) for first, last in true_runs(missing)]
 
 
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     same: BoolArray = np.asarray(np.diff(signal.values, axis=0) == 0.0)
     whole: BoolArray = np.asarray(same.all(axis=1))
     runs = equal_runs(stream.stamp_ns, signal.values)
@@ -248,7 +251,7 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     findings = [frozen_finding(stream, signal.quantity, run) for run in frozen]
     text = f"the whole {signal.quantity} stays the same, as of a load at rest whose noise is below the resolution"
     findings += [
-        _finding(stream, "stuck", text, first, last, channel=signal.quantity, size=_seconds(stream, run), unit="s")
+        over("stuck", text, first, last, channel=signal.quantity, size=_seconds(stream, run), unit="s")
         for run in runs
         for first, last in [run]
         if run not in frozen and _seconds(stream, run) > STUCK_SECONDS
@@ -259,12 +262,13 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
         for at, last in _stuck_runs(stream, signal.values[:, [k]], alone):
             text = f"{name} stays at {column[at]:g} {unit}"
             seconds = _seconds(stream, (at, last))
-            findings.append(_finding(stream, "stuck", text, at, last, channel=name, size=seconds, unit="s"))
+            findings.append(over("stuck", text, at, last, channel=name, size=seconds, unit="s"))
     return findings
 
 
 def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
     """Readings that the log gives again under new stamps, beside those that are frozen."""
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     long = mask_of(equal_runs(stream.stamp_ns, signal.values), len(stream))
     again = np.flatnonzero(repeated_readings(stream.stamp_ns, signal.values) & ~long & ~stream.held)
     if len(again):
@@ -274,7 +278,7 @@ def _repeated_readings(stream: Stream, signal: Signal) -> Iterator[Finding]:
             + ("; fits leave them out unless [processing] keeps them" if signal.quantity in ("wrench", "raw") else "")
         )
         first, last = int(again[0]), int(again[-1])
-        yield _finding(stream, "repeated_reading", text, first, last, channel=signal.quantity, count=len(again))
+        yield over("repeated_reading", text, first, last, channel=signal.quantity, count=len(again))
 
 
 def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:
@@ -288,9 +292,10 @@ def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:
     Returns:
         The finding.
     """
+    over = partial(Finding.over, stream.name, stream.stamp_ns)
     text = f"the whole {quantity} stays the same, as when a board saturates or loses its sensor"
     first, last = run
-    return _finding(stream, "frozen", text, first, last, channel=quantity, size=_seconds(stream, run), unit="s")
+    return over("frozen", text, first, last, channel=quantity, size=_seconds(stream, run), unit="s")
 
 
 def _seconds(stream: Stream, run: Run) -> float:

@@ -21,7 +21,7 @@ from pydantic import Field
 from forcetorque.base.errors import ForceTorqueError, ShapeError, needs_extra
 from forcetorque.results.answer import Answer, answer_text
 from forcetorque.results.capability import named
-from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table import Row, Shown, Table, optional_table
 from forcetorque.results.table_rendering import html_lines, html_table, html_text, html_warnings, table_text, wrapped
 
 if TYPE_CHECKING:
@@ -224,8 +224,7 @@ class Result(Row):
         yield from self._unusable()
 
     def _unusable(self) -> Iterator[Table]:
-        if self.unusable_samples:
-            yield table_of(self.unusable_samples, "unusable samples, which are left out")
+        yield from optional_table(self.unusable_samples, "unusable samples, which are left out")
 
     @classmethod
     def described(cls) -> dict[str, Any]:

@@ -301,6 +301,16 @@ def table_of(rows: Sequence[Row], caption: str, *, leave_out: Collection[str] = 
     )
 
 
+def optional_table(rows: Sequence[Row], caption: str, *, leave_out: Collection[str] = ()) -> Iterator[Table]:
+    """Put rows into a table as `table_of` does, where there are any.
+
+    Yields:
+        The table; nothing where there are no rows.
+    """
+    if rows:
+        yield table_of(rows, caption, leave_out=leave_out)
+
+
 VAGUE: Final = "±?"
 """What stands in the place of such an interval."""
 VAGUE_WORDS: Final = "±?: too few independent data for an interval"

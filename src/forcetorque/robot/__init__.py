@@ -12,9 +12,7 @@ if TYPE_CHECKING:
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "RobotModel": "forcetorque.robot.model",
-        "expected_wrenches": "forcetorque.robot.dynamics",
-        "read_urdf": "forcetorque.robot.urdf",
-    },
+    RobotModel="forcetorque.robot.model",
+    expected_wrenches="forcetorque.robot.dynamics",
+    read_urdf="forcetorque.robot.urdf",
 )

@@ -341,7 +341,8 @@ def tag_lines(path: Path, outer: str, name: str) -> dict[tuple[str, ...], int]:
         The line of the first tag of every path in it; of itself by the empty path; nothing if it is not there.
     """
     handler = _Lines(outer, name)
-    parse(str(path), handler)
+    # a DTD that is named is not opened: the parser of SAX resolves nothing, and refuses that only by default
+    parse(str(path), handler, forbid_external=False)
     return handler.lines
 
 

@@ -25,11 +25,9 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "choose_sensor": "forcetorque.sensor.choice.command",
-        "drift": "forcetorque.sensor.commands",
-        "response": "forcetorque.sensor.bandwidth.bandwidth",
-        "select_gains": "forcetorque.sensor.gains.gains",
-        "thermal": "forcetorque.sensor.commands",
-    },
+    choose_sensor="forcetorque.sensor.choice.command",
+    drift="forcetorque.sensor.commands",
+    response="forcetorque.sensor.bandwidth.bandwidth",
+    select_gains="forcetorque.sensor.gains.gains",
+    thermal="forcetorque.sensor.commands",
 )

@@ -11,7 +11,6 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, SensorError, known_names
@@ -74,7 +73,7 @@ class StatedError(Table):
     def _one_form(self) -> StatedError:
         absolute = (self.force_N is not None, self.moment_Nm is not None)
         if any(absolute) != all(absolute) or any(absolute) == (self.percent is not None):
-            raise PydanticCustomError("one_form", "expected percent, or force_N and moment_Nm")
+            raise ValueError("expected percent, or force_N and moment_Nm")
         return self
 
     def components(self, range_: Axes) -> FloatArray:

@@ -82,9 +82,7 @@ def _draw_range(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: s
         colour = COLOURS[k % len(COLOURS)]
         panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=channel.channel)
     reach = max(1.1 * limit, float(np.abs(counts).max()))
-    panel.set_ylim(-reach, reach)
-    panel.set_title(title)
-    panel.set_xlabel("time, s")
+    panel.set(ylim=(-reach, reach), title=title, xlabel="time, s")
 
 
 _POINTS = 400
@@ -223,8 +221,7 @@ def _bode(panels: list[Axes], curve: ResponseCurve) -> None:
         panels[1].semilogx(frequency, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **_FIT)
     _gain_and_coherence(panels[0], panels[2], curve)
     for panel, label in zip(panels, ("gain", "phase, deg", "coherence"), strict=True):
-        panel.set_ylabel(label)
-        panel.set_xlabel("frequency, Hz")
+        panel.set(ylabel=label, xlabel="frequency, Hz")
 
 
 _BAND: dict[str, Any] = {"color": _MEASURED.colour, "alpha": 0.25, "linewidth": 0.0}

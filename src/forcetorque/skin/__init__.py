@@ -23,10 +23,8 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "calibrate_skin": "forcetorque.skin.commands",
-        "check_skin": "forcetorque.skin.commands",
-        "read_patches": "forcetorque.skin.taxels.calibrate",
-        "skin_wrench": "forcetorque.skin.commands",
-    },
+    calibrate_skin="forcetorque.skin.commands",
+    check_skin="forcetorque.skin.commands",
+    read_patches="forcetorque.skin.taxels.calibrate",
+    skin_wrench="forcetorque.skin.commands",
 )

@@ -182,8 +182,7 @@ def _draw_time(panel: Axes, picture: TaxelPicture) -> None:
     counts = panel.twinx()
     counts.plot(time, drawn[:, 1], color=COLOURS[0], linestyle="--", linewidth=1.0)
     counts.set_ylabel("mean fall, counts")
-    panel.set_xlabel("time, s")
-    panel.set_ylabel("pressure, kPa")
+    panel.set(xlabel="time, s", ylabel="pressure, kPa")
 
 
 def _draw_taxels(panel: Axes, picture: TaxelPicture) -> None:
@@ -191,8 +190,7 @@ def _draw_taxels(panel: Axes, picture: TaxelPicture) -> None:
         cloud = thinned_cloud(np.column_stack([picture.fall[:, k], 1e-3 * picture.pressure]), _POINTS)
         style = look(k)
         panel.plot(cloud[:, 0], cloud[:, 1], linestyle="none", color=style.colour, marker=style.marker, markersize=1.5)
-    panel.set_xlabel("counts below rest")
-    panel.set_ylabel("pressure, kPa")
+    panel.set(xlabel="counts below rest", ylabel="pressure, kPa")
 
 
 def _draw_curves(panel: Axes, picture: TaxelPicture) -> None:
@@ -203,9 +201,7 @@ def _draw_curves(panel: Axes, picture: TaxelPicture) -> None:
     panel.axhline(1e-3 * picture.highest, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
     # a polynomial beyond its range would else leave nothing to see of the samples
     highest = 1e-3 * float(picture.pressure.max())
-    panel.set_ylim(-0.1 * highest, 1.2 * highest)
-    panel.set_xlabel("counts below rest")
-    panel.set_ylabel("pressure, kPa")
+    panel.set(ylim=(-0.1 * highest, 1.2 * highest), xlabel="counts below rest", ylabel="pressure, kPa")
 
 
 def _line(k: int) -> dict[str, Any]:
@@ -284,9 +280,7 @@ def draw_field(figure: Figure, panel: Axes, picture: SkinWrenchPicture) -> TriMe
     panel.plot(across, along, linestyle="none", marker=".", markersize=1.5, color=PAPER)
     bar = figure.colorbar(drawn, ax=panel)
     bar.set_label("pressure, kPa")
-    panel.set_aspect("equal")
-    panel.set_xlabel("around, mm")
-    panel.set_ylabel("along, mm")
+    panel.set(aspect="equal", xlabel="around, mm", ylabel="along, mm")
     panel.set_title(f"{shown_name(picture.patch)} at {picture.seconds[picture.strongest]:.1f} s", loc="left")
     return drawn
 
@@ -305,8 +299,7 @@ def draw_forces(panel: Axes, picture: SkinWrenchPicture, reference: FloatArray |
     for k, force in enumerate(picture.forces.values()):
         time, drawn = thinned_line(picture.seconds, force[:, None])
         panel.plot(time, drawn[:, 0], linewidth=1.4, **_style(k))
-    panel.set_xlabel("time, s")
-    panel.set_ylabel("force, N")
+    panel.set(xlabel="time, s", ylabel="force, N")
 
 
 def _style(k: int) -> dict[str, Any]:
@@ -339,8 +332,6 @@ def skin_event_figure(pictures: Sequence[SkinEventPicture]) -> Figure:
     largest = max(pictures, key=lambda picture: float(np.nanmax(picture.heuristic, initial=0.0)))
     value = float(np.nanmax(largest.heuristic, initial=0.0))
     headline(figure, f"Largest heuristic, not newtons: {value:.3g} ({shown_name(largest.stream)})")
-    panel.set_xlabel("time, s")
-    panel.set_ylabel("heuristic, not newtons")
-    panel.set_ylim(bottom=0.0)
+    panel.set(xlabel="time, s", ylabel="heuristic, not newtons", ylim=(0.0, None))
     legend_below(figure, [(shown_name(one.stream), look(k).key | {"linestyle": "-"}) for k, one in enumerate(pictures)])
     return figure

@@ -27,10 +27,8 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "Studies": "forcetorque.study.result",
-        "read_study_data": "forcetorque.study.study_data",
-        "study_sensor": "forcetorque.study.study",
-        "study_skin": "forcetorque.study.command",
-    },
+    Studies="forcetorque.study.result",
+    read_study_data="forcetorque.study.study_data",
+    study_sensor="forcetorque.study.study",
+    study_skin="forcetorque.study.command",
 )

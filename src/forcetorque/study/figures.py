@@ -217,8 +217,7 @@ def studies_figure(sensors: Sequence[StudiedSensor]) -> Figure:
     panel.set_yticks(
         range(len(lines)), [f"{shown_name(sensor.sensor)}, offset {mode.offset}" for sensor, mode in lines]
     )
-    panel.set_ylim(len(lines) - 0.5, -0.5)
-    panel.set_xlabel("mean contact force where nothing touches, N")
+    panel.set(ylim=(len(lines) - 0.5, -0.5), xlabel="mean contact force where nothing touches, N")
     headline(figure, "; ".join(_best_words(sensor) for sensor in sensors))
     keys = [
         ("candidate that the data determine", {"color": MUTED, "marker": "|", "linestyle": "none"}),
@@ -427,9 +426,7 @@ def skin_study_figure(study: SkinStudy) -> Figure:
     for panel, label in ((forces, "force less weight, N"), (torques, "RMSE of the knee torque, N m")):
         panel.set_xticks(at, names, rotation=60, fontsize=7)
         panel.set_ylabel(label)
-    angles.set_xticks(degrees)
-    angles.set_xlabel("angle of the leg, deg")
-    angles.set_ylabel("mean error of the knee torque, N m")
+    angles.set(xticks=degrees, xlabel="angle of the leg, deg", ylabel="mean error of the knee torque, N m")
     for panel in (forces, angles):
         panel.axhline(0.0, color=REFERENCE_COLOUR, linewidth=0.8)
     headline(figure, f"{study.layout}: filled points are simulated, open ones of the thesis; * is on top")

@@ -25,7 +25,6 @@ from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.results.table import short_names
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.mechanics.root_motion import joints_to_support
 from forcetorque.robot.model import RobotModel, SensorFrame
@@ -381,14 +380,6 @@ def _evaluate(
     chosen: np.ndarray,
 ) -> dict[str, FloatArray]:
     question = Question(tree=tree, expected=tuple(sensors), equations=())
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        required_joints_of(question),
-        posture.stream,
-        posture.stamp_ns[chosen],
-        processing=experiment.processing,
-    )
+    joints, root = experiment.motion_at(support, required_joints_of(question), posture.stream, posture.stamp_ns[chosen])
     estimates = estimate(question, joints, root)
     return {sensor: estimates.expected_of(sensor) for sensor in sensors}

@@ -23,8 +23,6 @@ CAPABILITY = Capability(
 
 __all__, __getattr__, __dir__ = lazy_names(
     __name__,
-    {
-        "read_bench": "forcetorque.workbench.recording",
-        "workbench": "forcetorque.workbench.calibrate",
-    },
+    read_bench="forcetorque.workbench.recording",
+    workbench="forcetorque.workbench.calibrate",
 )

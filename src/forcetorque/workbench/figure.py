@@ -81,9 +81,7 @@ def _project(panel: Axes, picture: BenchPicture, first: int, second: int) -> Non
             color=kind.colour,
         )
     panel.set_aspect("equal", adjustable="datalim")
-    panel.set_title("force over the weight")
-    panel.set_xlabel(f"f{_AXES[first]}")
-    panel.set_ylabel(f"f{_AXES[second]}")
+    panel.set(title="force over the weight", xlabel=f"f{_AXES[first]}", ylabel=f"f{_AXES[second]}")
 
 
 def _histogram(panel: Axes, picture: BenchPicture, axis: int) -> None:
@@ -93,6 +91,4 @@ def _histogram(panel: Axes, picture: BenchPicture, axis: int) -> None:
     for k, errors in enumerate(picture.errors):
         kind = look(k)
         panel.hist(errors[:, axis], bins=edges, histtype="step", color=kind.colour, linestyle=kind.dashes)
-    panel.set_title(f"error of f{_AXES[axis]}")
-    panel.set_xlabel("measured less known, N")
-    panel.set_ylabel("positions")
+    panel.set(title=f"error of f{_AXES[axis]}", xlabel="measured less known, N", ylabel="positions")

@@ -21,7 +21,17 @@ from forcetorque.evaluation.acceptance.criteria import Criterion
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.results.number_text import number
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import COMPONENTS, FloatOrNull, Row, Shown, ShownWrench, Table, WrenchValues, table_of
+from forcetorque.results.table import (
+    COMPONENTS,
+    FloatOrNull,
+    Row,
+    Shown,
+    ShownWrench,
+    Table,
+    WrenchValues,
+    optional_table,
+    table_of,
+)
 from forcetorque.workbench.bench import block_findings
 from forcetorque.workbench.faults import FaultRow, FaultSearch
 from forcetorque.workbench.recording import BenchRecording
@@ -357,8 +367,7 @@ class Workbench(DrawnResult):
             (self.spheres, "loads: measured force"),
             (self.unusual, "matrices compared with the others"),
         ):
-            if rows:
-                yield table_of(rows, caption)
+            yield from optional_table(rows, caption)
         yield from (f"{row.message} ({_chance(row.probability)})" for row in self.faults)
         if any(len(row.components) == len(COMPONENTS) for row in self.sensors) and not self.faults:
             yield "no fault of the bench is detected"

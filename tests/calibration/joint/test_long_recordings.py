@@ -13,7 +13,6 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, OutputError, RecordingError
 from forcetorque.calibration.calibrate import SensorCalibrations
-from forcetorque.calibration.joint import untouched_interval
 from forcetorque.calibration.joint.calibrate import JointData, calibrate_jointly
 from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.experiment.experiment import Experiment
@@ -40,13 +39,13 @@ def measured_lengths(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Seconds of every motion that is computed; rows are in files."""
     monkeypatch.setattr("forcetorque.base.rows_on_disk._WITHOUT_FILE", 0)
     lengths: list[float] = []
-    motion = untouched_interval.robot_motion_at
+    motion = Experiment.motion_at
 
     def measured(*args: Any, **options: Any) -> Any:
-        lengths.append(float(np.ptp(args[5])) * 1e-9)
+        lengths.append(float(np.ptp(args[4])) * 1e-9)
         return motion(*args, **options)
 
-    monkeypatch.setattr(untouched_interval, "robot_motion_at", measured)
+    monkeypatch.setattr(Experiment, "motion_at", measured)
     return lengths
 
 

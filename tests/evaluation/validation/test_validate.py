@@ -11,12 +11,10 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import validate
 from forcetorque.evaluation.validation.contact_force_errors import contact_forces
 from forcetorque.evaluation.validation.validation import Validation, joint_torques
-from forcetorque.experiment import sensor_run
 from forcetorque.experiment.calibration.artefact import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.seen_and_outside_samples import sentences
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
 from tests.scenes.experiments import PARQUET, TWO, add
 
 SHORT = '\n[[interval]]\nlabel = "blink"\nstart_s = 23.6\nend_s = 23.9\nuse = "validation"\nsupport = "base"\n'
@@ -68,11 +66,13 @@ def test_the_motion_of_an_interval_is_computed_once(arm: Path, monkeypatch: pyte
     first = _fitted(run)
     spans: list[int] = []
 
+    motion_at = SensorRun.motion_at
+
     def counted(*args: object, **how: object) -> object:
         spans.append(1)
-        return robot_motion_at(*args, **how)  # type: ignore[arg-type]
+        return motion_at(*args, **how)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(sensor_run, "robot_motion_at", counted)
+    monkeypatch.setattr(SensorRun, "motion_at", counted)
     validate(run, {"a": first, "b": first, "c": first, "d": first})
     assert len(spans) == 1
     validate(SensorRun(experiment, "tool_ft"), {})

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
@@ -49,3 +50,9 @@ def test_a_clock_is_added_in_front_of_the_sensors() -> None:
     inline = 'sensor = [{ name = "ft" }]\n'
     assert correction.edit(inline, tomllib.loads(inline)) is None
     assert correction.by_hand == 'write [[clock]] stream = "ft", to = "joints", delay_s = 0.1'
+    others = edit.applied(HEAD)
+    first = replace(correction, is_first=True)
+    before = first.edit(others, tomllib.loads(others))
+    assert before is not None
+    assert before.line == edit.line, "in front of the clock that is there"
+    assert first.by_hand == f"{correction.by_hand}, in front of the others"

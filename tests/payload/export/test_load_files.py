@@ -14,14 +14,13 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import FormatError, MissingFileError
+from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.export.export import write_load_file
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.export.hrpsys_and_mc_rtc import read_hrpsys, read_mc_rtc
 from forcetorque.payload.export.load_parameters import RobotLoad
-from forcetorque.payload.export.ros2_control_and_ft_tools import read_force_torque_tools, read_ft_tools
+from tests.payload.export.written_loads import read_force_torque_tools, read_ft_tools, read_hrpsys, read_mc_rtc
 
 POSES = Rotation.random(8, random_state=2)
 """Of the sensor in the world, z up."""
@@ -116,10 +115,10 @@ WHOLE = {
 }
 """Forms that hold load and bias: the program, whose reading it takes, and the gravity that it takes."""
 READERS: dict[LoadFormat, Callable[[Path], RobotLoad]] = {
-    LoadFormat.FT_TOOLS: lambda path: read_ft_tools(path, sensor="wrist", frame="wrist_ft"),
-    LoadFormat.FORCE_TORQUE_TOOLS: lambda path: read_force_torque_tools(path, sensor="wrist"),
-    LoadFormat.MC_RTC: lambda path: read_mc_rtc(path, sensor="wrist", frame="wrist_ft", body_H_sensor=BODY_H_SENSOR),
-    LoadFormat.HRPSYS: lambda path: read_hrpsys(path, sensor="wrist", frame="wrist_ft"),
+    LoadFormat.FT_TOOLS: lambda path: read_ft_tools(path, "wrist_ft"),
+    LoadFormat.FORCE_TORQUE_TOOLS: read_force_torque_tools,
+    LoadFormat.MC_RTC: lambda path: read_mc_rtc(path, "wrist_ft", BODY_H_SENSOR),
+    LoadFormat.HRPSYS: lambda path: read_hrpsys(path, "wrist_ft"),
 }
 
 
@@ -197,80 +196,6 @@ def test_frames_are_not_guessed(tmp_path: Path) -> None:
         _load(mass=float("nan"))
     with pytest.raises(FormatError, match="bias: expected finite numbers"):
         _load(bias=np.full(6, np.inf))
-
-
-def test_the_programs_own_files_are_read(tmp_path: Path) -> None:
-    """Lists in brackets over several lines, lists of items, comments and integers, as the programs write them."""
-    kth = tmp_path / "kth.yaml"
-    kth.write_text(
-        "bias: [0.33, -11.6, 4.42, -0.24,\n  -0.33, -0.1]\ngripper_com_frame_id: /ft_sensor\n"
-        "gripper_com_pose: [0.002, -0.002, 0.079,\n  0.0, 0.0, 0.0]\ngripper_mass: 1.695\n"
-    )
-    load = read_force_torque_tools(kth, sensor="arm")
-    assert (load.mass, load.frame, load.bias[4]) == (1.695, "/ft_sensor", -0.33)
-    tools = tmp_path / "tools.yaml"
-    items = "".join(f"{key}:\n  - 0\n  - 1e-3\n  - -2.5  # down\n" for key in ("force_offset", "torque_offset"))
-    tools.write_text(f"---\n# of a gripper\nmass: 1\nsensor_frame_to_com: [0, 0, 5E-2]\n{items}")
-    read = read_ft_tools(tools, sensor="arm", frame="ft")
-    assert (read.mass, read.bias.tolist()) == (1.0, [0.0, 1e-3, -2.5, 0.0, 1e-3, -2.5])
-
-
-FT_TOOLS = "mass: 1.0\nsensor_frame_to_com: [0, 0, 0]\nforce_offset: [0, 0, 0]\ntorque_offset: [0, 0, 0]\n"
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "match"),
-    [
-        ("mass: 1.0", "mass: heavy", "mass: expected a number, got 'heavy'"),
-        ("mass: 1.0", "mass: .nan", "mass: expected a number, got '.nan'"),
-        ("mass: 1.0", "mass: -1.0", "mass: expected at least 0 kg, got -1"),
-        ("mass: 1.0\n", "", "got none of mass"),
-        ("mass: 1.0", "weight: 1.0", r"load\.yaml:1: unknown name 'weight'; known: force_offset, mass"),
-        ("mass: 1.0", "mass: 1.0\nmass: 2.0", r"load\.yaml:2: expected a name, a colon and its value, each once"),
-        ("mass: 1.0", "mass 1.0", r"load\.yaml:1: expected a name, a colon"),
-        ("force_offset: [0, 0, 0]", "force_offset: [0, 0]", r"force_offset: expected a list of 3 numbers, got \[0"),
-        ("force_offset: [0, 0, 0]", "force_offset: [0, x, 0]", r"load\.yaml:3: expected a finite number, got 'x'"),
-        ("force_offset: [0, 0, 0]", "force_offset: [0, inf, 0]", r"load\.yaml:3: expected a finite number, got 'inf'"),
-        ("force_offset: [0, 0, 0]", "force_offset: [0, 0, 0", r"load\.yaml:3: expected a finite number, got '0 torque"),
-        ("torque_offset: [0, 0, 0]", "torque_offset: [0, 0, 0", r"load\.yaml:4: expected a list that ends in \]"),
-        ("force_offset: [0, 0, 0]", "force_offset: {x: 0}", r"force_offset: expected a list of 3 numbers, got '\{x"),
-        ("mass: 1.0", "mass: &a [1]", "mass: expected a number"),
-        ("mass: 1.0", "mass: \xff\xfe", "mass: expected a number"),
-    ],
-)
-def test_parameters_of_another_form_are_refused(tmp_path: Path, old: str, new: str, match: str) -> None:
-    """File, line and name stand in the message."""
-    path = tmp_path / "load.yaml"
-    path.write_text(FT_TOOLS.replace(old, new, 1))
-    with pytest.raises(FormatError, match=match):
-        read_ft_tools(path, sensor="arm", frame="ft")
-
-
-def test_damaged_numbers_are_refused(tmp_path: Path) -> None:
-    """Too few, too many, words, infinities, and a sensor that is not there."""
-    path = tmp_path / "x"
-    for text, match in (
-        ("1 2 3", "expected 13 finite numbers, got 3"),
-        ("one", "expected 13 numbers, got could not convert"),
-        ("nan " * 13, "expected 13 finite numbers"),
-        ("1 0.1 0 0 " + "0 " * 9, "turned by roll, pitch, yaw"),
-    ):
-        path.write_text(text)
-        with pytest.raises(FormatError, match=match):
-            read_mc_rtc(path, sensor="a", frame="a", body_H_sensor=np.eye(4))
-    for text, match in (
-        ("wrist 1 2 3\n", r"x:1: expected a name and ten numbers, got 4 fields"),
-        ("arm " + "1 " * 10, "no sensor 'wrist'; known: arm"),
-        (("wrist " + "1 " * 10 + "\n") * 2, r"x:2: expected every sensor once"),
-        ("wrist " + "x " * 10, "x:1: expected ten numbers after the name"),
-        ("wrist " + "inf " * 10, "x:1: expected finite numbers"),
-    ):
-        path.write_text(text)
-        with pytest.raises(FormatError, match=match):
-            read_hrpsys(path, sensor="wrist", frame="a")
-    for read in READERS.values():
-        with pytest.raises(MissingFileError, match="there is none"):
-            read(tmp_path / "nowhere")
 
 
 def test_every_form_says_what_its_program_does() -> None:

@@ -18,12 +18,11 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.export.export import export_load, robot_load, write_load_file
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.export.hrpsys_and_mc_rtc import read_mc_rtc
 from forcetorque.payload.export.load_parameters import RobotLoad
-from forcetorque.payload.export.ros2_control_and_ft_tools import read_ft_tools
 from forcetorque.payload.load_warnings import overruled
 from tests.app.outcome import Run
 from tests.cases import some_cases
+from tests.payload.export.written_loads import read_ft_tools, read_mc_rtc
 from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
 
 POSTURES = Rotation.random(8, random_state=4)
@@ -43,7 +42,7 @@ def test_payload_writes_what_a_robot_loads(weighed: Path, run: Run) -> None:
     file = weighed.parent / "parameters.yaml"
     outcome = run("payload", weighed, "--to", "ft-tools", "-o", file, "--format", "json")
     result = outcome.result()
-    load = read_ft_tools(file, sensor="wrist", frame="tool")
+    load = read_ft_tools(file, "tool")
     assert result["schema"].startswith("forcetorque/payload/")
     assert repr(load.mass) in json.dumps(result)
     assert load.mass == pytest.approx(MASS, rel=0.01)
@@ -59,7 +58,7 @@ def test_the_file_may_go_to_standard_output(weighed: Path, run: Run) -> None:
     (weighed.parent / "calib").write_text(told.out)
     pose = np.eye(4)
     pose[2, 3] = 0.05
-    load = read_mc_rtc(weighed.parent / "calib", sensor="wrist", frame="tool", body_H_sensor=pose)
+    load = read_mc_rtc(weighed.parent / "calib", "tool", pose)
     np.testing.assert_allclose(load.centre_of_mass, CENTRE, atol=0.002)
     both = run("payload", weighed, "--to", "hrpsys", "-o", "-", "--format", "json")
     assert (both.code, "standard output for both" in both.err) == (2, True)
@@ -114,7 +113,7 @@ def test_a_robot_is_told_what_several_recordings_say_together(weighed: Path, run
     file = tmp_path / "load.yaml"
     outcome = run("payload", weighed, other, "--to", "ft-tools", "-o", file, "--format", "json")
     result = outcome.result()
-    load = read_ft_tools(file, sensor="wrist", frame="tool")
+    load = read_ft_tools(file, "tool")
     assert load.mass == result["loads"][0]["mass_kg"]
     assert load.mass != run("payload", other, "--format", "json").result()["loads"][0]["mass_kg"]
     assert load.bias.tolist() == result["sessions"][-1]["bias"]
@@ -213,7 +212,7 @@ def test_the_reason_to_write_a_doubtful_load_is_a_comment(tmp_path: Path) -> Non
     )
     write_load_file(tmp_path / "load.yaml", load, LoadFormat.FT_TOOLS)
     assert (tmp_path / "load.yaml").read_text().splitlines()[1] == f"# {note}"
-    assert read_ft_tools(tmp_path / "load.yaml", sensor="wrist", frame="tool").mass == MASS
+    assert read_ft_tools(tmp_path / "load.yaml", "tool").mass == MASS
     with pytest.raises(ExperimentError, match="expected a file, beside which the reason is written"):
         write_load_file("-", load, LoadFormat.HRPSYS)
 
@@ -232,7 +231,7 @@ def test_any_reason_stays_a_remark(tmp_path: Path) -> None:
     write_load_file(tmp_path / "load.urdf", load, LoadFormat.URDF, body_H_sensor=np.eye(4))
     assert ElementTree.parse(tmp_path / "load.urdf").getroot().tag == "robot"
     write_load_file(tmp_path / "load.yaml", load, LoadFormat.FT_TOOLS)
-    assert read_ft_tools(tmp_path / "load.yaml", sensor="wrist", frame="tool").mass == MASS
+    assert read_ft_tools(tmp_path / "load.yaml", "tool").mass == MASS
     assert "see ---> a mass: 99" in (tmp_path / "load.yaml").read_text(encoding="utf-8")
 
 
@@ -280,7 +279,7 @@ def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:
     assert result["schema"] == "forcetorque/tare/2"
     (row,) = result["sensors"]
     assert (np.abs(np.array(row["offset"]) + BIAS) < ENOUGH * SLOW).all()
-    load = read_ft_tools(file, sensor="wrist", frame="tool")
+    load = read_ft_tools(file, "tool")
     assert load.mass == MASS
     np.testing.assert_allclose(load.bias, -np.array(row["offset"]))
     table = run("tare", path, "--interval", "first", "--details").out

@@ -165,14 +165,12 @@ def _draw_deviation(panel: Axes, sensor: _Sensor) -> None:
     moved = sensor.deviation[sensor.deviation > 0.0]
     least, most = (float(moved.min()), float(moved.max())) if len(moved) else (1.0, 1.0)
     low, high = 0.5 * least, most * max(10.0, most / least) ** _ROOM
-    panel.set_xscale("log")
-    panel.set_xlim(low, high)
+    panel.set(xscale="log", xlim=(low, high))
     _draw_values(panel, sensor, np.maximum(sensor.deviation, low), low)
     for row, value in enumerate(sensor.deviation):
         text = f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"
         panel.annotate(text, (max(value, low), row), (8.0, 0.0), textcoords="offset points", va="center")
-    panel.set_ylabel("raw direction")
-    panel.set_xlabel("standard deviation, counts")
+    panel.set(ylabel="raw direction", xlabel="standard deviation, counts")
 
 
 def _draw_explained(panel: Axes, sensor: _Sensor) -> None:

@@ -129,9 +129,7 @@ def _draw_shares(panel: Axes, shares: Sequence[float]) -> None:
         panel.plot(end, row, linestyle="none", clip_on=False, zorder=3, **style)
         # in a column of their own, off the dashed line
         _write(panel, f"{100.0 * share:.0f} %", (_SHARE_END, row), -1)
-    panel.set_xlim(0.0, _SHARE_END)
-    panel.set_xticks(range(0, 101, 25))
-    panel.set_xlabel("narrower by, %")
+    panel.set(xlim=(0.0, _SHARE_END), xticks=range(0, 101, 25), xlabel="narrower by, %")
 
 
 def _draw_errors(panel: Axes, errors: FloatArray, little: Sequence[bool]) -> None:
@@ -167,8 +165,7 @@ def _set_error_axis(panel: Axes, errors: FloatArray, label: str) -> None:
     drawn = np.log10(errors[errors > 0.0])
     low, high = (float(drawn.min()), float(drawn.max())) if drawn.size else (0.0, 0.0)
     room = max(_LEAST_ROOM, _ROOM * (high - low))
-    panel.set_xscale("log")
-    panel.set_xlim(10.0 ** (low - room), 10.0 ** (high + room))
+    panel.set(xscale="log", xlim=(10.0 ** (low - room), 10.0 ** (high + room)))
     between = (1.0, 2.0, 5.0) if high - low < _MOST_DECADES else (1.0,)
     panel.xaxis.set_major_locator(LogLocator(subs=between))
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

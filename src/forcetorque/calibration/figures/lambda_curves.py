@@ -120,8 +120,9 @@ def set_lambda_axis(panel: Axes, lambdas: FloatArray, *, infinite: float | None 
             panel.xaxis.set_major_formatter(_lambda_text)
     else:
         panel.set_xscale("symlog", linthresh=positive[0], linscale=_ZERO_DECADES)
-        panel.set_xticks([0.0, *(_decades(positive) or [positive[0]])])
-        panel.set_xlim(-0.15 * positive[0], _right_edge(positive))
+        panel.set(
+            xticks=[0.0, *(_decades(positive) or [positive[0]])], xlim=(-0.15 * positive[0], _right_edge(positive))
+        )
         panel.xaxis.set_major_formatter(_lambda_text)
     if infinite is not None:
         _add_infinite(panel, positive, infinite)
@@ -268,9 +269,11 @@ def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArra
     looks = [look(k) for k in range(len(lines))]
     draw_curves(panel, rising, [values[order] for values in lines.values()], looks)
     set_lambda_axis(panel, rising)
-    panel.set_xlabel(LAMBDA_LABEL)
-    panel.set_ylabel(f"difference to the Workbench matrix, {shown_name(unit)}")
-    panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))
+    panel.set(
+        xlabel=LAMBDA_LABEL,
+        ylabel=f"difference to the Workbench matrix, {shown_name(unit)}",
+        ylim=(min(0.0, panel.get_ylim()[0]), None),
+    )
     legend_below(
         figure, [(shown_name(name), style.key) for name, style in zip(lines, looks, strict=True)], title=LAMBDA_MEANING
     )

@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.results.number_text import with_error
-from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
 
 _GAIN_PERCENT = 3.0
 """Error of a gain from which it counts as not determined: as large as that of the masses that tell it."""
@@ -315,8 +315,9 @@ class JointOutcome(Row):
         yield table_of(self.sub_models, "what is left of the equation of every part, root mean square")
         if learnt := [row for row in self.model_errors if row.learnt or row.is_far]:
             yield table_of(learnt, "what the recordings tell of the model, ± one s.d.")
-        if self.contacts:
-            yield table_of(self.contacts, "left out, because the part's equation does not hold: touched, or a knock")
+        yield from optional_table(
+            self.contacts, "left out, because the part's equation does not hold: touched, or a knock"
+        )
         yield from self.left_out
 
     def doubts(self, urdf: Path | None = None) -> Iterator[str]:

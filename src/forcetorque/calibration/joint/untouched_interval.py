@@ -28,7 +28,6 @@ from forcetorque.robot.mechanics.measured_and_expected_wrench import (
     padded_samples,
     pick_samples,
     require_motion_overlap,
-    robot_motion_at,
 )
 from forcetorque.robot.mechanics.root_motion import imu_frame, joints_to_support
 from forcetorque.robot.mechanics.sub_model_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
@@ -303,16 +302,7 @@ def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Seque
     support, touched, tree, logged, used, references = setup
     source = experiment.recording.stream(used[0].stream)
     samples = padded_samples(experiment.recording, source, interval, None)
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        logged.joints(tree),
-        source,
-        samples.stamp_ns,
-        processing=experiment.processing,
-        overlap_checked=True,
-    )
+    joints, root = experiment.motion_at(support, logged.joints(tree), source, samples.stamp_ns, overlap_checked=True)
     priors = {sensor.name: required_prior(sensor) for sensor in used}
     raw = {sensor.name: readings_at(experiment, sensor, (), samples.stamp_ns).raw for sensor in used}
     readings = {name: raw[name] @ prior.T for name, prior in priors.items()}

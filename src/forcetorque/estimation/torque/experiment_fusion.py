@@ -23,7 +23,7 @@ from forcetorque.experiment.input_files import stated_in
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.results.table import Row, Shown, Table, table_of
+from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.skin.section import force_patches
 from forcetorque.skin.wrench.skin_wrench import PatchFrames
@@ -139,8 +139,7 @@ class TorqueFusion(Row):
             f"where all variances are as specified, at most {self.false_alarm:.1%} of intervals, and of windows, have "
             "a conflict"
         )
-        if self.friction:
-            yield table_of(self.friction, "friction, fitted on the calibration intervals")
+        yield from optional_table(self.friction, "friction, fitted on the calibration intervals")
 
     def warnings(self) -> Iterator[str]:
         """Give warnings about sources in conflict.

@@ -23,7 +23,7 @@ from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.recording import Interval, Use
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
-from forcetorque.robot.mechanics.measured_and_expected_wrench import pick_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import pick_samples
 from forcetorque.robot.mechanics.question import MinimumNorm, Question, TorqueSum, moving_joints, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
@@ -120,14 +120,8 @@ class TorqueSources:
         skin = sources_at(experiment, self.patches, at_ns)
         choices = [ft for ft, there in ((True, experiment.sensors), (False, self._feels(interval))) if there]
         needed = [joint for ft in choices for joint in required_joints_of(self._question(interval, skin, ft=ft))]
-        joints, root = robot_motion_at(
-            experiment.recording,
-            experiment.model,
-            interval.support,
-            tuple(dict.fromkeys((*needed, *self.joints))),
-            source,
-            at_ns,
-            processing=experiment.processing,
+        joints, root = experiment.motion_at(
+            interval.support, tuple(dict.fromkeys((*needed, *self.joints))), source, at_ns
         )
         return IntervalMotion(interval=interval, stamp_ns=at_ns, joints=joints, root=root, skin=skin)
 

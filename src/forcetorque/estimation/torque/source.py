@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, names
 from forcetorque.base.errors import EstimationError
-from forcetorque.estimation.uncertain.estimate import estimate_determined
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty, square_root
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.question import Question
@@ -181,7 +181,9 @@ def wrench_source(
     Raises:
         EstimationError: If an error is of a wrench that is not given, or a covariance is none.
     """
-    uncertain = estimate_determined(question, joints, root, measured=measured, known=known, uncertainty=uncertainty)
+    uncertain = estimate_with_covariance(
+        question, joints, root, measured=measured, known=known, uncertainty=uncertainty, must_be_determined=False
+    )
     lasting = np.nan_to_num(uncertain.torque_lasting)
     noise = np.nan_to_num(uncertain.torque_covariance) - lasting @ lasting.transpose(0, 2, 1)
     return TorqueSource(

@@ -150,6 +150,7 @@ def estimate_with_covariance(
     known: Wrenches | None = None,
     active: Mapping[str, Any] | None = None,
     uncertainty: Uncertainty | None = None,
+    must_be_determined: bool = True,
 ) -> UncertainEstimates:
     """Estimate contact wrenches and torques, and how far off they may be.
 
@@ -164,47 +165,14 @@ def estimate_with_covariance(
         known: Wrenches of at least the known contacts, in their contact frames.
         active: By the name of an unknown contact, whether it is there; shape (n,), bool; others always are.
         uncertainty: What is not known of these; all is exact if None.
+        must_be_determined: Whether what is determined in no sample is refused.
 
     Returns:
-        The estimates.
+        The estimates; NaN where one is not determined.
 
     Raises:
         EstimationError: If a covariance is not one, inputs are missing, the question sums torques up otherwise, or
-            something is determined in no sample; the message says along which forces.
-    """
-    uncertain = estimate_determined(
-        question, joints, root, measured=measured, known=known, active=active, uncertainty=uncertainty
-    )
-    _refuse_undetermined(uncertain)
-    return uncertain
-
-
-def estimate_determined(
-    question: Question,
-    joints: JointMotion,
-    root: RootMotion,
-    *,
-    measured: Wrenches | None = None,
-    known: Wrenches | None = None,
-    active: Mapping[str, Any] | None = None,
-    uncertainty: Uncertainty | None = None,
-) -> UncertainEstimates:
-    """Estimate as `estimate_with_covariance` does what is determined, however little that is.
-
-    Args:
-        question: What is estimated; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
-        joints: Motion of the joints; n samples.
-        root: Motion of the root link's frame; one sample or n.
-        measured: Readings of the sensors.
-        known: Wrenches of the known contacts.
-        active: By the name of an unknown contact, whether it is there; shape (n,), bool.
-        uncertainty: What is not known of these; all is exact if None.
-
-    Returns:
-        The answer; NaN where it is not determined.
-
-    Raises:
-        EstimationError: If a covariance is not one, inputs are missing, or the question sums torques up otherwise.
+            something that must be is determined in no sample; the message says along which forces.
     """
     if question.torques and question.torque_sum is not TorqueSum.SUB_MODEL:
         raise EstimationError(
@@ -213,7 +181,10 @@ def estimate_determined(
         )
     inputs = checked_inputs(question, joints, root, measured, known, active)
     checked = _checked(question, uncertainty or Uncertainty(), len(joints))
-    return _joined([_answer(question, inputs, checked, block) for block in _blocks(len(joints))])
+    uncertain = _joined([_answer(question, inputs, checked, block) for block in _blocks(len(joints))])
+    if must_be_determined:
+        _refuse_undetermined(uncertain)
+    return uncertain
 
 
 def _answer(question: Question, inputs: Inputs, uncertainty: Uncertainty, block: slice) -> UncertainEstimates:

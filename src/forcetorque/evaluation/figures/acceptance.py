@@ -60,9 +60,7 @@ def acceptance_figure(acceptance: Acceptance) -> Figure:
         panel.plot([low, _drawn(row)], [place, place], color=GRID, linewidth=1.2, zorder=1)
         panel.plot(_drawn(row), place, markersize=7.0, zorder=3, **style)
     panel.axvline(1.0, zorder=2, **LIMIT_LINE)
-    panel.set_xscale("log")
-    panel.set_xlim(low, high)
-    panel.set_ylim(len(rows) - 0.5, -0.5)
+    panel.set(xscale="log", xlim=(low, high), ylim=(len(rows) - 0.5, -0.5))
     several = len({row.sensor for row in rows}) > 1
     panel.set_yticks(
         range(len(rows)), [shown_name(f"{row.sensor}: {row.criterion}" if several else row.criterion) for row in rows]

@@ -85,8 +85,7 @@ def _draw_forces(panel: Axes, rows: Sequence[ContactForceErrors], styles: Mappin
             panel, offsets.index(row.offset), row.force_mean_N, row.force_mean_half_width_95_N, row.calibration, styles
         )
     panel.set_xticks(range(len(offsets)), [f"offset:\n{offset}" for offset in offsets])
-    panel.set_ylabel("mean contact force, N")
-    panel.set_ylim(bottom=0.0)
+    panel.set(ylabel="mean contact force, N", ylim=(0.0, None))
     panel.margins(x=0.3)
 
 
@@ -99,8 +98,7 @@ def _draw_torques(panel: Axes, rows: Sequence[JointTorqueErrors], styles: Mappin
     if not shown:
         panel.text(0.5, 0.5, "no joint torque depends on it", ha="center", transform=panel.transAxes)
     panel.set_xticks(range(len(joints)), [shown_name(joint) for joint in joints], rotation=20.0, ha="right")
-    panel.set_ylabel(f"RMSE, {' or '.join(dict.fromkeys(row.unit for row in shown))}")
-    panel.set_ylim(bottom=0.0)
+    panel.set(ylabel=f"RMSE, {' or '.join(dict.fromkeys(row.unit for row in shown))}", ylim=(0.0, None))
 
 
 def _shown_offset(rows: Sequence[_Row]) -> Sequence[_Row]:

@@ -203,8 +203,7 @@ def _set_axis(panel: Axes, rows: Sequence[LoadCaseError]) -> None:
     start, end = min(at - take * width for at, take in left), max(at + take * width for at, take in right)
     spare = 0.5 * max(width - (end - start), 0.0)
     start, end = start - spare, end + spare
-    panel.set_xscale("log")
-    panel.set_xlim(10.0**start, 10.0**end)
+    panel.set(xscale="log", xlim=(10.0**start, 10.0**end))
     panel.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if end - start < 2.0 else (1.0,)))
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     panel.xaxis.set_minor_formatter(NullFormatter())

@@ -161,9 +161,7 @@ def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tu
             )
     panel.set_aspect("equal", adjustable="datalim")
     panel.grid(visible=True, color=GRID, linewidth=0.6)
-    panel.set_axisbelow(True)
-    panel.set_xlabel(f"{WRENCH_COMPONENTS[plane[0]]}, N")
-    panel.set_ylabel(f"{WRENCH_COMPONENTS[plane[1]]}, N")
+    panel.set(axisbelow=True, xlabel=f"{WRENCH_COMPONENTS[plane[0]]}, N", ylabel=f"{WRENCH_COMPONENTS[plane[1]]}, N")
 
 
 def ellipsoid_outline(ellipsoid: Ellipsoid, plane: tuple[int, int]) -> FloatArray:
@@ -228,8 +226,7 @@ def force_space_figure(
     for panels, (title, named) in zip(grid, rows.items(), strict=True):
         for panel, plane in zip(panels, PLANES, strict=True):
             _draw_force_plane(panel, [(styles[name], points[:, plane]) for name, points in named])
-            panel.set_xlabel(labels[plane[0]])
-            panel.set_ylabel(labels[plane[1]])
+            panel.set(xlabel=labels[plane[0]], ylabel=labels[plane[1]])
         panels[0].set_title(shown_name(title), loc="left")
     legend_below(figure, [(shown_name(name), style.key) for name, style in styles.items()])
     largest = {
@@ -326,8 +323,10 @@ def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     for panel, mode in zip(panels, modes, strict=True):
         words = "with the model" if mode else "without the model"
         panel.set_title(f"index {words}", loc="left")
-        panel.set_xlabel("index, kg")
-        panel.set_xlim(0.0, _reach([line for group in groups for line in _lines(group, with_model=mode)]))
+        panel.set(
+            xlabel="index, kg",
+            xlim=(0.0, _reach([line for group in groups for line in _lines(group, with_model=mode)])),
+        )
         for k, (group, top) in enumerate(zip(ordered, tops[:-1], strict=True)):
             if k % 2:
                 panel.axhspan(top, tops[k + 1], color=SHADE, linewidth=0.0, zorder=0)

@@ -15,7 +15,6 @@ from pydantic import (
     Field,
     field_validator,
 )
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
@@ -161,7 +160,7 @@ class Calibration(StoredTable):
     @classmethod
     def _reads_a_load(cls, matrix: FloatArray) -> FloatArray:
         if not matrix.any():
-            raise PydanticCustomError("zero_matrix", "expected a matrix, got one of zeros, which reads no load")
+            raise ValueError("expected a matrix, got one of zeros, which reads no load")
         return matrix
 
     @property

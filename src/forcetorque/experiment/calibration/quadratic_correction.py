@@ -9,7 +9,6 @@ from typing import Annotated, Any, Final, Literal
 
 import numpy as np
 from pydantic import model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray, require_last_axis
 from forcetorque.base.stored_model import StoredTable
@@ -78,14 +77,12 @@ class QuadraticCorrection(StoredTable):
     @model_validator(mode="after")
     def _is_small(self) -> QuadraticCorrection:
         if np.abs(self.directions @ self.directions.T - np.eye(6)).max() > _ORTHONORMAL:
-            raise PydanticCustomError("directions", "expected directions that are orthonormal")
+            raise ValueError("expected directions that are orthonormal")
         if (self.minimum > self.maximum).any():
-            raise PydanticCustomError("limits", "expected a minimum of at most the maximum along every direction")
+            raise ValueError("expected a minimum of at most the maximum along every direction")
         if not self.steepness <= STEEPEST:
-            raise PydanticCustomError(
-                "steep",
-                "expected a correction that changes by at most {most} per unit of load, got {steepness}",
-                {"most": STEEPEST, "steepness": f"{self.steepness:.3g}"},
+            raise ValueError(
+                f"expected a correction that changes by at most {STEEPEST} per unit of load, got {self.steepness:.3g}"
             )
         return self
 

@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import FormatError, known_names
@@ -57,13 +56,13 @@ class ArraySignal(SpecifiedSignal):
     def _in_order(self) -> ArraySignal:
         first, last = self.columns
         if first > last:
-            raise PydanticCustomError("column_order", "expected the first column, then the last one")
+            raise ValueError("expected the first column, then the last one")
         if self.names is not None and len(self.names) != last - first + 1:
-            raise PydanticCustomError("column_names", "expected as many names as columns")
+            raise ValueError("expected as many names as columns")
         if not isinstance(self.unit, str) and len(self.unit) != last - first + 1:
-            raise PydanticCustomError("column_units", "expected one unit, or as many as columns")
+            raise ValueError("expected one unit, or as many as columns")
         if self.orientation is not None and not isinstance(self.unit, str):
-            raise PydanticCustomError("column_units", "expected one unit for all numbers of an orientation")
+            raise ValueError("expected one unit for all numbers of an orientation")
         return self
 
 
@@ -91,17 +90,14 @@ class ArrayStream(SpecifiedRate):
     @model_validator(mode="after")
     def _has_one_time(self) -> ArrayStream:
         if [self.time, self.rows_of, self.rate_hz].count(None) != 2:
-            raise PydanticCustomError(
-                "time_rules",
+            raise ValueError(
                 "expected time, the column that holds it, or rows_of, a stream with the same rows, or rate_hz with "
-                "start_s: one of them",
+                "start_s: one of them"
             )
         if isinstance(self.start_s, tuple):
-            raise PydanticCustomError("starts", "expected start_s of one file, a number")
+            raise ValueError("expected start_s of one file, a number")
         if (self.rows_of is None) != (self.shift_rows is None):
-            raise PydanticCustomError(
-                "shift_rules", 'rows_of needs shift_rows: a number of rows, 0 for none, or "estimated"'
-            )
+            raise ValueError('rows_of needs shift_rows: a number of rows, 0 for none, or "estimated"')
         return self
 
 

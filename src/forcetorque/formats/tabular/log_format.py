@@ -13,7 +13,6 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pacsv
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrow import arrow_numbers, arrow_text
 from forcetorque.base.errors import FormatError
@@ -321,15 +320,10 @@ class TabularStream(SpecifiedRate):
     @model_validator(mode="after")
     def _has_one_time(self) -> TabularStream:
         if (self.stamp is None) == (self.rate_hz is None):
-            raise PydanticCustomError(
-                "time_rules",
-                'expected stamp, the column of the time or "row", or rate_hz with start_s; got {got}',
-                {"got": "neither" if self.stamp is None else "both; keep one"},
-            )
+            got = "neither" if self.stamp is None else "both; keep one"
+            raise ValueError(f'expected stamp, the column of the time or "row", or rate_hz with start_s; got {got}')
         if self.rate_hz is not None and len(self.starts_s) != len(self.files):
-            raise PydanticCustomError(
-                "starts", "expected start_s of {files} file(s), one for each", {"files": len(self.files)}
-            )
+            raise ValueError(f"expected start_s of {len(self.files)} file(s), one for each")
         return self
 
     @property

@@ -433,26 +433,10 @@ def _check_envelopes(numbers: Numbers, group: LineGroup, layout: NumberLayout, p
 def _stamp_findings(stream: str, port: PortFolder, stamp_ns: IntArray, *, by_dumper: BoolArray) -> tuple[Finding, ...]:
     findings = []
     if not port.has_info:
-        findings.append(
-            Finding(
-                stream=stream,
-                kind="unknown_stamp",
-                message="there is no info.log; the sender or the dumper may have stamped the messages",
-                count=len(stamp_ns),
-                start_ns=int(stamp_ns[0]),
-                end_ns=int(stamp_ns[-1]),
-            )
-        )
+        text = "there is no info.log; the sender or the dumper may have stamped the messages"
+        findings.append(Finding.over(stream, stamp_ns, "unknown_stamp", text))
     rows = np.flatnonzero(by_dumper)
     if len(rows):
-        findings.append(
-            Finding(
-                stream=stream,
-                kind="dumper_stamp",
-                message=f"{len(rows)} of {len(stamp_ns)} messages have no stamp of the sender; the dumper's is used",
-                count=len(rows),
-                start_ns=int(stamp_ns[rows[0]]),
-                end_ns=int(stamp_ns[rows[-1]]),
-            )
-        )
+        text = f"{len(rows)} of {len(stamp_ns)} messages have no stamp of the sender; the dumper's is used"
+        findings.append(Finding.over(stream, stamp_ns, "dumper_stamp", text, *rows[[0, -1]].tolist(), count=len(rows)))
     return tuple(findings)

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text
@@ -90,7 +89,7 @@ class MeasuresEntry(Table):
     @model_validator(mode="after")
     def _world_of_an_orientation(self) -> MeasuresEntry:
         if self.orientation is not None and self.list is not MeasuresList.ORIENTATION:
-            raise PydanticCustomError("orientation_rules", 'orientation is for sensors of the list "orientation"')
+            raise ValueError('orientation is for sensors of the list "orientation"')
         return self
 
 

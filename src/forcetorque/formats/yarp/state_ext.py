@@ -160,17 +160,9 @@ def _failures(stream: str, name: str, values: FloatArray, log: PortLog) -> list[
     rows = np.flatnonzero(np.isnan(values[:, :1]).any(axis=1))  # a list fails as a whole
     if not len(rows):
         return []
-    return [
-        Finding(
-            stream=stream,
-            kind="failed_group",
-            message=f"{len(rows)} of {len(values)} messages flag the {name} with [fail]; it is NaN there",
-            count=len(rows),
-            start_ns=int(log.stamp_ns[rows[0]]),
-            end_ns=int(log.stamp_ns[rows[-1]]),
-            channel=name,
-        )
-    ]
+    text = f"{len(rows)} of {len(values)} messages flag the {name} with [fail]; it is NaN there"
+    ends = rows[[0, -1]].tolist()
+    return [Finding.over(stream, log.stamp_ns, "failed_group", text, *ends, count=len(rows), channel=name)]
 
 
 def _is_not_estimated(name: str, values: FloatArray, logged: Mapping[str, FloatArray]) -> bool:
@@ -185,12 +177,5 @@ def _is_not_estimated(name: str, values: FloatArray, logged: Mapping[str, FloatA
 
 
 def _not_estimated(stream: str, name: str, log: PortLog) -> Finding:
-    return Finding(
-        stream=stream,
-        kind="not_estimated",
-        message=f"the board does not estimate the {name}: all {len(log.stamp_ns)} messages hold zeros; it is left out",
-        count=len(log.stamp_ns),
-        start_ns=int(log.stamp_ns[0]),
-        end_ns=int(log.stamp_ns[-1]),
-        channel=name,
-    )
+    text = f"the board does not estimate the {name}: all {len(log.stamp_ns)} messages hold zeros; it is left out"
+    return Finding.over(stream, log.stamp_ns, "not_estimated", text, channel=name)

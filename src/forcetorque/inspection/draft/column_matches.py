@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,11 +17,14 @@ from forcetorque.recording.orientation import OrientationForm
 _APART = r"[ _./:\-\[\]]*"
 _FORCE = re.compile(rf"^(?P<before>.*?)(?:force|f){_APART}(?P<axis>[xyz])(?P<behind>[^a-z]*)$")
 _MOMENT = re.compile(rf"^(?P<before>.*?)(?:torque|moment|tau|mu|t|m){_APART}(?P<axis>[xyz])(?P<behind>[^a-z]*)$")
-_VECTORS = (
-    (r"(?:linear_acceleration|acceleration|accel|acc|a)", "proper_acceleration", ""),
-    (r"(?:angular_velocity|gyroscope|gyro|omega|w)", "angular_velocity", ""),
-    (r"(?:gravity)", "gravity", ""),
-    (r"(?:g)", OPEN, "gravity or angular_velocity"),
+_VECTORS = tuple(
+    (re.compile(rf"^(?P<before>|.*[ _./:]){words}{_APART}(?P<axis>[xyz])$"), quantity, question)
+    for words, quantity, question in (
+        (r"(?:linear_acceleration|acceleration|accel|acc|a)", "proper_acceleration", ""),
+        (r"(?:angular_velocity|gyroscope|gyro|omega|w)", "angular_velocity", ""),
+        (r"(?:gravity)", "gravity", ""),
+        (r"(?:g)", OPEN, "gravity or angular_velocity"),
+    )
 )
 _QUATERNION = re.compile(
     r"^(?P<before>.*?)(?:quaternion|orientation|rotation|quat|rot|q|r|o)" + _APART + r"(?P<axis>[xyzw])$"
@@ -42,6 +45,13 @@ _OF_ANGLES = (None, "rad", "deg")
 _OF_TEMPERATURE = (None, "degC", "K")
 _OF_COUNTS = (None, "counts")
 """Units that headings of such columns may have; None for none."""
+_ORIENTATIONS = (
+    (_MATRIX, [f"{row}{column}" for row in "123" for column in "123"], OrientationForm.MATRIX_ROWS, None),
+    (_QUATERNION, "xyzw", OrientationForm.QUAT_XYZW, None),
+    (_ANGLES, ("roll", "pitch", "yaw"), OrientationForm.EULER, _OF_ANGLES),
+    (_ROTATION_VECTOR, "xyz", OrientationForm.ROTATION_VECTOR, _OF_ANGLES),
+)
+"""Axes of orientations in their order, forms, and units of the columns; None for any."""
 FORMS_OF_THREE = (OrientationForm.EULER, OrientationForm.ROTATION_VECTOR)
 """Forms that three numbers may have, which their headings do not tell apart for sure."""
 _ORDERS = (OrientationForm.QUAT_XYZW, OrientationForm.QUAT_WXYZ)
@@ -81,7 +91,6 @@ _ESTIMATED = re.compile(
 )
 """Names of wrenches that controllers compute from the torques of joints."""
 _WANTED = re.compile(r"(?:^|_)(?:target|desired|cmd|command(?:s|ed)?|ref(?:erence)?|set_?point|goal|soll)(?:_|$)")
-_FIXED_ROWS = 9
 _OF_JOINTS = {"j", "joint", "joints"}
 """Words of columns that are of joints, however many they are."""
 
@@ -133,13 +142,10 @@ def column_matches(
     used: set[int] = set()
     groups: list[ColumnMatch] = []
     units = [heading.unit for heading in headings]
-    for search in (
+    searches: tuple[Callable[[Mapping[int, str], Sequence[str]], Sequence[ColumnMatch]], ...] = (
         _of_joints,
         _wrenches,
-        _rotations,
-        _quaternions,
-        partial(_angles, units),
-        partial(_rotation_vectors, units),
+        *(partial(_orientations, units, *one) for one in _ORIENTATIONS),
         _vectors,
         partial(_temperatures, units, time),
         partial(_listed_quaternions, unit_fours),
@@ -147,7 +153,8 @@ def column_matches(
         partial(_numbered, units),
         partial(_pressures, groups),
         partial(_wrenches_by_unit, headings, groups),
-    ):
+    )
+    for search in searches:
         free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
             if used.isdisjoint(group.columns):
@@ -228,55 +235,25 @@ def _wrenches(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatc
     return wrenches
 
 
-def _rotations(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    order = [f"{row}{column}" for row in "123" for column in "123"]
-    groups = _axes(free, _MATRIX).values()
-    plain = ({axis.replace("_", ""): k for axis, k in axes.items()} for axes in groups)
-    return [
-        ColumnMatch(
-            quantity="orientation", columns=tuple(axes[entry] for entry in order), form=OrientationForm.MATRIX_ROWS
-        )
-        for axes in plain
-        if len(axes) == _FIXED_ROWS
-    ]
-
-
-def _quaternions(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    return [
-        ColumnMatch(
-            quantity="orientation", columns=tuple(axes[axis] for axis in "xyzw"), form=OrientationForm.QUAT_XYZW
-        )
-        for axes in _axes(free, _QUATERNION).values()
-        if len(axes) == 4
-    ]
-
-
 def _with_units(free: Mapping[int, str], units: Sequence[str | None], allowed: Sequence[str | None]) -> dict[int, str]:
     return {k: name for k, name in free.items() if units[k] in allowed}
 
 
-def _angles(units: Sequence[str | None], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
+def _orientations(
+    units: Sequence[str | None],
+    pattern: re.Pattern[str],
+    axes: Sequence[str],
+    form: OrientationForm,
+    allowed: Sequence[str | None] | None,
+    free: Mapping[int, str],
+    joints: Sequence[str],
+) -> list[ColumnMatch]:
+    free = free if allowed is None else _with_units(free, units, allowed)
+    groups = ({axis.replace("_", ""): k for axis, k in named.items()} for named in _axes(free, pattern).values())
     return [
-        ColumnMatch(
-            quantity="orientation",
-            columns=tuple(axes[axis] for axis in ("roll", "pitch", "yaw")),
-            form=OrientationForm.EULER,
-        )
-        for axes in _axes(_with_units(free, units, _OF_ANGLES), _ANGLES).values()
-        if len(axes) == 3
-    ]
-
-
-def _rotation_vectors(units: Sequence[str | None], free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    """Three numbers, which may be Euler angles too: the form is asked; with a fourth, w, they are neither."""
-    return [
-        ColumnMatch(
-            quantity="orientation",
-            columns=tuple(axes[axis] for axis in "xyz"),
-            form=OrientationForm.ROTATION_VECTOR,
-        )
-        for axes in _axes(_with_units(free, units, _OF_ANGLES), _ROTATION_VECTOR).values()
-        if set(axes) == set("xyz")
+        ColumnMatch(quantity="orientation", columns=tuple(named[axis] for axis in axes), form=form)
+        for named in groups
+        if set(named) == set(axes)
     ]
 
 
@@ -301,14 +278,12 @@ def _wrenches_by_unit(
 
 
 def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[ColumnMatch]:
-    vectors = []
-    for words, quantity, question in _VECTORS:
-        pattern = re.compile(rf"^(?P<before>|.*[ _./:]){words}{_APART}(?P<axis>[xyz])$")
-        for axes in _axes(free, pattern).values():
-            if len(axes) == 3:
-                columns = tuple(axes[axis] for axis in "xyz")
-                vectors.append(ColumnMatch(quantity=quantity, columns=columns, words=question))
-    return vectors
+    return [
+        ColumnMatch(quantity=quantity, columns=tuple(axes[axis] for axis in "xyz"), words=question)
+        for pattern, quantity, question in _VECTORS
+        for axes in _axes(free, pattern).values()
+        if len(axes) == 3
+    ]
 
 
 def _temperatures(

@@ -44,6 +44,8 @@ class Correction:
     """Name of the table in the list; empty for none."""
     cause: str = ""
     """What is wrong with the value that is stated; empty where the fault has all of it."""
+    is_first: bool = False
+    """Whether a table that is added stands in front of those that the list has."""
 
     @property
     def is_shared(self) -> bool:
@@ -62,7 +64,8 @@ class Correction:
         """
         changed = deepcopy(dict(content))
         if not self.key:
-            changed[self.table] = [*changed.get(self.table, []), value]
+            others = changed.get(self.table, [])
+            changed[self.table] = [value, *others] if self.is_first else [*others, value]
         else:
             table = changed[self.table] if self.index is None else changed[self.table][self.index]
             table[self.key] = value
@@ -81,7 +84,7 @@ class Correction:
         if self.key:
             edit = key_edit(text, self.table, self.index or 0, self.key, self.value)
         else:
-            edit = table_edit(text, self.table, self.value, before="sensor")
+            edit = table_edit(text, self.table, self.value, before=self.table if self.is_first else "sensor")
         return edit if edit is not None and edit.results_in(self.content(content, self.value), text) else None
 
     @property
@@ -89,7 +92,8 @@ class Correction:
         """What a person writes."""
         header = f"[{self.table}]" if self.index is None and self.key else f"[[{self.table}]]"
         if not self.key:
-            return f"write {header} {', '.join(f'{key} = {toml_value(value)}' for key, value in self.value.items())}"
+            keys = ", ".join(f"{key} = {toml_value(value)}" for key, value in self.value.items())
+            return f"write {header} {keys}{', in front of the others' if self.is_first else ''}"
         return f"write {self.key} = {toml_value(self.value)} in {header}{f' {self.owner!r}' if self.owner else ''}"
 
 
@@ -184,6 +188,9 @@ def _of_delay(
     content: Mapping[str, Any], comparison: Comparison, fault: Explanation, delay_s: float
 ) -> Correction | DividedStream | None:
     late, other = late_and_kept(comparison, fault)
+    shifts = comparison.run.experiment.recording.clocks
+    if other == late:
+        return DividedStream.of(content, late, delay_s, shifts)
     for number, clock in enumerate(tables_of(content, "clock")):
         if late in (clock["stream"] if isinstance(clock["stream"], list) else [clock["stream"]]):
             known = clock["delay_s"]
@@ -191,7 +198,6 @@ def _of_delay(
                 return None
             total = round(float(known) + delay_s, 4)
             return Correction(table="clock", index=number, key="delay_s", value=total, tried=total, owner=late)
-    if other == late:
-        return DividedStream.of(content, late, delay_s)
     clock = {"stream": late, "to": other, "delay_s": round(delay_s, 4)}
-    return Correction(table="clock", index=None, key="", value=clock, tried=clock)
+    is_first = any(one.to == late for one in shifts)
+    return Correction(table="clock", index=None, key="", value=clock, tried=clock, is_first=is_first)

@@ -8,9 +8,10 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
-from forcetorque.inspection.draft.edits import Edit, edit_between, key_edit, table_blocks
-from forcetorque.inspection.draft.toml_lines import line, tables_of, toml_value
-from forcetorque.inspection.fault_messages import motion_name
+from forcetorque.inspection.draft.edits import Edit, edit_between, key_edit, table_blocks, table_edit
+from forcetorque.inspection.draft.toml_lines import tables_of, toml_value
+from forcetorque.inspection.fault_messages import clock_of_division, motion_name
+from forcetorque.recording.alignment import ClockShift
 
 _JOINTS = ("position", "velocity", "acceleration", "torque", "motor_current", "pwm")
 _FRAMES = ("orientation", "translation", "gravity", "proper_acceleration", "angular_velocity", "angular_acceleration")
@@ -30,22 +31,28 @@ class DividedStream:
     """Other sensors have the motion too."""
     stream: str
     """The stream."""
-    value: float
-    """By how much the stamps of the sensor's signals are late; s."""
+    clock: Mapping[str, Any]
+    """The `[[clock]]` of one of the two streams."""
+    is_first: bool
+    """Whether it stands in front of others, which bring streams to the clock of this one."""
 
     @classmethod
-    def of(cls, content: Mapping[str, Any], stream: str, delay_s: float) -> DividedStream | None:
+    def of(
+        cls, content: Mapping[str, Any], stream: str, delay_s: float, shifts: Sequence[ClockShift]
+    ) -> DividedStream | None:
         """Plan the division.
 
         Args:
             content: Tables of the experiment file.
             stream: The stream.
             delay_s: By how much the stamps of the sensor's signals are late; s.
+            shifts: What the clocks of the file did.
 
         Returns:
             The division; None where the file lists no signals of the stream, or of one kind alone.
         """
-        division = cls(stream=stream, value=round(delay_s, 4))
+        clock, is_first = clock_of_division(stream, delay_s, shifts)
+        division = cls(stream=stream, clock=clock, is_first=is_first)
         signals = next((one.get("signal", ()) for one in _streams(content) if one.get("name") == stream), ())
         moves = [one.get("quantity") in _OF_MOTION for one in signals]
         return division if any(moves) and not all(moves) else None
@@ -53,17 +60,16 @@ class DividedStream:
     @property
     def tried(self) -> float:
         """What is tried is what is written."""
-        return self.value
-
-    @property
-    def _clock(self) -> dict[str, Any]:
-        return {"stream": self.stream, "to": motion_name(self.stream), "delay_s": self.value}
+        return float(self.clock["delay_s"])
 
     @property
     def by_hand(self) -> str:
         """What a person writes."""
-        clock = ", ".join(f"{key} = {toml_value(value)}" for key, value in self._clock.items())
-        return f"list the signals of the motion in a [[recording.stream]] of their own and write [[clock]] {clock}"
+        clock = ", ".join(f"{key} = {toml_value(value)}" for key, value in self.clock.items())
+        place = ", in front of the others" if self.is_first else ""
+        return (
+            f"list the signals of the motion in a [[recording.stream]] of their own and write [[clock]] {clock}{place}"
+        )
 
     def content(self, content: Mapping[str, Any], value: float) -> dict[str, Any]:
         """Change the content of a file.
@@ -86,7 +92,8 @@ class DividedStream:
             moving = [signal for signal in signals if signal["quantity"] in _OF_MOTION]
             streams += [{**one, "signal": own}, {**one, "name": motion_name(self.stream), "signal": moving}]
         changed["recording"]["stream"] = streams
-        changed["clock"] = [*changed.get("clock", ()), {**self._clock, "delay_s": value}]
+        clock, others = {**self.clock, "delay_s": value}, changed.get("clock", [])
+        changed["clock"] = [clock, *others] if self.is_first else [*others, clock]
         for table, _, key, names in self._references(changed):
             table[key] = names
         return changed
@@ -119,12 +126,11 @@ class DividedStream:
             *(text for own, block in zip(is_own, blocks.inner, strict=True) if own for text in block),
             *named.applied("\n".join(blocks.head) + "\n").removesuffix("\n").split("\n"),
             *(text for own, block in zip(is_own, blocks.inner, strict=True) if not own for text in block),
-            "[[clock]]",
-            *(line(key, value) for key, value in self._clock.items()),
-            "",
         ]
-        edit = edit_between(text, "\n".join([*blocks.before, *divided, *blocks.behind]) + "\n")
-        return edit if edit.results_in(self.content(content, self.value), text) else None
+        changed = "\n".join([*blocks.before, *divided, *blocks.behind]) + "\n"
+        clock = table_edit(changed, "clock", self.clock, before="clock" if self.is_first else "sensor")
+        edit = None if clock is None else edit_between(text, clock.applied(changed))
+        return edit if edit is not None and edit.results_in(self.content(content, self.tried), text) else None
 
     def _references(self, content: Mapping[str, Any]) -> Iterator[tuple[Any, tuple[str, int], str, list[str]]]:
         """Tables that list the stream as that of a motion, with their names, keys and new lists."""

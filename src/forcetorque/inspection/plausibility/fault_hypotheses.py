@@ -18,6 +18,7 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.inspection.plausibility.evidence import Evidence, Fit
+from forcetorque.robot.mounting import nearest_rotation, rotation_by, rotation_vector
 
 FaultKind = Literal[
     "reversed",
@@ -222,20 +223,19 @@ def _mount(evidence: Evidence, expected: FloatArray) -> Explanation:
     for own in FORCE_AND_MOMENT:
         scaled = (evidence.measured[:, own] - middle[1][own]) / evidence.size[own] ** 2
         correlation += (evidence.weights[:, None] * scaled).T @ (expected[:, own] - middle[0][own])
-    u, _, vt = np.linalg.svd(correlation)
-    rotation = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ vt
+    rotation = nearest_rotation(correlation)
     for _ in range(3):
-        turn = np.kron(np.eye(2), rotation)
+        turn: FloatArray = np.asarray(np.kron(np.eye(2), rotation), dtype=np.float64)
         turned = expected @ turn.T
         # exp(d) w = w + d x w
         columns = np.stack(
             [np.hstack([turned[:, own] @ skew(axis).T for own in FORCE_AND_MOMENT]) for axis in np.eye(3)], axis=2
         )
         fit = evidence.fit(expected, turn, columns)
-        rotation = _rotation(np.clip(fit.step, -0.3, 0.3)) @ rotation
-    turn = np.kron(np.eye(2), rotation)
+        rotation = rotation_by(np.clip(fit.step, -0.3, 0.3)) @ rotation
+    turn = np.asarray(np.kron(np.eye(2), rotation), dtype=np.float64)
     fit = evidence.fit(expected, turn, columns)
-    vector = -_rotation_vector(rotation)  # components of a wrench turn against the axes of the sensor
+    vector = -rotation_vector(rotation)  # components of a wrench turn against the axes of the sensor
     angle = float(np.linalg.norm(vector))
     axis = vector / angle if angle > 0.0 else np.array([0.0, 0.0, 1.0])
     if axis[np.argmax(np.abs(axis))] < 0.0:  # 10 deg about -z are -10 deg about z
@@ -251,31 +251,6 @@ def _mount(evidence: Evidence, expected: FloatArray) -> Explanation:
         vector=axis,
         parameters=3,
     )
-
-
-def _rotation(vector: FloatArray) -> FloatArray:
-    """Rotation about an axis by its length in rad (Rodrigues), without the import of scipy.spatial."""
-    angle = float(np.linalg.norm(vector))
-    if angle == 0.0:
-        return np.eye(3)
-    across = skew(vector / angle)
-    return np.asarray(np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * across @ across)
-
-
-def _rotation_vector(rotation: FloatArray) -> FloatArray:
-    """Axis times angle of a rotation; rad."""
-    turned = np.array(
-        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
-    )
-    sine, cosine = float(np.linalg.norm(turned)) / 2.0, (float(np.trace(rotation)) - 1.0) / 2.0
-    angle = float(np.arctan2(sine, cosine))
-    if cosine > 0.0:
-        return turned / 2.0 * (angle / sine if sine > 0.0 else 1.0)
-    # the symmetric part is cos 1 + (1 - cos) a a^T, which gives the axis but for its sign
-    outer = (rotation + rotation.T) / 2.0 - cosine * np.eye(3)
-    axis = outer[:, int(np.argmax(np.diag(outer)))]
-    axis = axis / np.linalg.norm(axis)
-    return np.asarray(angle * axis * (-1.0 if axis @ turned < 0.0 else 1.0))
 
 
 def _of_gravity(evidence: Evidence, robot: Robot) -> Iterator[Explanation]:

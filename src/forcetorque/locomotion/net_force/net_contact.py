@@ -28,7 +28,7 @@ from forcetorque.recording.recording import Interval, Support, Use
 from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 
 _NO_GAIN = 1e-9
@@ -239,15 +239,7 @@ def _demanded(problem: IntervalProblem) -> FloatArray | None:
     needed = required_joints_of(question)
     if support is None or not set(needed) <= set(experiment.recording.joint_signals("position")):
         return None
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        needed,
-        clock_stream(experiment),
-        problem.samples.stamp_ns,
-        processing=experiment.processing,
-    )
+    joints, root = experiment.motion_at(support, needed, clock_stream(experiment), problem.samples.stamp_ns)
     return estimate(question, joints, root).contact_wrenches[:, 0]
 
 

@@ -16,7 +16,7 @@ from forcetorque.base.pose import invert_pose, make_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.estimation.skin_contacts import clock_stream, uncertainty_of
-from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_determined
+from forcetorque.estimation.uncertain.estimate import UncertainEstimates, estimate_with_covariance
 from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.file import parse_experiment
@@ -195,8 +195,14 @@ def _feet(
     uncertainty = _uncertainty(scene, corrections, measured)
     uncertain: UncertainEstimates | None = None
     if uncertainty.measured:
-        uncertain = estimate_determined(
-            scene.question, scene.joints, scene.root, measured=measured, known=known, uncertainty=uncertainty
+        uncertain = estimate_with_covariance(
+            scene.question,
+            scene.joints,
+            scene.root,
+            measured=measured,
+            known=known,
+            uncertainty=uncertainty,
+            must_be_determined=False,
         )
     least_N, inside = options.least_load_N(scene.weight_N), scene.samples.inside
     for entry in scene.experiment.section(SOLES):

@@ -30,7 +30,7 @@ from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.recording.stream import Stream
 from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.tree import build_tree
 
@@ -263,15 +263,7 @@ def _on_sole(
     rooted = replace(support, frame=sole.frame) if isinstance(support, MovingSupport) else support
     tree = build_tree(experiment.model_on(rooted), rooted.frame)
     question = Question(tree=tree, contacts=(sole.contact,), equations=())
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        rooted,
-        required_joints_of(question),
-        stream,
-        samples.stamp_ns,
-        processing=experiment.processing,
-    )
+    joints, root = experiment.motion_at(rooted, required_joints_of(question), stream, samples.stamp_ns)
     inside = samples.inside
     root_H_sole = {one.frame: link_pose(tree, joints, one.frame) @ one.contact.link_H_contact for one in soles}
     sole_H_root = invert_pose(root_H_sole[sole.frame])

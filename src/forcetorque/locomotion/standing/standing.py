@@ -36,7 +36,7 @@ from forcetorque.locomotion.standing.result import (
 from forcetorque.locomotion.standing.sole_limits import SoleEventRow, sole_events
 from forcetorque.locomotion.standing.support_phases import NO_FOOT, require_support
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Table, optional_table, table_of
 
 _LOG = logging.getLogger(__name__)
 
@@ -107,17 +107,17 @@ class Balance(DrawnResult):
             "± half its 95 % interval where it is stationary noise or the phase recurs",
             leave_out=() if any(row.logged_N is not None for row in self.phases) else ("logged_N",),
         )
-        if self.feet:
-            yield table_of(
-                self.feet,
-                "centre of pressure of each foot, on its sole; x, y: means; ± half a 95 % interval of one point",
-            )
-        if self.events:
-            yield table_of(self.events, "what the ground cannot do to a sole, and slips; ±: half a 95 % interval")
-        if self.robot:
-            yield table_of(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
-        if self.pendulum:
-            yield table_of(self.pendulum, "acceleration of the centre of mass by (5.22), beside that of the joints")
+        yield from optional_table(
+            self.feet,
+            "centre of pressure of each foot, on its sole; x, y: means; ± half a 95 % interval of one point",
+        )
+        yield from optional_table(
+            self.events, "what the ground cannot do to a sole, and slips; ±: half a 95 % interval"
+        )
+        yield from optional_table(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
+        yield from optional_table(
+            self.pendulum, "acceleration of the centre of mass by (5.22), beside that of the joints"
+        )
         rule = "a foot is down as the intervals state"
         if self.contact_threshold_N is not None:
             rule = (

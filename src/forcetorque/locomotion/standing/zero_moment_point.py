@@ -36,7 +36,7 @@ from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.dynamics import joints_between, link_pose
 from forcetorque.robot.mechanics.estimate import estimate
-from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples, robot_motion_at
+from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
 from forcetorque.robot.mechanics.question import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import BodyTree, build_tree
@@ -113,15 +113,7 @@ class BalanceScene:
         carrying = required_joints_of(_whole(tree, contacts[0]))
         missing = tuple(joint for joint in carrying if joint not in logged)
         wanted = needed if missing else tuple(dict.fromkeys((*needed, *carrying)))
-        joints, root = robot_motion_at(
-            recording,
-            experiment.model,
-            support,
-            wanted,
-            source,
-            samples.stamp_ns,
-            processing=experiment.processing,
-        )
+        joints, root = experiment.motion_at(support, wanted, source, samples.stamp_ns)
         return cls(
             experiment=experiment,
             interval=interval,

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Annotated, ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal, TypeVar
 
 import numpy as np
 from pydantic import Field
@@ -14,6 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ControlError
 from forcetorque.locomotion.torque_control.balancing import Balance, Phase, standing
 from forcetorque.locomotion.torque_control.closed_loop import LoopSetting, drawn_matrices
+from forcetorque.locomotion.torque_control.controller import TorqueGains
 from forcetorque.locomotion.torque_control.file import PERIOD_S, TorqueLoopFile
 from forcetorque.locomotion.torque_control.linear_robot import (
     linear_robot,
@@ -115,7 +116,7 @@ class OscillationCauses(DrawnResult):
         yield "all but the cause is as in the file; the loops are linear: no limits, no dry friction, no foot that tips"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Cause:
     """One property: values to try, and how stable the loop is there with E of the four sensors."""
 
@@ -165,7 +166,7 @@ def _torque_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
     still = standing(biped, Phase.LEFT, 2, file.motion.lift_m, setting.period_s)
     robot = linear_robot(biped, setting, still, 0)
     require_stable(robot)
-    doubled = linear_robot(biped, replace(setting, balance=_balance_times(setting, 2.0)), still, 0)
+    doubled = linear_robot(biped, replace(setting, balance=_times(setting.balance, 2.0, *_BALANCE_GAINS)), still, 0)
     links = massless_drives(biped, setting, still, 0)
 
     def of_setting(changed: Callable[[float], LoopSetting]) -> Callable[[float, FloatArray], Stability]:
@@ -184,68 +185,33 @@ def _torque_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
     factors, compliances = np.geomspace(1.0, 20.0, 16), np.geomspace(_STIFFEST, 100.0, 20)
     ankles = np.array(["ankle" in joint for joint in JOINTS])
     late, hold = float(setting.delay_steps), float(setting.hold_steps)
-    yield _Cause(
-        loop=TORQUES,
-        name="delay of the estimate, ms",
-        value=late,
-        grid=_milliseconds(late, 60.0),
-        stability=of_setting(lambda value: replace(setting, delay_steps=round(value))),
-        whole=True,
+    delayed = of_setting(lambda value: replace(setting, delay_steps=round(value)))
+    yield _Cause(TORQUES, "delay of the estimate, ms", late, _milliseconds(late, 60.0), delayed, whole=True)
+    held = of_setting(lambda value: replace(setting, hold_steps=round(value)))
+    yield _Cause(TORQUES, "interval between estimates, ms", hold, _milliseconds(hold, 100.0), held, whole=True)
+    stiffer = of_setting(
+        lambda value: replace(setting, gains=_times(gains, value, "proportional", "integral", "derivative"))
     )
-    yield _Cause(
-        loop=TORQUES,
-        name="interval between estimates, ms",
-        value=hold,
-        grid=_milliseconds(hold, 100.0),
-        stability=of_setting(lambda value: replace(setting, hold_steps=round(value))),
-        whole=True,
-    )
-    yield _Cause(
-        loop=TORQUES,
-        name="gains of the torque controllers",
-        value=1.0,
-        grid=factors,
-        stability=of_setting(
-            lambda value: replace(
-                setting,
-                gains=replace(
-                    gains,
-                    proportional=value * gains.proportional,
-                    integral=value * gains.integral,
-                    derivative=value * gains.derivative,
-                ),
-            )
-        ),
-    )
+    yield _Cause(TORQUES, "gains of the torque controllers", 1.0, factors, stiffer)
     if np.any(gains.bemf):  # none of it cannot be worsened by a factor
-        yield _Cause(
-            loop=TORQUES,
-            name="compensation of viscous friction",
-            value=1.0,
-            grid=np.geomspace(1.0, 100.0, 20),
-            stability=of_setting(lambda value: replace(setting, gains=replace(gains, bemf=value * gains.bemf))),
-        )
-    yield _Cause(loop=TORQUES, name="gains of the balancing controller", value=1.0, grid=factors, stability=balanced)
-    for name, joints in (
-        ("compliance of the ankles, rad/(kN m)", ankles),
-        ("compliance of all joints, rad/(kN m)", np.ones(len(JOINTS), dtype=bool)),
-    ):
-        yield _Cause(loop=TORQUES, name=name, value=0.0, grid=compliances, stability=elastic(joints))
+        viscous = of_setting(lambda value: replace(setting, gains=_times(gains, value, "bemf")))
+        yield _Cause(TORQUES, "compensation of viscous friction", 1.0, np.geomspace(1.0, 100.0, 20), viscous)
+    yield _Cause(TORQUES, "gains of the balancing controller", 1.0, factors, balanced)
+    every = np.ones(len(JOINTS), dtype=bool)
+    yield _Cause(TORQUES, "compliance of the ankles, rad/(kN m)", 0.0, compliances, elastic(ankles))
+    yield _Cause(TORQUES, "compliance of all joints, rad/(kN m)", 0.0, compliances, elastic(every))
 
 
 _STIFFEST: Final = 0.01
 """Compliance of what is called rigid; rad/(kN m)."""
+_BALANCE_GAINS: Final = ("centre_stiffness", "centre_damping", "posture_stiffness", "posture_damping")
 
 
-def _balance_times(setting: LoopSetting, factor: float) -> Balance:
-    balance = setting.balance
-    return replace(
-        balance,
-        centre_stiffness=factor * balance.centre_stiffness,
-        centre_damping=factor * balance.centre_damping,
-        posture_stiffness=factor * balance.posture_stiffness,
-        posture_damping=factor * balance.posture_damping,
-    )
+_Scaled = TypeVar("_Scaled", TorqueGains, Balance)
+
+
+def _times(values: _Scaled, factor: float, *keys: str) -> _Scaled:
+    return replace(values, **{key: factor * getattr(values, key) for key in keys})
 
 
 def _zmp_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
@@ -259,28 +225,18 @@ def _zmp_causes(file: TorqueLoopFile, biped: Biped) -> Iterator[_Cause]:
     def scaled(key: str) -> Callable[[float, FloatArray], Stability]:
         return of(lambda value: controller.model_copy(update={key: value * getattr(controller, key)}))
 
-    yield _Cause(
-        loop=ZMP,
-        name="delay of the zero moment point, ms",
-        value=late,
-        grid=_milliseconds(late, 100.0),
-        stability=of(lambda value: controller.model_copy(update={"delay_s": PERIOD_S * value})),
-        whole=True,
-    )
-    yield _Cause(
-        loop=ZMP,
-        name="natural frequency on the compliance, Hz",
-        value=controller.sway_hz,
-        grid=np.geomspace(controller.sway_hz, 10.0 * controller.sway_hz, 20),
-        stability=of(lambda value: controller.model_copy(update={"sway_hz": value})),
-    )
+    hertz = np.geomspace(controller.sway_hz, 10.0 * controller.sway_hz, 20)
+    delayed = of(lambda value: controller.model_copy(update={"delay_s": PERIOD_S * value}))
+    yield _Cause(ZMP, "delay of the zero moment point, ms", late, _milliseconds(late, 100.0), delayed, whole=True)
+    swaying = of(lambda value: controller.model_copy(update={"sway_hz": value}))
+    yield _Cause(ZMP, "natural frequency on the compliance, Hz", controller.sway_hz, hertz, swaying)
     for name, key in (
         ("gain of the zero moment point", "zmp_gain"),
         ("gain of the centre of mass", "centre_gain"),
         ("gain of the divergent component", "dcm_gain"),
         ("lag of the joints", "lag_s"),
     ):
-        yield _Cause(loop=ZMP, name=name, value=1.0, grid=np.geomspace(1.0, 20.0, 20), stability=scaled(key))
+        yield _Cause(ZMP, name, 1.0, np.geomspace(1.0, 20.0, 20), scaled(key))
 
 
 def study_causes(file: TorqueLoopFile, progress: Callable[[str], None]) -> OscillationCauses:

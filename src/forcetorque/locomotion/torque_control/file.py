@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Final, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.toml_file import NotNegative, Positive, Table, Text, read_toml
 from forcetorque.locomotion.torque_control.balancing import Balance, Timing
@@ -140,11 +139,7 @@ class TorqueLoopFile(Table):
         }
         for what, steps in steps_of.items():
             if abs(steps - round(steps)) > 1e-6:
-                raise PydanticCustomError(
-                    "whole_steps",
-                    "{what}: expected a whole number of periods of the controller, 1 ms, got {steps}",
-                    {"what": what, "steps": f"{steps:g}"},
-                )
+                raise ValueError(f"{what}: expected a whole number of periods of the controller, 1 ms, got {steps:g}")
         return self
 
     def _hold(self) -> float:

@@ -29,7 +29,7 @@ from forcetorque.base.input_file import read_text
 from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.export.load_parameters import RobotLoad
-from forcetorque.payload.export.yaml_parameters import list_of, number, number_of, numbers, read_plain_yaml, word
+from forcetorque.payload.export.yaml_parameters import number, numbers, word
 
 CONTROLLER = "force_torque_sensor_broadcaster"
 """Name of the controller, as its examples have it; it is free."""
@@ -149,29 +149,6 @@ def ft_tools_text(load: RobotLoad) -> str:
     return "\n".join([f"mass: {number(load.mass)}", *(f"{key}: {numbers(values)}" for key, values in vectors), ""])
 
 
-def read_ft_tools(path: Path | str, *, sensor: str, frame: str) -> RobotLoad:
-    """Read the parameters.
-
-    Args:
-        path: The file.
-        sensor: Name of the sensor, which it does not hold.
-        frame: Name of the sensor's frame, which it does not hold.
-
-    Returns:
-        The load.
-    """
-    values = read_plain_yaml(path, _FT_TOOLS_KEYS)
-    centre, force, moment = (list_of(values, key, 3, where=str(path)) for key in _FT_TOOLS_KEYS[1:])
-    return RobotLoad(
-        sensor=sensor,
-        frame=frame,
-        direction=FT_TOOLS_DIRECTION,
-        mass=number_of(values, "mass", where=str(path)),
-        centre_of_mass=np.array(centre),
-        bias=np.array([*force, *moment]),
-    )
-
-
 FORCE_TORQUE_TOOLS_DIRECTION = MeasureDirection.PARENT_TO_CHILD
 """Who acts on whom in its readings."""
 
@@ -192,31 +169,3 @@ def force_torque_tools_text(load: RobotLoad) -> str:
         number(load.mass),
     )
     return "\n".join([*(f"{key}: {value}" for key, value in zip(_FORCE_TORQUE_TOOLS_KEYS, values, strict=True)), ""])
-
-
-def read_force_torque_tools(path: Path | str, *, sensor: str) -> RobotLoad:
-    """Read the parameters.
-
-    Args:
-        path: The file.
-        sensor: Name of the sensor, which it does not hold.
-
-    Returns:
-        The load, in the frame that the file names.
-
-    Raises:
-        FormatError: If the frame is no name.
-    """
-    values = read_plain_yaml(path, _FORCE_TORQUE_TOOLS_KEYS)
-    frame = values["gripper_com_frame_id"]
-    if not isinstance(frame, str) or not frame:
-        raise FormatError(f"{path}: gripper_com_frame_id: expected the name of a frame, got {frame!r}")
-    return RobotLoad(
-        sensor=sensor,
-        frame=frame,
-        direction=FORCE_TORQUE_TOOLS_DIRECTION,
-        mass=number_of(values, "gripper_mass", where=str(path)),
-        # how the frame of the centre of mass is turned does not matter
-        centre_of_mass=np.array(list_of(values, "gripper_com_pose", 6, where=str(path))[:3]),
-        bias=np.array(list_of(values, "bias", 6, where=str(path))),
-    )

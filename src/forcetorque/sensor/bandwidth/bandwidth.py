@@ -18,7 +18,7 @@ from forcetorque.experiment.additions import with_recording_notes
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Table, optional_table, table_of
 from forcetorque.sensor.bandwidth.decays import DecayCurve, Decays, EventRow, ResponseNumber, free_decays, numbers
 from forcetorque.sensor.bandwidth.driven import (
     ChannelResponse,
@@ -92,10 +92,8 @@ class Response(DrawnResult):
             )
             return
         what = f"{self.sensor} ({self.serial}), {self.wrench_source}: {self.excitation}, {self.signal}"
-        if self.events:
-            yield table_of(self.events, f"{what}: {len(self.events)} events")
-        if self.numbers:
-            yield table_of(self.numbers, f"{what}, sampled at {self.rate_hz:.5g} Hz")
+        yield from optional_table(self.events, f"{what}: {len(self.events)} events")
+        yield from optional_table(self.numbers, f"{what}, sampled at {self.rate_hz:.5g} Hz")
         if self.curve is not None:
             yield (
                 f"the measured force explains {100 * self.curve.explained_share:.1f} % of the power of the reading "

@@ -54,18 +54,19 @@ def choice_figure(choice: SensorChoice) -> Figure:
     ranges.axvline(100.0 * (1.0 - choice.margin), **LIMIT_LINE)
     ranges.set_yticks(places, [shown_name(row.name) for row in choice.sensors])
     ranges.invert_yaxis()
-    ranges.set_xlim(0.0, _MOST_PERCENT)
-    ranges.set_xlabel("shares of all axes together, % of the range")
+    ranges.set(xlim=(0.0, _MOST_PERCENT), xlabel="shares of all axes together, % of the range")
     ranges.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     for k, curve in enumerate(choice.curves):
         style = look(k)
         readings.plot(
             curve.time_s, curve.share, **style.key, markevery=(30 * k, 240), linewidth=0.9, label=curve.principle
         )
-    readings.set_ylim(-0.2, 1.6)
-    readings.set_xlabel("time, s")
-    readings.set_ylabel("reading over load")
-    readings.set_title(f"{shown_name(choice.largest)} from 10 s on, 0.1 degC warmer from 60 to 120 s, simulated")
+    readings.set(
+        ylim=(-0.2, 1.6),
+        xlabel="time, s",
+        ylabel="reading over load",
+        title=f"{shown_name(choice.largest)} from 10 s on, 0.1 degC warmer from 60 to 120 s, simulated",
+    )
     if choice.curves:
         readings.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     holding = sum(row.holds is Holds.HELD for row in choice.sensors)

@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, SensorError
@@ -38,14 +37,12 @@ class LoadCase(Table):
     @model_validator(mode="after")
     def _some_load(self) -> LoadCase:
         if not any((*self.force_N, *self.moment_Nm)):
-            raise PydanticCustomError("no_load", "expected a force_N or moment_Nm that is not zero")
+            raise ValueError("expected a force_N or moment_Nm that is not zero")
         with np.errstate(over="ignore", invalid="ignore"):
             largest = float(np.abs(self.wrench).max())
         if not _LEAST <= largest <= _MOST:
-            raise PydanticCustomError(
-                "no_sensor_load",
-                "expected a load of {least} to {most} N or N m in its largest component, got {largest}",
-                {"least": f"{_LEAST:g}", "most": f"{_MOST:g}", "largest": f"{largest:g}"},
+            raise ValueError(
+                f"expected a load of {_LEAST:g} to {_MOST:g} N or N m in its largest component, got {largest:g}"
             )
         return self
 
@@ -106,7 +103,7 @@ class LoadCaseFile(Table):
     def _names_differ(self) -> LoadCaseFile:
         names = [load.name for load in self.load]
         if len(set(names)) < len(names):
-            raise PydanticCustomError("twice", "expected each name of a load once, got {names}", {"names": names})
+            raise ValueError(f"expected each name of a load once, got {names}")
         return self
 
 

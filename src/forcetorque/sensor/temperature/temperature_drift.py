@@ -22,7 +22,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import with_error
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
+from forcetorque.results.table import FloatOrNull, Row, Shown, Table, optional_table, table_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
 from forcetorque.sensor.temperature.drift_regression import (
@@ -126,8 +126,7 @@ class SensorThermal(Row):
             f"heated and cooled, {self.lowest_degC:.1f} to {self.highest_degC:.1f} degC"
         )
         yield table_of(self.components, caption)
-        if self.channels:
-            yield table_of(self.channels, f"{self.sensor}, raw channels")
+        yield from optional_table(self.channels, f"{self.sensor}, raw channels")
         yield "±: half a 95 % interval"
         if self.thermometer_lag_s is not None and self.thermometer_lag_half_width_95_s is not None:
             lag = with_error(self.thermometer_lag_s, self.thermometer_lag_half_width_95_s, digits=0)

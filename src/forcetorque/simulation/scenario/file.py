@@ -10,7 +10,6 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.errors import ForceTorqueError, known_names
@@ -106,10 +105,9 @@ class Sensors(Table):
         if self.matrix_error is not None and (
             self.mounting_sd or self.mounting_strength or self.workbench_error is not None
         ):
-            raise PydanticCustomError(
-                "matrix_error",
+            raise ValueError(
                 "matrix_error stands for all that mounting does; leave it out, or mounting_sd, mounting_strength "
-                "and workbench_error",
+                "and workbench_error"
             )
         return self
 
@@ -154,7 +152,7 @@ class Robot(Table):
     @model_validator(mode="after")
     def _one_of_two(self) -> Robot:
         if (self.urdf is None) == (self.model is None):
-            raise PydanticCustomError("one_robot", "expected urdf, or model with a list of names")
+            raise ValueError("expected urdf, or model with a list of names")
         return self
 
 
@@ -244,7 +242,7 @@ class Motion(Table):
         }.get(self.kind, ("swing", "duration_s"))
         for key in needed:
             if getattr(self, key) is None:
-                raise PydanticCustomError("motion_key", "{message}", {"message": f"a {self.kind} motion needs {key}"})
+                raise ValueError(f"a {self.kind} motion needs {key}")
         return self
 
 
@@ -349,8 +347,7 @@ class ScenarioFile(Table):
     @model_validator(mode="after")
     def _has_what_the_error_is_taken_over(self) -> ScenarioFile:
         if self.sensors.workbench_error is not None and all(r.use is not Use.VALIDATION for r in self.recording):
-            message = 'sensors.workbench_error is taken over recordings with use = "validation", there is none'
-            raise PydanticCustomError("workbench_error", "{message}", {"message": message})
+            raise ValueError('sensors.workbench_error is taken over recordings with use = "validation", there is none')
         return self
 
     @model_validator(mode="after")
@@ -361,10 +358,9 @@ class ScenarioFile(Table):
                     f"recording {entry.name!r}: no foot stands all the time in a {entry.motion.kind} motion; it "
                     "needs [imu]"
                 )
-                raise PydanticCustomError("imu", "{message}", {"message": message})
+                raise ValueError(message)
         if self.imu is not None and self.network is not None:
-            message = "no port of a [network] carries an [imu] yet; leave out one of them"
-            raise PydanticCustomError("imu", "{message}", {"message": message})
+            raise ValueError("no port of a [network] carries an [imu] yet; leave out one of them")
         return self
 
     @model_validator(mode="after")
@@ -372,11 +368,7 @@ class ScenarioFile(Table):
         names = [entry.name for entry in self.recording]
         for name in names:
             if names.count(name) > 1 or not name.replace("-", "_").isidentifier():
-                raise PydanticCustomError(
-                    "recording_name",
-                    "{message}",
-                    {"message": f"recording {name!r}: expected a name of letters, digits, - and _, each once"},
-                )
+                raise ValueError(f"recording {name!r}: expected a name of letters, digits, - and _, each once")
         return self
 
 

@@ -14,7 +14,7 @@ from forcetorque.experiment.additions import ADDED, added_to, with_recording_not
 from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
 from forcetorque.recording.recording import Use
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Table, optional_table, table_of
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.section import load_patches
 from forcetorque.skin.taxels.curve_comparison import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
@@ -91,8 +91,7 @@ class SkinCalibration(DrawnResult):
             Tables and sentences.
         """
         yield table_of(self.recordings, f"{self.patch}: taxels by recording")
-        if self.candidates:
-            yield table_of(self.candidates, "where they were not fitted: medians over taxels of their rmse")
+        yield from optional_table(self.candidates, "where they were not fitted: medians over taxels of their rmse")
         yield table_of(self.taxels[:_SHOWN], f"taxels with the curve {self.curve}")
         if len(self.taxels) > _SHOWN:
             yield f"{len(self.taxels) - _SHOWN} more taxels; --format csv or json has all"

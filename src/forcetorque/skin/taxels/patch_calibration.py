@@ -10,7 +10,6 @@ from typing import Annotated, Any, Final, Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from forcetorque.base.arrays import (
     ArrayField,
@@ -214,7 +213,7 @@ class CalibratedTaxel(StoredTable):
         numbers = (self.coefficients, self.range_counts, self.rmse_pa, self.error_pa, self.hysteresis_pa)
         missing = [number is None for number in numbers]
         if any(missing) and (not all(missing) or not self.left_out):
-            raise PydanticCustomError("half_a_taxel", "expected a curve with its errors, or why there is none")
+            raise ValueError("expected a curve with its errors, or why there is none")
         return self
 
 
@@ -264,7 +263,7 @@ class PatchCalibration(StoredTable):
     @model_validator(mode="after")
     def _warm_up_of_its_taxels(self) -> PatchCalibration:
         if self.warm_up is not None and len(self.warm_up.taxels) != len(self.taxels):
-            raise PydanticCustomError("warm_up_taxels", "expected as many taxels in warm_up as in taxels")
+            raise ValueError("expected as many taxels in warm_up as in taxels")
         return self
 
     def __repr__(self) -> str:

@@ -17,7 +17,7 @@ from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.experiment.additions import added_to, with_recording_notes
 from forcetorque.experiment.input_files import stated_in
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import Table, table_of
+from forcetorque.results.table import Table, optional_table, table_of
 from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
 from forcetorque.skin.contact.contact_tracking import OFFERED, ReleaseRow
 from forcetorque.skin.contact.pressure_frame import PressureFrame
@@ -161,12 +161,10 @@ class SkinWrench(DrawnResult):
         Yields:
             A table and warnings.
         """
-        if self.contacts:
-            yield table_of(self.contacts[:_SHOWN], f"{self.patch}: contacts, force ± standard deviation")
+        yield from optional_table(self.contacts[:_SHOWN], f"{self.patch}: contacts, force ± standard deviation")
         if len(self.contacts) > _SHOWN:
             yield f"{len(self.contacts) - _SHOWN} more; --output or --format json has all, with wrenches and places"
-        if self.lives:
-            yield table_of(self.lives[:_SHOWN], "from first to last")
+        yield from optional_table(self.lives[:_SHOWN], "from first to last")
         if len(self.lives) > _SHOWN:
             yield f"{len(self.lives) - _SHOWN} more contacts"
         yield (
@@ -176,8 +174,7 @@ class SkinWrench(DrawnResult):
         )
         if self.weight is not None:
             yield table_of(self.weight.placements, f"{self.patch}: a weight of {self.weight.weight_N:.2f} N")
-        if self.releases:
-            yield table_of(self.releases[:_SHOWN], "released, and what was left")
+        yield from optional_table(self.releases[:_SHOWN], "released, and what was left")
         if any(row.re_tare == OFFERED for row in self.releases):
             yield "where nothing touched the patch after a release, --re-tare takes what was left as rest"
 

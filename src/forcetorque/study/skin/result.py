@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from operator import attrgetter
 from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
@@ -148,92 +149,67 @@ class SkinStudy(DrawnResult):
         yield table_of(self.compared, "over the loads of the printed tables; ± is half a 95 % interval over trials")
         yield from contradictions()
         level = [row for row in self.loads if row.degrees == LEVEL_DEG]
-        yield _force_table(level)
-        yield _torque_table(level)
-        yield _angle_table([row for row in self.loads if row.leaning])
+        forces = "Table 7.1, forces in N: means, mean absolute errors, and what the thesis prints"
+        yield _table(forces, level, _FORCES, 2)
+        torques = "Table 7.2, torque of the knee in N m: against the sensor, the truth, and what the thesis prints"
+        yield _table(torques, level, _TORQUES, 3)
+        leaning = "Table 7.3, torque of the knee in N m with 1 kg on top of a leaning leg"
+        yield _table(leaning, [row for row in self.loads if row.leaning], _ANGLES, 3)
         yield "robot, taxels, heat and loads are simulated; masses of the robot are exact; * is on top of the shin"
 
 
-def _force_table(rows: Sequence[LoadRow]) -> Table:
-    return Table(
-        caption="Table 7.1, forces in N: means, mean absolute errors, and what the thesis prints",
-        headings=(
-            *("mass", "weight", "simple", "interpolated", "error, simple", "error, interpolated", "beyond range"),
-            *("thesis, simple", "thesis, interpolated"),
-        ),
-        rows=tuple(
-            (
-                row.name,
-                *(
-                    number(value, 2)
-                    for value in (
-                        row.weight_N,
-                        row.simple_N,
-                        row.interpolated_N,
-                        row.simple_error_N,
-                        row.interpolated_error_N,
-                    )
-                ),
-                str(row.beyond_range),
-                *(number(value, 2) for value in (row.thesis.simple_N, row.thesis.interpolated_N)),
-            )
-            for row in rows
-        ),
-    )
+_FORCES: Final = {
+    "mass": "name",
+    "weight": "weight_N",
+    "simple": "simple_N",
+    "interpolated": "interpolated_N",
+    "error, simple": "simple_error_N",
+    "error, interpolated": "interpolated_error_N",
+    "beyond range": "beyond_range",
+    "thesis, simple": "thesis.simple_N",
+    "thesis, interpolated": "thesis.interpolated_N",
+}
+_TORQUES: Final = {
+    "mass": "name",
+    "FT": "ft_Nm",
+    "skin": "skin_Nm",
+    "sd, FT": "ft_sd_Nm",
+    "sd, skin": "skin_sd_Nm",
+    "RMSE to FT": "rmse_to_ft_Nm",
+    "truth": "knee_Nm",
+    "RMSE, FT": "ft_rmse_Nm",
+    "RMSE, skin": "skin_rmse_Nm",
+    "heat left in": "hot_rmse_Nm",
+    "thesis, FT": "thesis.ft_Nm",
+    "thesis, skin": "thesis.skin_Nm",
+    "thesis, RMSE to FT": "thesis.rmse_to_ft_Nm",
+}
+_ANGLES: Final = {
+    "degrees": "degrees",
+    "FT": "ft_Nm",
+    "skin": "skin_Nm",
+    "mean difference": "difference_Nm",
+    "RMSE to FT": "rmse_to_ft_Nm",
+    "truth": "knee_Nm",
+    "RMSE, skin": "skin_rmse_Nm",
+    "bias, skin": "skin_bias_Nm",
+    "along the shin": "along_share",
+    "thesis, FT": "thesis.leaning_ft_Nm",
+    "thesis, skin": "thesis.leaning_skin_Nm",
+    "thesis, RMSE to FT": "thesis.leaning_rmse_to_ft_Nm",
+}
+"""Fields of a load, or of what the thesis prints of it, by heading."""
 
 
-def _torque_table(rows: Sequence[LoadRow]) -> Table:
-    return Table(
-        caption="Table 7.2, torque of the knee in N m: against the sensor, the truth, and what the thesis prints",
-        headings=(
-            *("mass", "FT", "skin", "sd, FT", "sd, skin", "RMSE to FT", "truth", "RMSE, FT", "RMSE, skin"),
-            *("heat left in", "thesis, FT", "thesis, skin", "thesis, RMSE to FT"),
-        ),
-        rows=tuple(
-            (
-                row.name,
-                *(
-                    number(value, 3)
-                    for value in (
-                        *(row.ft_Nm, row.skin_Nm, row.ft_sd_Nm, row.skin_sd_Nm, row.rmse_to_ft_Nm),
-                        *(row.knee_Nm, row.ft_rmse_Nm, row.skin_rmse_Nm, row.hot_rmse_Nm),
-                        *(row.thesis.ft_Nm, row.thesis.skin_Nm, row.thesis.rmse_to_ft_Nm),
-                    )
-                ),
-            )
-            for row in rows
-        ),
-    )
+def _table(caption: str, rows: Sequence[LoadRow], fields: Mapping[str, str], digits: int) -> Table:
+    def cell(row: LoadRow, field: str) -> str:
+        value = attrgetter(field)(row)
+        if field == "along_share":
+            return f"{value:.1%}"
+        return str(value) if isinstance(value, str | int) else number(value, digits)
 
-
-def _angle_table(rows: Sequence[LoadRow]) -> Table:
-    return Table(
-        caption="Table 7.3, torque of the knee in N m with 1 kg on top of a leaning leg",
-        headings=(
-            *("degrees", "FT", "skin", "mean difference", "RMSE to FT", "truth", "RMSE, skin", "bias, skin"),
-            *("along the shin", "thesis, FT", "thesis, skin", "thesis, RMSE to FT"),
-        ),
-        rows=tuple(
-            (
-                str(row.degrees),
-                *(
-                    number(value, 3)
-                    for value in (
-                        *(row.ft_Nm, row.skin_Nm, row.difference_Nm, row.rmse_to_ft_Nm, row.knee_Nm),
-                        *(row.skin_rmse_Nm, row.skin_bias_Nm),
-                    )
-                ),
-                f"{row.along_share:.1%}",
-                *(
-                    number(value, 3)
-                    for value in (
-                        *(row.thesis.leaning_ft_Nm, row.thesis.leaning_skin_Nm, row.thesis.leaning_rmse_to_ft_Nm),
-                    )
-                ),
-            )
-            for row in rows
-        ),
-    )
+    lines = tuple(tuple(cell(row, field) for field in fields.values()) for row in rows)
+    return Table(caption=caption, headings=tuple(fields), rows=lines)
 
 
 def skin_study(trials: Trials, *, layout: str, taxels: int, seed: int) -> SkinStudy:
