@@ -20,6 +20,9 @@ UNPACKED_RATIO = 32
 """Bytes that a file may unpack to for each of its own, beyond that: numbers that are not packed need eight at most,
 those of a log at rest some twenty; a file that was made to fill the memory has a thousand."""
 
+READ_ERRORS = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
+"""What readers of other libraries raise on damaged files, beside errors of their own."""
+
 _KINDS = (
     (stat.S_ISDIR, "a folder"),
     (stat.S_ISFIFO, "a pipe"),

@@ -20,7 +20,7 @@ import pyarrow.parquet as pq
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, OutputError
-from forcetorque.base.input_file import read_text, require_file
+from forcetorque.base.input_file import READ_ERRORS, read_text, require_file
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.dataset.frames import whole_numbers
@@ -33,16 +33,7 @@ EPISODE_STATISTICS = "meta/episodes_stats.jsonl"
 """File of the statistics of the episodes of a dataset v2.1."""
 _LINKED = {"videos", "images"}
 """Folders whose files are not copied but get a second name."""
-_ARROW_ERRORS = (
-    ArithmeticError,
-    LookupError,
-    MemoryError,
-    OSError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-    pa.ArrowException,
-)
+_ARROW_ERRORS = (*READ_ERRORS, pa.ArrowException)
 EpisodeValues = Mapping[int, npt.NDArray[np.float32]]
 """Values of all added features by the number of the episode, frame by frame; shape (n, sum of widths)."""
 

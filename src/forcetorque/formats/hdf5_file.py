@@ -20,7 +20,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, FormatError, needs_extra
-from forcetorque.base.input_file import require_file, require_unpacked
+from forcetorque.base.input_file import READ_ERRORS, require_file, require_unpacked
 
 if TYPE_CHECKING:
     import h5py
@@ -129,7 +129,6 @@ DEEPEST = 32
 
 _LONGEST_HEADER = 1 << 16
 _CHECKSUM_SIZE = 4
-_READ_ERRORS = (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError, MemoryError)
 
 
 def is_hdf5_file(path: Path) -> bool:
@@ -182,7 +181,7 @@ def opened_hdf5(path: Path) -> Iterator[h5py.File]:
             yield file
     except ForceTorqueError:
         raise
-    except _READ_ERRORS as error:
+    except READ_ERRORS as error:
         reason = " ".join(str(error).split())[:200]
         raise FormatError(f"{path}: expected a whole HDF5 file, got one that cannot be read: {reason}") from error
 

@@ -18,7 +18,7 @@ from numpy.lib import format as npy
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError, FormatError
-from forcetorque.base.input_file import require_file
+from forcetorque.base.input_file import READ_ERRORS, require_file
 from forcetorque.formats.array_file.streams import ArrayContents
 
 MOST_ARRAYS = 10_000
@@ -29,10 +29,7 @@ _ZIP = b"PK\x03\x04"
 _HEADERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0}
 _LONGEST_HEADER = 1 << 14
 """Bytes in front of the numbers of an array; NumPy takes no more than 10000 characters."""
-_READ_ERRORS = (
-    *(ArithmeticError, AttributeError, LookupError, NotImplementedError, RuntimeError, TypeError, ValueError),
-    *(EOFError, MemoryError, OSError, SyntaxError, tokenize.TokenError, zipfile.BadZipFile, zlib.error),
-)
+_READ_ERRORS = (*READ_ERRORS, EOFError, SyntaxError, tokenize.TokenError, zipfile.BadZipFile, zlib.error)
 
 
 def is_npz_file(path: Path) -> bool:

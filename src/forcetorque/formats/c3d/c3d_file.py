@@ -21,24 +21,14 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, needs_extra
-from forcetorque.base.input_file import require_file
+from forcetorque.base.input_file import READ_ERRORS, require_file
 
 _BLOCK = 512
 """Bytes of a block, in which a file is counted."""
 _MAGIC = 0x50
 _PROCESSORS = {84: "<", 85: "<", 86: ">"}
 """Byte order by the code of the processor: Intel, DEC, SGI."""
-_DAMAGED = (
-    AssertionError,
-    AttributeError,
-    LookupError,
-    MemoryError,
-    OverflowError,
-    RecursionError,
-    TypeError,
-    ValueError,
-    struct.error,
-)
+_DAMAGED = (*READ_ERRORS, AssertionError, struct.error)
 """What the library raises over files that are damaged or contradict themselves."""
 
 

@@ -15,7 +15,7 @@ import pyarrow.csv as pacsv
 
 from forcetorque.base.arrow import arrow_text, require_small_parquet
 from forcetorque.base.errors import ForceTorqueError, FormatError, known_names, require_known
-from forcetorque.base.input_file import require_unpacked
+from forcetorque.base.input_file import READ_ERRORS, require_unpacked
 from forcetorque.formats.headings import named_columns, repeated_heading_message
 from forcetorque.formats.tabular.arrow_file import ArrowFile, is_arrow_file
 from forcetorque.formats.tabular.list_columns import FlatColumns
@@ -249,16 +249,7 @@ MAGIC = b"PAR1"
 BATCH_ROWS = 1 << 17
 _FIRST_CELLS = 1 << 20
 
-_READ_ERRORS = (
-    ArithmeticError,
-    LookupError,
-    MemoryError,
-    OSError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-    pa.ArrowException,
-)
+_TABLE_ERRORS = (*READ_ERRORS, pa.ArrowException)
 
 
 def is_columnar_file(path: Path) -> bool:
@@ -392,7 +383,7 @@ def first_batch(file: Path) -> tuple[Any, dict[str, str]]:
         return flat.flattened(batch, even, lambda row: _row(file, row)), uneven
     except FormatError:
         raise
-    except _READ_ERRORS as error:
+    except _TABLE_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
 
@@ -404,7 +395,7 @@ def _opened(file: Path) -> tuple[Any, FlatColumns]:
         return table, FlatColumns.of(table)
     except ForceTorqueError:
         raise
-    except _READ_ERRORS as error:
+    except _TABLE_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
 
@@ -424,7 +415,7 @@ def frame_rows(frame: Any, layout: TableLayout) -> Rows:
     columns = _require_columns("data frame", layout, list(map(str, frame.columns)))
     try:
         table = pa.Table.from_pandas(frame[columns], preserve_index=False)
-    except _READ_ERRORS as error:
+    except _TABLE_ERRORS as error:
         raise FormatError(_damaged("data frame", error)) from error
     batches = iter(table.to_batches(max_chunksize=BATCH_ROWS))
     return Rows(name="data frame", count=len(table), batches=batches, place=lambda row: _row("data frame", row))
@@ -453,7 +444,7 @@ def _columnar_batches(
                 start += len(batch)
     except FormatError:
         raise
-    except _READ_ERRORS as error:
+    except _TABLE_ERRORS as error:
         raise FormatError(_damaged(file, error)) from error
 
 

@@ -89,9 +89,6 @@ class Linear(TransferFunction):
     def _stimulus(self, output: FloatArray) -> FloatArray:
         return (output - self.offset) / self.slope
 
-    def _turning_points(self) -> FloatArray:
-        return np.zeros(0)
-
 
 def fit_linear(stimulus: Any, output: Any) -> Linear:
     """Fit a line by least squares of the output.
@@ -108,14 +105,15 @@ def fit_linear(stimulus: Any, output: Any) -> Linear:
         FitError: If there are fewer than two different stimuli.
     """
     stimuli, outputs = calibration_points(stimulus, output, parameters=2)
-    middle = stimuli.mean()  # a range far from zero would lose digits otherwise
-    slope, level = least_squares(np.column_stack([stimuli - middle, np.ones_like(stimuli)]), outputs)
-    return Linear(
-        lowest=float(stimuli.min()),
-        highest=float(stimuli.max()),
-        slope=float(slope),
-        offset=float(level - slope * middle),
-    )
+    slope, offset = _line(stimuli, outputs)
+    return Linear(lowest=float(stimuli.min()), highest=float(stimuli.max()), slope=slope, offset=offset)
+
+
+def _line(places: FloatArray, outputs: FloatArray) -> tuple[float, float]:
+    """Slope and offset of the best line."""
+    middle = places.mean()  # a range far from zero would lose digits otherwise
+    slope, level = least_squares(np.column_stack([places - middle, np.ones_like(places)]), outputs)
+    return float(slope), float(level - slope * middle)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -142,9 +140,6 @@ class Logarithmic(TransferFunction):
     def _stimulus(self, output: FloatArray) -> FloatArray:
         return np.exp((output - self.offset) / self.slope)
 
-    def _turning_points(self) -> FloatArray:
-        return np.zeros(0)
-
 
 def fit_logarithmic(stimulus: Any, output: Any) -> Logarithmic:
     """Fit a logarithm by least squares of the output, in which it is linear.
@@ -163,15 +158,8 @@ def fit_logarithmic(stimulus: Any, output: Any) -> Logarithmic:
     stimuli, outputs = calibration_points(stimulus, output, parameters=2)
     if not stimuli.min() > 0.0:
         raise FitError(f"logarithmic: expected stimuli above 0, got {stimuli.min():g}; leave them out, or fit a power")
-    logarithms = np.log(stimuli)
-    middle = logarithms.mean()
-    slope, level = least_squares(np.column_stack([logarithms - middle, np.ones_like(stimuli)]), outputs)
-    return Logarithmic(
-        lowest=float(stimuli.min()),
-        highest=float(stimuli.max()),
-        slope=float(slope),
-        offset=float(level - slope * middle),
-    )
+    slope, offset = _line(np.log(stimuli), outputs)
+    return Logarithmic(lowest=float(stimuli.min()), highest=float(stimuli.max()), slope=slope, offset=offset)
 
 
 _TOLERANCE = 1e-14
@@ -259,9 +247,6 @@ class Power(TransferFunction):
     def _stimulus(self, output: FloatArray) -> FloatArray:
         return ((output - self.offset) / self.slope) ** (1.0 / self.exponent)
 
-    def _turning_points(self) -> FloatArray:
-        return np.zeros(0)
-
 
 def fit_power(stimulus: Any, output: Any) -> Power:
     """Fit a power with an offset by least squares of the output.
@@ -324,9 +309,6 @@ class Exponential(TransferFunction):
 
     def _stimulus(self, output: FloatArray) -> FloatArray:
         return np.log(output / self.scale) / self.rate
-
-    def _turning_points(self) -> FloatArray:
-        return np.zeros(0)
 
 
 def fit_exponential(stimulus: Any, output: Any) -> Exponential:

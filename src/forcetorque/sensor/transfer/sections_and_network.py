@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -38,30 +38,12 @@ def knots_for(stimulus: FloatArray, sections: int) -> FloatArray:
     return np.asarray(np.quantile(different, np.linspace(0.0, 1.0, sections + 1)), dtype=np.float64)
 
 
-def require_knots(knots: FloatArray, values: FloatArray, *, name: str, least: int) -> None:
-    """Check the knots of a function that is made of sections.
-
-    Args:
-        knots: Stimuli; shape (k,).
-        values: Outputs at the knots.
-        name: Kind of function, for the message.
-        least: Number of knots that it needs.
-
-    Raises:
-        SensorError: If the knots are too few, do not ascend, or do not have one finite value each.
-    """
-    fits = values.shape == knots.shape and len(knots) >= least
-    if not fits or not (np.isfinite(values).all() and np.isfinite(knots).all() and (np.diff(knots) > 0.0).all()):
-        raise SensorError(
-            f"{name}: expected at least {least} ascending knots with one finite value each, "
-            f"got {len(knots)} knots and {len(values)} values"
-        )
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class PiecewiseLinear(TransferFunction):
-    """Straight lines between knots, thesis 3.1.4; beyond the outer knots the outer lines go on."""
+class _Sections(TransferFunction):
+    """A function that is made of sections."""
 
+    least_knots: ClassVar[int]
+    """Number of knots that it needs."""
     knots: FloatArray = field(metadata=array(None))
     """Stimuli at the ends of the sections, ascending; shape (k,)."""
     values: FloatArray = field(metadata=array(None))
@@ -69,25 +51,41 @@ class PiecewiseLinear(TransferFunction):
 
     def __post_init__(self) -> None:
         TransferFunction.__post_init__(self)
-        require_knots(self.knots, self.values, name="PiecewiseLinear", least=2)
+        knots, values = self.knots, self.values
+        fits = values.shape == knots.shape and len(knots) >= self.least_knots
+        if not fits or not (np.isfinite(values).all() and np.isfinite(knots).all() and (np.diff(knots) > 0.0).all()):
+            raise SensorError(
+                f"{type(self).__name__}: expected at least {self.least_knots} ascending knots with one finite value "
+                f"each, got {len(knots)} knots and {len(values)} values"
+            )
+
+    def _ends(self) -> FloatArray:
+        """Ends of the sections within the range, which may be narrower than the knots."""
+        inside = self.knots[(self.knots > self.lowest) & (self.knots < self.highest)]
+        return np.concatenate([[self.lowest], inside, [self.highest]])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PiecewiseLinear(_Sections):
+    """Straight lines between knots, thesis 3.1.4; beyond the outer knots the outer lines go on."""
+
+    least_knots: ClassVar[int] = 2
 
     def _output(self, stimulus: FloatArray) -> FloatArray:
         return _along_lines(stimulus, self.knots, self.values)
 
     def _stimulus(self, output: FloatArray) -> FloatArray:
-        # only lines within the range count, which may be narrower than the knots
-        inside = self.knots[(self.knots > self.lowest) & (self.knots < self.highest)]
-        knots = np.concatenate([[self.lowest], inside, [self.highest]])
+        knots = self._ends()
         values = self._output(knots)
         order = slice(None) if values[-1] > values[0] else slice(None, None, -1)
         return np.asarray(np.interp(output, values[order], knots[order]), dtype=np.float64)
 
     def _turning_points(self) -> FloatArray:
-        inside = self.knots[(self.knots > self.lowest) & (self.knots < self.highest)]
-        directions = np.sign(np.diff(self._output(np.concatenate([[self.lowest], inside, [self.highest]]))))
+        ends = self._ends()
+        directions = np.sign(np.diff(self._output(ends)))
         # a level line is as bad as a turn: its output shows no single stimulus
         is_turn = (directions[:-1] != directions[1:]) | (directions[1:] == 0.0)
-        return inside[is_turn]
+        return ends[1:-1][is_turn]
 
 
 def _along_lines(stimulus: FloatArray, knots: FloatArray, values: FloatArray) -> FloatArray:
@@ -120,22 +118,11 @@ def fit_piecewise_linear(stimulus: Any, output: Any, *, sections: int = 4) -> Pi
     )
 
 
-_LEAST_KNOTS = 4
-"""Knots that carry one cubic."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Spline(TransferFunction):
+class Spline(_Sections):
     """Cubics between knots, with equal slope and curvature where they meet (not-a-knot ends), thesis 3.1.5."""
 
-    knots: FloatArray = field(metadata=array(None))
-    """Stimuli where the cubics meet, ascending; shape (k,), k at least 4."""
-    values: FloatArray = field(metadata=array(None))
-    """Outputs at the knots; shape (k,)."""
-
-    def __post_init__(self) -> None:
-        TransferFunction.__post_init__(self)
-        require_knots(self.knots, self.values, name="Spline", least=_LEAST_KNOTS)
+    least_knots: ClassVar[int] = 4  # they carry one cubic
 
     def _curve(self) -> CubicSpline:
         from scipy.interpolate import CubicSpline  # here because importing it takes longer than most fits
@@ -172,8 +159,8 @@ def fit_spline(stimulus: Any, output: Any, *, sections: int = 4) -> Spline:
     """
     from scipy.interpolate import CubicSpline
 
-    if sections < _LEAST_KNOTS - 1:
-        raise FitError(f"spline: expected at least {_LEAST_KNOTS - 1} sections, got {sections}")
+    if sections < Spline.least_knots - 1:
+        raise FitError(f"spline: expected at least {Spline.least_knots - 1} sections, got {sections}")
     stimuli, outputs = calibration_points(stimulus, output, parameters=sections + 1)
     knots = knots_for(stimuli, sections)
     # a spline is linear in its values at the knots

@@ -54,13 +54,7 @@ class TransferFunction(ABC):
             SensorError: If a stimulus is outside the range.
         """
         values = np.asarray(stimulus, dtype=np.float64)
-        outside = ~((values >= self.lowest) & (values <= self.highest))
-        if outside.any():
-            raise SensorError(
-                f"{type(self).__name__}: {int(outside.sum())} stimuli outside the fitted range {self.lowest:g} to "
-                f"{self.highest:g}, such as {values[outside].flat[0]:g}; limit them with np.clip, or state a wider "
-                "range with dataclasses.replace"
-            )
+        self._require_inside(values, self.lowest, self.highest, "stimuli outside the fitted range")
         return self._output(values)
 
     def inverse(self, output: Any) -> FloatArray:
@@ -80,14 +74,16 @@ class TransferFunction(ABC):
         values = np.asarray(output, dtype=np.float64)
         low, high = sorted(self.output_ends())
         slack = _ROUNDING * (high - low)
+        self._require_inside(values, low, high, "outputs outside those of the fitted range,", slack)
+        return np.clip(self._stimulus(np.clip(values, low, high)), self.lowest, self.highest)
+
+    def _require_inside(self, values: FloatArray, low: float, high: float, what: str, slack: float = 0.0) -> None:
         outside = ~((values >= low - slack) & (values <= high + slack))
         if outside.any():
             raise SensorError(
-                f"{type(self).__name__}: {int(outside.sum())} outputs outside those of the fitted range, {low:g} to "
-                f"{high:g}, such as {values[outside].flat[0]:g}; limit them with np.clip, or state a wider range "
-                "with dataclasses.replace"
+                f"{type(self).__name__}: {int(outside.sum())} {what} {low:g} to {high:g}, such as "
+                f"{values[outside].flat[0]:g}; limit them with np.clip, or state a wider range with dataclasses.replace"
             )
-        return np.clip(self._stimulus(np.clip(values, low, high)), self.lowest, self.highest)
 
     def output_ends(self) -> tuple[float, float]:
         """Give the outputs at the ends of the range.
@@ -101,9 +97,9 @@ class TransferFunction(ABC):
     def _output(self, stimulus: FloatArray) -> FloatArray:
         """Output for stimuli within the range."""
 
-    @abstractmethod
     def _turning_points(self) -> FloatArray:
         """Stimuli strictly within the range at which the function stops rising or falling; none if monotone."""
+        return np.zeros(0)
 
     def _stimulus(self, output: FloatArray) -> FloatArray:
         """Stimulus of outputs between the ends of a monotone function, by halving the range for all at once."""
