@@ -113,6 +113,13 @@ def test_wrong_rows_at_an_end_of_the_log_are_left_out(rows: slice) -> None:
     assert finding.kind == "joint_jump"
 
 
+def test_a_command_that_steps_is_no_joint() -> None:
+    """Of a robot whose joints are known only these are looked at."""
+    logged = _stream(_with(SWING, slice(500, None), 0.7))
+    assert without_joint_jumps(logged, 0, ("hip",)) == (logged, ())
+    assert len(without_joint_jumps(logged, 0, ("hip", "knee"))[1]) == 1
+
+
 def test_no_end_is_stated_behind_the_log() -> None:
     """A span of the experiment file may not go on behind it."""
     for wrong in (slice(850, None), slice(850, COUNT - 1)):

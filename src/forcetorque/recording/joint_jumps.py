@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import ceil, floor
@@ -160,12 +160,15 @@ def _excursions(sizes: FloatArray, places: IntArray, count: int, *, is_angle: bo
         first = after
 
 
-def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Finding, ...]]:
+def without_joint_jumps(
+    stream: Stream, start_ns: int, joints: Collection[str] | None = None
+) -> tuple[Stream, tuple[Finding, ...]]:
     """Make joints continuous: take lost turns off, and leave out wrong rows and those about lasting jumps.
 
     Args:
         stream: A stream.
         start_ns: Start of the recording, from which instants are stated; ns.
+        joints: Names of the joints, without commands, which may go in steps; all columns if None.
 
     Returns:
         The stream, and what was found: one `joint_spike` per joint for whole turns and readings that are elsewhere for
@@ -178,7 +181,9 @@ def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Fi
     usable = usable_samples(stream.stamp_ns)
     values: FloatArray | None = None
     findings: list[Finding] = []
-    for column in range(len(signal.columns)):
+    for column, name in enumerate(signal.columns):
+        if joints is not None and name not in joints:
+            continue
         joint = _Joint.of(stream, signal, column, usable)
         if joint is None:
             continue
@@ -188,7 +193,7 @@ def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Fi
         finding = partial(
             Finding,
             stream=stream.name,
-            channel=signal.columns[column],
+            channel=name,
             unit=signal.units[column],
             left_out_ns=tuple(left_out.tolist()),
         )
