@@ -80,6 +80,22 @@ def test_what_says_nothing_of_the_load_is_not_fitted(arm: Path) -> None:
         assert np.abs(fit.matrix - _fitted(plain, **options).matrix).max() > 0.0
 
 
+def test_the_readings_of_a_slow_sensor_are_smoothed_as_they_come(arm: Path) -> None:
+    """Logged at 50 Hz, read at 6 Hz; negative control is a file that keeps what is repeated."""
+    plain = load_experiment(arm / PARQUET)
+    raw, matrix, stated = _raw(plain), _fitted(plain).matrix, (arm / PARQUET).read_text(encoding="utf-8")
+    away = {}
+    for kept in ("", 'keep = ["repeated"]'):
+        file = arm / f"slow{len(kept)}.toml"
+        file.write_text(
+            f"{stated}\n[processing]\nsmoothing = {{ window_s = 0.5, order = 2 }}\n{kept}\n", encoding="utf-8"
+        )
+        fit = _fitted(_changed(load_experiment(file), raw[np.arange(len(raw)) // 8 * 8]))
+        assert fit.provenance.unusable.repeated == (0 if kept else 592)
+        away[kept] = np.abs(fit.matrix @ np.linalg.inv(matrix) - np.eye(6)).max()
+    assert away[""] < 0.05 < 0.5 < away['keep = ["repeated"]']
+
+
 @pytest.mark.parametrize(
     ("keep", "counts"),
     [

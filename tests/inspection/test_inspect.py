@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError
@@ -16,8 +17,10 @@ from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.inspection import findings
 from forcetorque.inspection.inspect import finding_rows, finding_table, inspect_log, inspected
 from forcetorque.recording.recording import Finding, Use
+from forcetorque.recording.storage import read_recording
 from tests.results.showing import require_shown
 from tests.scenes.experiments import FT_LOG, PARQUET, YARP, edit_lines
+from tests.scenes.warm_experiments import put
 
 
 def test_times_count_from_the_start_of_the_recording() -> None:
@@ -65,6 +68,24 @@ def test_a_dumper_folder_is_a_recording(arm: Path) -> None:
         YarpFormat().describe(port)
     with pytest.raises(MissingFileError, match="expected an experiment file or the folder of a log"):
         inspect_log(arm / "nothing")
+
+
+def test_jumps_of_joints_are_found_in_a_log_by_itself_and_hide_no_gap(arm: Path) -> None:
+    """Nor by its experiment; what is left out for a jump is no gap."""
+    joints = read_recording(arm / "recording").stream("joints")
+    position = joints.signal("position")
+    values = np.array(position.values)
+    values[300:303, 1] += 1.5
+    values[600:, 2] += 2.0 * np.pi
+    values[200:205, 0] = values[301, 0] = np.nan
+    put(arm, replace(joints, signals={**joints.signals, "position": replace(position, values=values)}))
+    for source in (arm / "recording", arm / PARQUET):
+        found = sorted((row.kind, row.count) for row in inspect_log(source).findings if row.stream == "joints")
+        assert found == [("joint_spike", 1), ("joint_spike", 1), ("missing", 3), ("missing", 5)]
+    values[301, 0] = position.values[301, 0]
+    put(arm, replace(joints, signals={**joints.signals, "position": replace(position, values=values)}))
+    kinds = [row.kind for row in inspect_log(arm / "recording").findings]
+    assert kinds == ["joint_spike", "joint_spike", "missing"]
 
 
 def test_a_sensor_is_compared_once_however_often_it_is_inspected(intact: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -76,6 +76,65 @@ def test_a_posture_that_lasts_is_named_and_its_edges_are_left_out() -> None:
     assert not are_ignored(stamps, finding, [(0, 840 * PERIOD_NS)])
 
 
+@pytest.mark.parametrize("size", [0.16, 0.25, 0.29, -0.2])
+def test_slips_below_a_tenth_of_a_turn_are_no_turns(size: float) -> None:
+    """Lasting ones are named, brief ones are left out; where a third of one is left, the joint is not back."""
+    values, (finding,) = _repaired(_with(SWING, slice(500, None), size), period_ns=PERIOD_NS // 2)
+    assert (finding.kind, np.flatnonzero(np.isnan(values)).tolist()) == ("joint_jump", [*range(497, 503)])
+    values, (finding,) = _repaired(_with(SWING, slice(500, 503), size), period_ns=PERIOD_NS // 2)
+    assert (finding.kind, np.flatnonzero(np.isnan(values)).tolist()) == ("joint_spike", [500, 501, 502])
+    _, findings = _repaired(_with(_with(SWING, slice(300, None), 0.5), slice(500, None), size - 0.5))
+    assert [one.kind for one in findings] == ["joint_jump", "joint_jump"]
+
+
+@pytest.mark.parametrize("rows", [1, 3, 60])
+@pytest.mark.parametrize("between", [0.5 * TURN, 1.0])
+def test_a_turn_that_takes_several_rows_is_taken_off_behind_them(rows: int, between: float) -> None:
+    """As where a wrapping joint is interpolated, or slips and wraps before it is back."""
+    turned = _with(_with(SWING, slice(500, 500 + rows), between), slice(500 + rows, None), TURN)
+    values, (finding,) = _repaired(turned)
+    kept = np.isfinite(values)
+    kept[500 : 500 + rows] = False
+    np.testing.assert_allclose(values[kept], SWING[kept], rtol=0.0, atol=1e-12)
+    assert np.isnan(values[500 : 500 + rows]).all() == (finding.kind == "joint_spike") == (rows <= 5)
+
+
+@pytest.mark.parametrize("rows", [slice(0, 1), slice(0, 5), slice(-1, None), slice(-5, None)])
+def test_wrong_rows_at_an_end_of_the_log_are_left_out(rows: slice) -> None:
+    """And not all that lies on the other side; six of them are too many."""
+    values, (finding,) = _repaired(_with(SWING, rows, 1.0))
+    expected = SWING.copy()
+    expected[rows] = np.nan
+    np.testing.assert_array_equal(values, expected)
+    assert (finding.kind, finding.count) == ("joint_spike", 1)
+    assert not are_ignored(np.arange(COUNT) * PERIOD_NS, finding, [(400 * PERIOD_NS, 500 * PERIOD_NS)])
+    six = slice(0, 6) if rows.start == 0 else slice(-6, None)
+    (finding,) = _repaired(_with(SWING, six, 1.0))[1]
+    assert finding.kind == "joint_jump"
+
+
+def test_a_command_that_steps_is_no_joint() -> None:
+    """Of a robot whose joints are known only these are looked at."""
+    logged = _stream(_with(SWING, slice(500, None), 0.7))
+    assert without_joint_jumps(logged, 0, ("hip",)) == (logged, ())
+    assert len(without_joint_jumps(logged, 0, ("hip", "knee"))[1]) == 1
+
+
+def test_no_end_is_stated_behind_the_log() -> None:
+    """A span of the experiment file may not go on behind it."""
+    for wrong in (slice(850, None), slice(850, COUNT - 1)):
+        (finding,) = _repaired(_with(SWING, wrong, 0.7), period_ns=PERIOD_NS + 1000)[1]
+        assert 'start_s = 8.49, no end_s, use = "ignore"' in finding.message
+
+
+def test_a_turn_is_ignored_only_where_it_is() -> None:
+    """It has no sample of its own."""
+    (finding,) = _repaired(_with(SWING, slice(500, None), TURN))[1]
+    stamps = np.arange(COUNT) * PERIOD_NS
+    assert are_ignored(stamps, finding, [(499 * PERIOD_NS, 501 * PERIOD_NS)])
+    assert not are_ignored(stamps, finding, [(300 * PERIOD_NS, 400 * PERIOD_NS)])
+
+
 @pytest.mark.parametrize("rate_hz", [50, 100, 250, 1000])
 def test_the_interval_that_is_stated_holds_what_is_wrong(rate_hz: int) -> None:
     """Printed to 0.01 s and typed again: at any rate of the log no wrong sample is left, and nothing is named."""

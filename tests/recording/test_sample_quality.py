@@ -148,6 +148,39 @@ def test_readings_that_come_again_under_new_stamps_are_found(repeats: BoolArray,
         assert not found[~repeats].any()
 
 
+@pytest.mark.parametrize("held", [2, 5, 12, 25])
+@pytest.mark.parametrize("noise", [0.0, 0.1, 3.0])
+@pytest.mark.parametrize("step", [0.0, 1.0])
+def test_a_slow_sensor_is_found_by_the_motion_of_its_load(held: int, noise: float, step: float) -> None:
+    """Down to 4 Hz in a log of 100 Hz, whatever its noise, also where readings stay for some samples more or less."""
+    read = np.arange(COUNT) % held == 0
+    between = np.random.default_rng(5).integers(held // 2 + 1, held + held // 2 + 1, size=COUNT).cumsum()
+    uneven = np.isin(np.arange(COUNT), between)
+    for reads, least in ((read, 0.98), (uneven, 0.9)) if held > 2 else ((read, 0.98),):
+        before = np.maximum.accumulate(np.where(reads, np.arange(COUNT), 0))
+        repeats = before != np.arange(COUNT)
+        found = repeated_readings(STAMPS, _read(_motion(rests=False), noise, step)[before])
+        assert found[repeats].mean() > least
+        assert not found[~repeats].any()
+
+
+def test_pairs_between_gaps_repeat_nothing() -> None:
+    """No change is known of them."""
+    values = np.repeat(np.random.default_rng(8).normal(size=(4, 6)), 3, axis=0)
+    values[2::3] = np.nan
+    assert not repeated_readings(STAMPS[:12], values).any()
+
+
+def test_slower_readings_are_of_poses() -> None:
+    """Poses that are held for 0.3 s, or for 1 s with the motion between them, repeat nothing."""
+    held = _read(_motion(rests=False), 0.0, 1.0)[np.arange(COUNT) // 30 * 30]
+    assert not repeated_readings(STAMPS, held).any()
+    moves = np.arange(COUNT) % 120 < 20
+    pose = np.cumsum(np.where(moves, 5.0, 0.0))
+    values = np.rint(np.sin(0.01 * pose[:, None] * np.arange(1, 7)) * SIZES)
+    assert not repeated_readings(STAMPS, values).any()
+
+
 @pytest.mark.parametrize("noise", NOISES)
 @pytest.mark.parametrize("step", STEPS)
 def test_a_load_at_rest_repeats_nothing(noise: float, step: float) -> None:
@@ -173,4 +206,18 @@ def test_a_quiet_sensor_repeats_nothing_where_its_counts_became_wrenches(noise: 
     for rests in (False, True):
         counts = _read(share * _motion(rests=rests), noise, 1.0)
         assert not repeated_readings(STAMPS, counts).any()
-        assert not repeated_readings(STAMPS, counts @ matrix.T).any()
+        for wrenches in (counts @ matrix.T, np.round(counts @ matrix.T, 4)):
+            assert not repeated_readings(STAMPS, wrenches).any()
+
+
+@pytest.mark.parametrize("digits", [2, 4, 6])
+def test_repeated_wrenches_are_found_however_many_digits_are_written(digits: int) -> None:
+    """Of a sensor whose noise is one count and more, every third of whose messages is lost and replaced."""
+    matrix = np.random.default_rng(2).normal(size=(6, 6)) / 25.0
+    before = np.maximum.accumulate(np.where(np.arange(COUNT) % 3 == 2, 0, np.arange(COUNT)))
+    for noise in (1.0, 3.0):
+        for rests in (False, True):
+            counts = _read(0.1 * _motion(rests=rests), noise, 1.0)[before]
+            found = repeated_readings(STAMPS, np.round(counts @ matrix.T, digits))
+            assert found[2::3].mean() > 0.98
+            assert np.count_nonzero(found) < 1.02 * np.count_nonzero(found[2::3])

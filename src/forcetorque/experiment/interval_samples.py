@@ -199,7 +199,10 @@ def readings_over(
     recording = experiment.recording
     stream = recording.stream(sensor.stream)
     apart = touched_otherwise(interval, recording, experiment.contacts)
-    padded = padded_samples(recording, stream, interval, experiment.processing.smoothing, apart=apart)
+    repeated = sample_quality(experiment, sensor).repeated
+    padded = padded_samples(
+        recording, stream, interval, experiment.processing.smoothing, apart=apart, repeated=repeated
+    )
     rows, at_ns = padded.rows, padded.stamp_ns
     logged = usable_readings(experiment, sensor)[rows]
     columns = [sensor.variable(name).source.at(recording, at_ns)[:, None] for name in variables]

@@ -54,7 +54,8 @@ def follow_recipes(
     _require_not_logged(fixed, file, logged)
     recording = aligned_clocks(parsed, file, logged, model, must_tell=clocks_must_tell)
     if "joint_jumps" not in parsed.processing.keep:
-        recording = _without_joint_jumps(recording)  # behind the clocks: its findings state instants
+        # behind the clocks: its findings state instants
+        recording = with_continuous_joints(recording, () if model is None else model.joints)
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)
@@ -92,9 +93,18 @@ def _corrected(parsed: schema.ExperimentFile) -> Sequence[Finding]:
     return (Finding(stream=parsed.name, kind="corrected_robot", message=text, count=1),)
 
 
-def _without_joint_jumps(recording: Recording) -> Recording:
+def with_continuous_joints(recording: Recording, joints: Collection[str] | None = None) -> Recording:
+    """Take lost turns, wrong rows and slips off the joints of a recording.
+
+    Args:
+        recording: What was logged.
+        joints: Names of the joints of the robot; all positions if None.
+
+    Returns:
+        The recording, with the findings of `without_joint_jumps`.
+    """
     repaired = {
-        name: without_joint_jumps(stream, recording.start_ns)
+        name: without_joint_jumps(stream, recording.start_ns, joints)
         for name, stream in recording.streams.items()
         if len(stream)
     }

@@ -25,7 +25,7 @@ from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability
 from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
-from forcetorque.recording.joint_jumps import JUMPS, MOST_LEFT_OUT, are_ignored
+from forcetorque.recording.joint_jumps import JUMPS, are_ignored
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
@@ -46,11 +46,18 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
         Findings of its readers and of single streams; of patches that share their messages, one for all of them.
     """
     ignored = [(one.start_ns, one.end_ns) for one in recording.intervals if one.use is Use.IGNORE]
-    with_jumps = {one.stream for one in recording.findings if one.kind in JUMPS}
+    jumps = [one for one in recording.findings if one.left_out_ns]
+    left_out = {
+        name: np.unique([stamp for one in jumps if one.stream == name for stamp in one.left_out_ns])
+        for name in {one.stream for one in jumps}
+    }
 
     def is_of_jump(one: Finding) -> bool:
-        of_joints = one.kind == "missing" and one.channel == "position" and one.stream in with_jumps
-        return of_joints and one.count <= MOST_LEFT_OUT
+        """Whether all samples that lack a position do so because of a jump."""
+        if (one.kind, one.channel) != ("missing", "position") or one.stream not in left_out:
+            return False
+        first, end = np.searchsorted(left_out[one.stream], [one.start_ns or 0, (one.end_ns or 0) + 1])
+        return bool(end - first == one.count)
 
     found = (
         *(

@@ -21,7 +21,7 @@ from forcetorque.experiment.experiment_file import ExperimentFile, parse_experim
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.long_recording import forget_recording, joined_findings, recorded_segments
 from forcetorque.experiment.named_files import stated_in
-from forcetorque.experiment.recording_notes import with_recording_notes
+from forcetorque.experiment.recording_notes import with_continuous_joints, with_recording_notes
 from forcetorque.experiment.robot_and_streams import load_tried_clocks
 from forcetorque.formats.log_format import RobotLoggingFormat, SketchingFormat, not_read_message
 from forcetorque.formats.prior.prior_file import PriorFile
@@ -381,7 +381,8 @@ def _recorded(
                     f"{source}: {key}: expected {words}; got none, without which no sample is read; `forcetorque init "
                     f"{source}` begins an experiment file that asks for it"
                 )
-        recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
+        streams = {stream.name: stream for stream in reading.streams}
+        recording = with_continuous_joints(Recording(streams=streams, findings=reading.findings))
         findings = inspect_recording(recording)
         if isinstance(log_format, RobotLoggingFormat):
             findings = (*robot_findings(log_format.robot(source), recording), *findings)

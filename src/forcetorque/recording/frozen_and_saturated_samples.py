@@ -29,10 +29,16 @@ relative to the range, below which the grid is that of floating point."""
 _FAR_MORE = 50.0
 """Equal readings, in those of chance, or in the same change of another size, from which on the log repeats them: of
 fifty one may be a measurement."""
-_LONGEST_NS = 150_000_000
-"""Time that a reading repeats; one that stays for longer may be of a load that rests."""
+_LONGEST_NS, _SLOWEST_NS = 150_000_000, 250_000_000
+"""Time that a reading repeats, and period of the slowest sensor, of which it is twice as long; one that stays for
+longer may be of a load that rests."""
+_MOVES, _NEARLY_ALL = 4.0, 0.9
+"""Steps by which most channels move where the load does, and the share of such changes with equal readings on either
+side from which on the sensor is slower than its log."""
 _RECURS = 0.01
-"""Share of one change among all, from which on readings have steps."""
+"""Share of one change among all, from which on readings have steps; those of written digits are finer."""
+_DIGITS = 8.0
+"""Last digits by which changes of as many counts may differ where readings are written."""
 _BESIDE = 2
 """Neighbours on either side of a sample, whose cubic follows a smooth motion and no noise."""
 _NEIGHBOURS = -56.0 / 36.0
@@ -247,7 +253,8 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
     """Find samples that repeat the reading before them in all channels under a new stamp.
 
     They are of a sensor that is slower than its log, or of messages that were lost and replaced; at a load that moves
-    they are late. They count where noise gives far fewer of them.
+    they are late. They count where noise gives far fewer of them, or nearly every reading stays while the load moves;
+    up to 0.15 s, of a sensor of at least 4 Hz up to twice the usual time between its readings.
 
     Args:
         stamp_ns: Stamps in the order of the log; shape (n,); ns.
@@ -265,25 +272,47 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
     samples = values[usable][first]
     changes = np.diff(samples, axis=0)
     changes = changes[np.isfinite(changes).all(axis=1)]
+    if not len(changes):
+        return marks
     step, ranges = smallest_steps(values), ranges_of(values)
-    if not _are_of_converter(changes, step, ranges).all():
+    of_grid = _are_of_converter(changes, step, ranges)
+    changed = changes != 0.0
+    by_one = (changed & (np.abs(changes) < 1.5 * step)).sum(axis=0) > _RECURS * changed.sum(axis=0)
+    if not (of_grid & by_one)[step > 0.0].all():
         # wrenches of a converter's counts: their steps are not known, but small changes come again and again
-        whole = np.rint(changes / np.maximum(_FINEST * ranges, np.finfo(np.float64).tiny))
+        finest = np.maximum(np.where(of_grid, _DIGITS * step, _FINEST * ranges), np.finfo(np.float64).tiny)
+        whole = np.rint(changes / finest)
         often = int(np.unique(whole, axis=0, return_counts=True)[1].max())
-        if often > _RECURS * len(changes) or count <= _FAR_MORE * often:
+        if often > max(_RECURS * len(changes), 1.0) or count <= _FAR_MORE * often:
             return marks
-    chance = np.exp(_log_chance_of_equal(stamp_ns[usable][first], samples, changes, values))
-    if count > _FAR_MORE * len(same) * chance:
-        for start, end in _noisy_at_ends(stamp_ns[usable], values[usable], same):
+    longest_ns = 2 * _period_of_slow_sensor(stamp_ns[usable], values[usable], same, step)
+    if not longest_ns:
+        chance = np.exp(_log_chance_of_equal(stamp_ns[usable][first], samples, changes, values))
+        longest_ns = _LONGEST_NS if count > _FAR_MORE * len(same) * chance else 0
+    if longest_ns:
+        for start, end in _noisy_at_ends(stamp_ns[usable], values[usable], same, longest_ns):
             marks[usable[start + 1 : end + 1]] = True
     return marks
 
 
-def _noisy_at_ends(stamps: IntArray, samples: FloatArray, same: BoolArray) -> Iterator[Run]:
+def _period_of_slow_sensor(stamps: IntArray, samples: FloatArray, same: BoolArray, step: FloatArray) -> int:
+    """Usual time between the readings of a log where nearly every one moves and stays; ns; 0 of others."""
+    # noise is not needed for it: a load that moves goes on from one sample to the next
+    many = np.count_nonzero(np.abs(np.diff(samples, axis=0)) > _MOVES * step, axis=1) >= 0.5 * samples.shape[1]
+    moves = np.flatnonzero(many[1:-1]) + 1
+    if len(moves) < _FEWEST or np.mean(same[moves - 1] & same[moves + 1]) < _NEARLY_ALL:
+        return 0
+    changes = np.flatnonzero(~same)
+    between = many[changes[1:]] & many[changes[:-1]]
+    period = float(np.median(np.diff(stamps[changes])[between])) if between.any() else 0.0
+    return int(period) if period <= _SLOWEST_NS else 0
+
+
+def _noisy_at_ends(stamps: IntArray, samples: FloatArray, same: BoolArray, longest_ns: int) -> Iterator[Run]:
     """Short runs of equal readings that most channels enter and leave by a change; a load at rest does not."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
     for start, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        if stamps[end] - stamps[start] > _LONGEST_NS:
+        if stamps[end] - stamps[start] > longest_ns:
             continue
         beside = [k for k in (start - 1, end) if 0 <= k < len(same)]
         if all(np.count_nonzero(samples[k + 1] != samples[k]) >= 0.5 * samples.shape[1] for k in beside):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import ceil, floor
@@ -29,11 +29,9 @@ _BACK = 0.25
 _LOOKED_AT = 1000
 """Jumps after one that may lead back from it."""
 _SPIKE = 5
-"""Samples that a reading may be elsewhere and count as wrong rows, which are left out."""
+"""Samples that a reading may be elsewhere, also at an end of the log, and count as wrong rows, which are left out."""
 _BESIDE = round(GAP_PERIODS) // 2 + 1
 """Samples on either side of a lasting jump that are left out: no filter of derivatives reaches across such a gap."""
-MOST_LEFT_OUT = max(_SPIKE, 2 * _BESIDE)
-"""Samples in a row that are left out for one jump at most."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,13 +39,16 @@ class _Excursion:
     """A jump of a joint, and where later jumps lead back from it; places are those among the samples of the joint."""
 
     begin: int
-    """First sample behind the jump."""
+    """First sample behind the jump; 0 where those before it are elsewhere."""
     end: int
-    """First sample that is back; that behind the jump where it is by whole turns; the last of all if none is."""
+    """First sample that is back, behind the last if the log ends soon after the jump; that behind the jump where it is
+    by whole turns; the last of all if none is."""
     ends: bool
     """Whether it ends."""
     size: float
     """Largest jump in it; rad or m."""
+    turns: int = 0
+    """Whole turns that the joint has lost when it is back."""
 
     @property
     def is_turn(self) -> bool:
@@ -66,10 +67,6 @@ class _Joint:
 
     rows: IntArray
     """Rows of the stream; shape (m,)."""
-    jumps: IntArray
-    """Places among these that it jumps to; shape (k,)."""
-    sizes: FloatArray
-    """How far, beside its usual movement; shape (k,); rad or m."""
     excursions: tuple[_Excursion, ...]
 
     @classmethod
@@ -106,16 +103,15 @@ class _Joint:
             return None
         places, sizes = changes[far[jumps]] + 1, beside[jumps]
         found = _excursions(sizes, places, len(rows), is_angle=is_angle)
-        return cls(rows=rows, jumps=places, sizes=sizes, excursions=tuple(found))
+        return cls(rows=rows, excursions=tuple(found))
 
     def repaired(self, values: FloatArray) -> FloatArray:
         """Take whole turns off, and wrong rows and those about lasting jumps out; `values` of all rows, shape (n,)."""
         fixed = values.copy()
-        size = dict(zip(self.jumps.tolist(), self.sizes.tolist(), strict=True))
         for one in self.excursions:
-            if one.is_turn:
-                fixed[self.rows[one.begin] :] -= _TURN * round(size[one.begin] / _TURN)
-            elif one.is_brief:
+            if one.turns:
+                fixed[self.rows[one.end] :] -= _TURN * one.turns
+            if one.is_brief:
                 fixed[self.rows[one.begin : one.end]] = np.nan
             else:
                 for place in (one.begin, one.end) if one.ends else (one.begin,):
@@ -144,28 +140,35 @@ def _excursions(sizes: FloatArray, places: IntArray, count: int, *, is_angle: bo
     first = 0
     while first < len(sizes):
         size = abs(float(sizes[first]))
-        away, after, ends = 0.0, first + 1, False
+        away, after, ends, turns = 0.0, first + 1, False, 0
         for k in range(first, min(first + _LOOKED_AT, len(sizes))):
             away += float(sizes[k])
-            turns = is_angle and abs(float(_beside_turns(np.array(away)))) < _OF_TURN
+            turns = round(away / _TURN) if is_angle and abs(away - _TURN * round(away / _TURN)) < _OF_TURN else 0
             if turns or (k > first and abs(away) < max(_JUMP, _BACK * size)):
                 after, ends = k + 1, True
                 break
+        begin, end = int(places[first]), int(places[after - 1]) if ends else count - 1
+        if not ends and min(begin, count - begin) <= _SPIKE:
+            begin, end, ends = (0, begin, True) if begin <= _SPIKE else (begin, count, True)
         yield _Excursion(
-            begin=int(places[first]),
-            end=int(places[after - 1]) if ends else count - 1,
+            begin=begin,
+            end=end,
             ends=ends,
             size=float(np.abs(sizes[first:after]).max()),
+            turns=turns,
         )
         first = after
 
 
-def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Finding, ...]]:
+def without_joint_jumps(
+    stream: Stream, start_ns: int, joints: Collection[str] | None = None
+) -> tuple[Stream, tuple[Finding, ...]]:
     """Make joints continuous: take lost turns off, and leave out wrong rows and those about lasting jumps.
 
     Args:
         stream: A stream.
         start_ns: Start of the recording, from which instants are stated; ns.
+        joints: Names of the joints, without commands, which may go in steps; all columns if None.
 
     Returns:
         The stream, and what was found: one `joint_spike` per joint for whole turns and readings that are elsewhere for
@@ -178,21 +181,31 @@ def without_joint_jumps(stream: Stream, start_ns: int) -> tuple[Stream, tuple[Fi
     usable = usable_samples(stream.stamp_ns)
     values: FloatArray | None = None
     findings: list[Finding] = []
-    for column in range(len(signal.columns)):
+    for column, name in enumerate(signal.columns):
+        if joints is not None and name not in joints:
+            continue
         joint = _Joint.of(stream, signal, column, usable)
         if joint is None:
             continue
         values = signal.values.copy() if values is None else values
         values[:, column] = joint.repaired(signal.values[:, column])
-        findings += _findings(stream, signal.columns[column], signal.units[column], joint, start_ns)
+        left_out = stream.stamp_ns[np.isfinite(signal.values).all(axis=1) & np.isnan(values[:, column])]
+        finding = partial(
+            Finding,
+            stream=stream.name,
+            channel=name,
+            unit=signal.units[column],
+            left_out_ns=tuple(left_out.tolist()),
+        )
+        findings += _findings(stream, joint, start_ns, finding)
     if values is None:
         return stream, ()
     return replace(stream, signals={**stream.signals, "position": replace(signal, values=values)}), tuple(findings)
 
 
-def _findings(stream: Stream, name: str, unit: str, joint: _Joint, start_ns: int) -> Iterator[Finding]:
-    stamps = stream.stamp_ns[joint.rows]
-    finding = partial(Finding, stream=stream.name, channel=name, unit=unit)
+def _findings(stream: Stream, joint: _Joint, start_ns: int, finding: partial[Finding]) -> Iterator[Finding]:
+    name, unit = finding.keywords["channel"], finding.keywords["unit"]
+    stamps, last = stream.stamp_ns[joint.rows], int(stream.stamp_ns.max())
     brief = [one for one in joint.excursions if one.is_brief]
     if brief:
         size = max(one.size for one in brief)
@@ -203,7 +216,7 @@ def _findings(stream: Stream, name: str, unit: str, joint: _Joint, start_ns: int
             f"joint {name!r} {way} {times}, by up to {size:.2g} {unit} from one sample to the next; turns are taken "
             "off, and samples that are elsewhere are left out"
         )
-        start, end = int(stamps[brief[0].begin - 1]), int(stamps[brief[-1].end])
+        start, end = int(stamps[max(brief[0].begin - 1, 0)]), int(stamps[min(brief[-1].end, len(stamps) - 1)])
         yield finding(kind="joint_spike", message=text, count=len(brief), size=size, start_ns=start, end_ns=end)
     for one in joint.excursions:
         if one.is_brief:
@@ -212,10 +225,12 @@ def _findings(stream: Stream, name: str, unit: str, joint: _Joint, start_ns: int
         # outwards: an interval that is stated so holds every wrong sample
         start_s, end_s = floor((start - start_ns) * 1e-7) / 100.0, ceil((end - start_ns) * 1e-7) / 100.0
         back = f"back {end_s - start_s:.2f} s later" if one.ends else f"not back for {end_s - start_s:.2f} s"
+        # a span of the file may not go on behind the log
+        stated = f"end_s = {end_s:.2f}" if one.ends and end_s < (last - start_ns) * 1e-9 else "no end_s"
         text = (
             f"joint {name!r} jumps by {one.size:.2g} {unit} from one sample to the next, {back}: where its readings "
-            f"are those of another posture, put an [[interval]] with start_s = {max(start_s, 0.0):.2f}, "
-            f'end_s = {end_s:.2f}, use = "ignore"' + ("" if one.ends else ", or one over what lies before")
+            f"are those of another posture, put an [[interval]] with start_s = {max(start_s, 0.0):.2f}, {stated}, "
+            'use = "ignore"' + ("" if one.ends else ", or one over what lies before")
         )
         count = one.end - one.begin + 1
         yield finding(kind="joint_jump", message=text, count=count, size=one.size, start_ns=start, end_ns=end)
@@ -237,6 +252,8 @@ def are_ignored(stamp_ns: IntArray, found: Finding, ignored_ns: Sequence[tuple[i
     within: BoolArray = (stamp_ns > found.start_ns) & (stamp_ns <= found.end_ns)
     if found.end_ns < stamp_ns.max():
         within &= stamp_ns < found.end_ns
+    if not within.any():  # a turn is between two samples
+        within = (stamp_ns == found.start_ns) | (stamp_ns == found.end_ns)
     before = stamp_ns <= found.start_ns
     lasts = found.kind == "joint_jump" and found.end_ns >= stamp_ns.max()
     return any(

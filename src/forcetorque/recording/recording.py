@@ -174,6 +174,8 @@ class Finding:
     """Unit of the size."""
     sensor: str | None = None
     """Sensor whose reading was compared; None for what is of the stream itself."""
+    left_out_ns: tuple[int, ...] = field(default=(), repr=False)
+    """Stamps of samples that are left out for it and were whole before; not stored."""
 
     @classmethod
     def over(

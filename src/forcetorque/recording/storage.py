@@ -145,7 +145,10 @@ def _index(recording: Recording) -> dict[str, Any]:
             }
             for interval in recording.intervals
         ],
-        "findings": [asdict(finding) for finding in recording.findings],
+        "findings": [
+            {key: value for key, value in asdict(finding).items() if key != "left_out_ns"}
+            for finding in recording.findings
+        ],
         "origin": dict(recording.origin),
     }
 

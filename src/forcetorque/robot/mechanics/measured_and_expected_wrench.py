@@ -86,6 +86,7 @@ def padded_samples(
     window: SavitzkyGolay | None,
     *,
     apart: Collection[str] = (),
+    repeated: BoolArray | None = None,
 ) -> PaddedSamples:
     """Find the samples of an interval that are not to be ignored, and those around it that its filter takes.
 
@@ -98,6 +99,7 @@ def padded_samples(
         interval: The interval.
         window: The filter; None for none.
         apart: Labels of further intervals that nothing is to be taken from.
+        repeated: Samples of the stream that repeat a reading, which are no instants of the grid; shape (N,).
 
     Returns:
         The samples.
@@ -113,7 +115,8 @@ def padded_samples(
         usable = usable_samples(stamps)
         rows = usable[(held | ~_elsewhere(recording, interval, stamps, apart))[usable]]
     if window is not None and len(rows) > 1:
-        grid = EvenGrid.of(stamps[rows])
+        read = rows if repeated is None or np.count_nonzero(~repeated[rows]) < 2 else rows[~repeated[rows]]
+        grid = EvenGrid.of(stamps[read])
         # a whole window and not half of it: where the log ends, the last whole window is used
         margin = round((grid.length_of(window) + 1) * grid.period_s * 1e9) + grid.gap_ns
         rows = rows[(stamps[rows] >= stamps[picked[0]] - margin) & (stamps[rows] <= stamps[picked[-1]] + margin)]
@@ -274,7 +277,10 @@ def sensor_samples(
     """
     support = interval.required_support(RecordingError)
     source = recording.stream(stream)
-    padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
+    if quality is None:
+        nothing = np.zeros(len(source), dtype=bool)
+        quality = SampleQuality(frozen=nothing, saturated=source.held, repeated=repeated_samples(source.stamp_ns))
+    padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart, repeated=quality.repeated)
     at_ns = padded.stamp_ns
     columns = {}
     if applied is None:
@@ -292,9 +298,6 @@ def sensor_samples(
     else:
         columns["reference"], joints = _applied(recording, source, applied, at_ns), ()
     reading = source.signal(quantity)
-    if quality is None:
-        nothing = np.zeros(len(source), dtype=bool)
-        quality = SampleQuality(frozen=nothing, saturated=source.held, repeated=repeated_samples(source.stamp_ns))
     columns["reading"] = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
     if variables:
         columns["variables"] = _variables(recording, source, variables, at_ns)
