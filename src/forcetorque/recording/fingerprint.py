@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.rows_on_disk import BLOCK_ROWS, forget_pages
 
 WINDOW = 16
@@ -40,29 +40,33 @@ def window_hashes(values: FloatArray) -> Hashes:
         values: Samples; shape (n, k).
 
     Returns:
-        Hashes, each once, the smallest first; none of windows with a missing value, or with few different samples, and
-        of samples that repeat not of all in which two blocks of rows meet.
+        Hashes, each once, the smallest first; none of windows with a missing value, or with few different samples.
     """
     hashes = [np.empty(0, dtype=np.uint64)]
-    for start in range(0, max(len(values) - WINDOW + 1, 0), BLOCK_ROWS):
-        hashes.append(_hashes(_each_reading_once(values[start : start + BLOCK_ROWS + WINDOW - 1])))
+    once = _each_reading_once(values)
+    rows = None if once.all() else np.flatnonzero(once)
+    for start in range(0, max(int(once.sum()) - WINDOW + 1, 0), BLOCK_ROWS):
+        block = slice(start, start + BLOCK_ROWS + WINDOW - 1)
+        hashes.append(_hashes(values[block] if rows is None else values[rows[block]]))
         forget_pages([values])
     return np.unique(np.concatenate(hashes))
 
 
-def _each_reading_once(values: FloatArray) -> FloatArray:
-    """Samples without repeats of a sensor that is slower than its log; most channels change before and after them."""
+def _each_reading_once(values: FloatArray) -> BoolArray:
+    """Mark samples that are no repeats of a sensor slower than its log; most channels change before and after them."""
     # a load that moves slowly changes few channels at a time: other logs cross the same steps of the converter
-    changed = np.diff(values, axis=0) != 0.0
-    same = ~changed.any(axis=1)
-    if not same.any():
-        return values
-    by_reading = np.concatenate([[True], np.count_nonzero(changed, axis=1) >= 0.5 * values.shape[1], [True]])
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8))).reshape(-1, 2)
     once = np.ones(len(values), dtype=bool)
+    changed = np.empty(max(len(values) - 1, 0), dtype=np.int64)
+    for start in range(0, len(changed), BLOCK_ROWS):
+        block = values[start : start + BLOCK_ROWS + 1]
+        changed[start : start + BLOCK_ROWS] = np.count_nonzero(np.diff(block, axis=0) != 0.0, axis=1)
+        forget_pages([values])
+    same = changed == 0
+    by_reading = np.concatenate([[True], changed >= 0.5 * values.shape[1], [True]])
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8))).reshape(-1, 2)
     for first, last in edges[by_reading[edges[:, 0]] & by_reading[edges[:, 1] + 1]].tolist():
         once[first + 1 : last + 1] = False
-    return values[once]
+    return once
 
 
 def _hashes(values: FloatArray) -> Hashes:
