@@ -11,7 +11,6 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, UnitError
 from forcetorque.evaluation.sphere.algebraic_fit import smallest_generalised
 from forcetorque.evaluation.sphere.cloud import (
-    BLOCKS,
     CELLS,
     StaticForceError,
     _cells,
@@ -23,6 +22,7 @@ from forcetorque.evaluation.sphere.cloud import (
 from forcetorque.evaluation.sphere.ellipsoid import TOLERANCE, Ellipsoid, beyond_measured_extent
 from forcetorque.evaluation.sphere.geometric_fit import NormalEquations, descend, refine_sphere
 from forcetorque.evaluation.sphere.model_free_fit import fit_ellipsoid, fit_radius, is_flat
+from forcetorque.evaluation.sphere.resampling import BLOCKS
 from forcetorque.evaluation.sphere.sensor_sphere import _refuse_counts
 from forcetorque.evaluation.trials.trials import _wider_together
 from tests.evaluation.sphere.clouds import on, whole_sphere
