@@ -234,6 +234,17 @@ def test_of_two_sources_nobody_is_named() -> None:
     assert (fusion.half_width > agreed.half_width).all()
 
 
+@pytest.mark.parametrize(("noise", "widens"), [(1.0, True), (16.0, False)])
+def test_a_conflict_widens_the_covariance_by_the_mean_squared_innovation(noise: float, widens: bool) -> None:
+    """And never narrows it: an offset beside noise that is less than specified leaves less than 1 on average."""
+    ft, skin = (replace(one, noise=noise * one.noise) for one in three(9)[:2])
+    agreed, fusion = fuse([ft, skin]), fuse([shifted(ft, 1.2), skin])
+    assert (agreed.conflict.is_there, fusion.conflict.is_there, fusion.conflict.source) == (False, True, None)
+    ratio = fusion.conflict.everyone.total.ratio
+    assert (ratio > 1.0) == widens
+    np.testing.assert_allclose(fusion.covariance, agreed.covariance * (ratio if widens else 1.0), rtol=EXACT)
+
+
 def _with_model_error(seed: int, deviation: float, by_model: tuple[str, ...]) -> list[TorqueSource]:
     """Sources of which some use a robot model that is off by one error per joint."""
     rng = np.random.default_rng(seed)
