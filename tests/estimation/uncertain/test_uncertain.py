@@ -302,6 +302,23 @@ def test_what_no_reading_sees_is_named_in_newtons() -> None:
     )
 
 
+@pytest.mark.parametrize(("moment", "named"), [(0.0052, True), (0.0048, False)])
+def test_what_prints_as_zero_is_left_out(moment: float, named: bool) -> None:
+    """A moment of half a hundredth of the largest component is the least that two decimals show."""
+    acts = np.array([1.0, 0.0, 0.0, 0.0, 0.0, moment])
+    actor = Actor(
+        name="shin",
+        unknowns=("push",),
+        given=np.zeros((1, 6)),
+        free=acts[None, :, None],
+        errors=np.zeros((1, 6, 0)),
+    )
+    (found,) = undetermined_of([actor], np.ones((1, 1, 1)))
+    force, *rest = found.directions[0].split(" and ")
+    assert force == "a force of (1.00, 0.00, 0.00) N at 'shin'"
+    assert rest == (["a moment of (0.00, 0.00, 0.01) N m at 'shin'"] if named else [])
+
+
 def test_a_gap_stays_in_its_sample() -> None:
     """NaN in a reading makes NaN of that sample and of no other."""
     robot, question, measured = _pushed()
