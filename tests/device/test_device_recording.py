@@ -3,11 +3,21 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from forcetorque.device.device_file import DeviceFile, read_device
-from forcetorque.device.simulated_recordings import DeviceRecording, DeviceSensors, known_intervals, simulate_device
+from forcetorque.device.simulated_recordings import (
+    DeviceRecording,
+    DeviceSensors,
+    _write_truth,
+    known_intervals,
+    matrix_file,
+    simulate_device,
+)
+from forcetorque.formats.icub_matrix import read_matrix_file
 from forcetorque.recording.recording import Use
 
 RATE_HZ = 20.0
@@ -76,3 +86,19 @@ def test_sensors_keep_their_serial_numbers() -> None:
     assert [sensor.serial for sensor in sensors.sensors.values()] == [s.serial for s in file.sensor]
     matrices = [sensor.matrix for sensor in sensors.mounted.values()]
     assert all(np.abs(matrices[k] - matrices[k - 1]).max() > 0.0 for k in range(3))
+
+
+def test_prior_matrices_are_written_where_they_are_named(tmp_path: Path) -> None:
+    """They are those of the workbench within half a step of their code; without `prior` there is none."""
+    file = _file(prior=True).with_sensors(2)
+    sensors = DeviceSensors.draw(file)
+    _write_truth(tmp_path, file, sensors)
+    for sensor in sensors.sensors.values():
+        written = read_matrix_file(tmp_path / matrix_file(sensor.serial))
+        half_step = np.array(written.full_scale)[:, None] / 32767 / 2**16
+        assert (np.abs(written.matrix - sensor.workbench) <= 1.001 * half_step).all()
+        assert (np.abs(sensor.workbench) > 2.0 * half_step).any(axis=1).all()
+    assert len(list(tmp_path.glob("matrix_*"))) == 2
+    (tmp_path / "other").mkdir()
+    _write_truth(tmp_path / "other", _file(), sensors)
+    assert [path.name for path in (tmp_path / "other").iterdir()] == ["truth.json"]

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import SensorError
+from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.device.components import AttachedLoad, device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.error_budget import (
@@ -64,6 +65,13 @@ def _encoders(full_width: float, sensors: int = 1) -> LoadErrors:
 
 def _imu(full_width: float, sensors: int = 1) -> LoadErrors:
     return _graded(sensors)[Grade(by_imu=True, full_width=full_width)]
+
+
+def test_errors_of_data_sheets_are_those_of_their_steps() -> None:
+    """8 of the 2^14 steps of both ranges of the BNO055, to three digits, and 0.5 deg each way of the AS5045."""
+    steps = [8.0 * 2.0 * reach * STANDARD_GRAVITY / 2**14 for reach in (2.0, 4.0)]
+    assert [grade.full_width for grade in DATA_SHEETS if grade.by_imu] == pytest.approx(steps, rel=3e-3)
+    assert max(grade.full_width for grade in DATA_SHEETS if not grade.by_imu) == 2.0 * 0.5
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)

@@ -202,10 +202,10 @@ def test_encoders_err_by_half_their_width_either_way() -> None:
 
 def test_postures_of_all_options_are_quarters_of_a_turn() -> None:
     """Where the arm is level or straight down, as the locks need it."""
-    runs = [run for option in _options(25.0).values() for run in option.trajectories]
-    assert len(runs) >= 6
-    for run in runs:
-        quarters = np.rad2deg(run.sequence.postures) / 90.0
+    sequences = [run.sequence for option in _options(25.0).values() for run in option.trajectories]
+    assert len(sequences) >= 6
+    for sequence in (*sequences, swing_at_yaw_zero(DEVICE)):
+        quarters = np.rad2deg(sequence.postures) / 90.0
         np.testing.assert_allclose(quarters, np.round(quarters), atol=1e-9)
 
 

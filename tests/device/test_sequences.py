@@ -48,6 +48,16 @@ def test_the_load_swings_with_pitch_and_locks_at_90() -> None:
     assert np.rad2deg(motion.position[-1]) == pytest.approx([0.0, 360.0, 90.0])
 
 
+@pytest.mark.parametrize("rate_hz", [0.5, 20.0])
+def test_samples_are_the_fewest_that_are_as_dense_as_the_rate(rate_hz: float) -> None:
+    """From start to end, evenly; with an interval less they would be farther apart."""
+    trajectory = DeviceTrajectory(device=DEVICE, load=LOAD, sequence=twelve_steps(DEVICE))
+    time, motion = trajectory.sampled(rate_hz)
+    assert (time[0], time[-1], len(motion)) == (0.0, trajectory.duration_s, len(time))
+    np.testing.assert_allclose(np.diff(time), trajectory.duration_s / (len(time) - 1), rtol=1e-9)
+    assert trajectory.duration_s / (len(time) - 1) <= 1.0 / rate_hz < trajectory.duration_s / (len(time) - 2)
+
+
 def test_velocities_and_accelerations_are_derivatives() -> None:
     """Central differences of positions and velocities agree at every instant of the whole trajectory."""
     trajectory = DeviceTrajectory(device=DEVICE, load=LOAD, sequence=twelve_steps(DEVICE))

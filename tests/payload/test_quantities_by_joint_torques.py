@@ -16,6 +16,7 @@ from forcetorque.formats.arm_log import UNKNOWNS, LoggedTorques, holding_torques
 from forcetorque.formats.franka.kinematics import joint_frames
 from forcetorque.payload.load_by_joint_torques import (
     TorqueLoad,
+    _fit,
     _loads_differ,
     _postures,
     _require_postures,
@@ -128,6 +129,20 @@ def test_torques_without_error_give_the_truth() -> None:
     np.testing.assert_allclose([row.bias_Nm for row in weighed.joints], BIAS, atol=1e-9)
     assert max(row.residual_rms_Nm for row in weighed.joints) < 1e-6
     assert (weighed.postures, weighed.samples) == (POSTURES, POSTURES * SAMPLES)
+
+
+@pytest.mark.parametrize("largest_Nm", [0.01, 1.0, 100.0])
+def test_joints_without_error_have_a_billionth_of_the_largest_torque(largest_Nm: float) -> None:
+    """Of 1 N m at least, and the covariance is that of regression with this deviation."""
+    log = _log(noise=0.0)
+    unit = log.unit_torque[::SAMPLES]
+    torque = unit @ np.append(MASS, MASS * CENTRE)
+    values, covariance, deviation = _fit(torque * largest_Nm / np.abs(torque).max(), unit)
+    least = 1e-9 * max(largest_Nm, 1.0)
+    np.testing.assert_allclose(deviation, least, rtol=SAME)
+    assert values[0] == pytest.approx(MASS * largest_Nm / np.abs(torque).max(), rel=SAME)
+    design = (unit - unit.mean(axis=0)).reshape(-1, len(UNKNOWNS))
+    np.testing.assert_allclose(covariance, np.linalg.inv(design.T @ design) * least**2, rtol=1e-6)
 
 
 def test_errors_that_are_twice_as_large_make_intervals_twice_as_wide() -> None:

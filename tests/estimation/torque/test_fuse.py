@@ -16,6 +16,7 @@ from forcetorque.estimation.torque.covariance_fusion import (
     WindowMeans,
     disagreement,
     fuse,
+    inverse_of_known,
     means_in_windows,
 )
 from forcetorque.estimation.torque.torque_source import TorqueSource
@@ -111,6 +112,17 @@ def test_means_of_windows_are_over_what_all_sources_know() -> None:
     np.testing.assert_allclose(means_in_windows([first, slow], 0.3)[1].noise[:, 0, 0], [4.0, 4.0], rtol=EXACT)
     slower = replace(second, torque=np.arange(5.0)[:, None], noise_time_s=0.05)
     np.testing.assert_allclose(means_in_windows([slower], 0.3)[0].noise[:, 0, 0], [8.0 / 3.0, 4.0], rtol=EXACT)
+
+
+def test_weights_are_inverted_where_something_is_known() -> None:
+    """The inverse of the block that is known, and zero elsewhere."""
+    block = np.array([[2.0, 0.5], [0.5, 1.0]])
+    weights = np.zeros((2, 3, 3))
+    weights[0, 1:, 1:] = block
+    unknown = np.array([[True, False, False], [True, True, True]])
+    expected = np.zeros((2, 3, 3))
+    expected[0, 1:, 1:] = np.linalg.inv(block)
+    np.testing.assert_allclose(inverse_of_known(weights, unknown), expected, atol=EXACT)
 
 
 def test_a_source_need_not_say_how_far_off_nothing_is() -> None:
@@ -232,6 +244,17 @@ def test_of_two_sources_nobody_is_named() -> None:
     assert fusion.conflict.suspects == ("ft", "skin")
     assert fusion.used == ("ft", "skin")
     assert (fusion.half_width > agreed.half_width).all()
+
+
+@pytest.mark.parametrize(("noise", "widens"), [(1.0, True), (16.0, False)])
+def test_a_conflict_widens_the_covariance_by_the_mean_squared_innovation(noise: float, widens: bool) -> None:
+    """And never narrows it: an offset beside noise that is less than specified leaves less than 1 on average."""
+    ft, skin = (replace(one, noise=noise * one.noise) for one in three(9)[:2])
+    agreed, fusion = fuse([ft, skin]), fuse([shifted(ft, 1.2), skin])
+    assert (agreed.conflict.is_there, fusion.conflict.is_there, fusion.conflict.source) == (False, True, None)
+    ratio = fusion.conflict.everyone.total.ratio
+    assert (ratio > 1.0) == widens
+    np.testing.assert_allclose(fusion.covariance, agreed.covariance * (ratio if widens else 1.0), rtol=EXACT)
 
 
 def _with_model_error(seed: int, deviation: float, by_model: tuple[str, ...]) -> list[TorqueSource]:

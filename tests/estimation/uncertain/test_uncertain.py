@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,8 +17,10 @@ from forcetorque.estimation.uncertain.sub_model_posterior import Affine, posteri
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum, moving_joints
-from tests.robot.mechanics.simulated import random_pose
-from tests.robot.mechanics.touched import Touched, touched
+from forcetorque.robot.tree import build_tree
+from tests.robot.mechanics.simulated import random_pose, random_root
+from tests.robot.mechanics.touched import Touched, touch, touched
+from tests.scenes.robots import joint_xml, link_xml, random_motion, read_text, robot_xml
 
 ROUNDING = 1e-7
 """N, N m: wrenches of some 1e3 by 1e-13 each, through matrices of condition 1e3."""
@@ -232,6 +235,32 @@ def test_an_unknown_name_is_refused() -> None:
         )
 
 
+def test_a_slide_bears_a_force_and_a_hinge_a_moment(tmp_path: Path) -> None:
+    """Of a robot that slides, in motion and touched at its tip: its joints bear what Newton's laws demand."""
+    model = read_text(
+        robot_xml(
+            *(
+                link_xml(name, mass=1.5, xyz="0.1 0.02 0", moments="0.02 0 0 0.02 0 0.02")
+                for name in ("base", "upper", "fore")
+            ),
+            joint_xml("slide", "base", "upper", type="prismatic", xyz="0 0.2 0.1", rpy="0 0.5 0", axis="0 1 1"),
+            joint_xml("turn", "upper", "fore", type="continuous", xyz="0.1 0.1 0", rpy="-0.6 0 0.2", axis="0 -3 1"),
+        ),
+        tmp_path,
+    )
+    contacts = (
+        Contact(link="fore", name="tip", type=ContactType.KNOWN, link_H_contact=random_pose(np.random.default_rng(6))),
+        Contact(link="base"),
+    )
+    motion, root, tree = random_motion(model, samples=5, seed=1), random_root(5, 2), build_tree(model, "base")
+    robot = touch(model, tree, motion, root, contacts[:1], seed=3)
+    question = Question(tree=tree, contacts=contacts, torques=("slide", "turn"), torque_sum=TorqueSum.SUB_MODEL)
+    answer = estimate_with_covariance(question, motion, root, known=Wrenches.of({"tip": robot.truth["tip"]}))
+    for joint in question.torques:
+        np.testing.assert_allclose(answer.torque(joint), robot.simulation.torque(joint), rtol=0, atol=ROUNDING)
+        assert np.abs(answer.torque(joint)).max() > VISIBLE
+
+
 @pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
 def test_one_equation_of_two_unknowns_by_hand(unit: float) -> None:
     """Of x - 2 + 3 e = 0 follow x = 2 - 3 e and nothing of y, in any unit."""
@@ -300,6 +329,23 @@ def test_what_no_reading_sees_is_named_in_newtons() -> None:
         "a force of (0.00, 1.00, 0.00) N at 'shin' and a moment of (0.00, 0.00, 0.50) N m at 'shin' and "
         "a force of (0.00, -1.00, 0.00) N at 'toe' and a moment of (0.00, 0.00, -0.50) N m at 'toe'",
     )
+
+
+@pytest.mark.parametrize(("moment", "named"), [(0.0052, True), (0.0048, False)])
+def test_what_prints_as_zero_is_left_out(moment: float, named: bool) -> None:
+    """A moment of half a hundredth of the largest component is the least that two decimals show."""
+    acts = np.array([1.0, 0.0, 0.0, 0.0, 0.0, moment])
+    actor = Actor(
+        name="shin",
+        unknowns=("push",),
+        given=np.zeros((1, 6)),
+        free=acts[None, :, None],
+        errors=np.zeros((1, 6, 0)),
+    )
+    (found,) = undetermined_of([actor], np.ones((1, 1, 1)))
+    force, *rest = found.directions[0].split(" and ")
+    assert force == "a force of (1.00, 0.00, 0.00) N at 'shin'"
+    assert rest == (["a moment of (0.00, 0.00, 0.01) N m at 'shin'"] if named else [])
 
 
 def test_a_gap_stays_in_its_sample() -> None:
