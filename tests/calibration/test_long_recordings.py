@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,10 @@ import pytest
 from forcetorque.base.errors import RecordingError
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, data_doubts
 from forcetorque.calibration.reduced_recordings import recording_moments
+from forcetorque.experiment.calibration.moments import DataSet
+from forcetorque.experiment.calibration.stored_moments import IntervalMoments
 from forcetorque.experiment.campaign import Campaign
+from forcetorque.experiment.campaign_intervals import CampaignInterval
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.long_recording import is_long
@@ -80,6 +84,31 @@ def test_no_sample_of_a_whole_long_recording_is_computed(recorded: Path, monkeyp
     lengths.clear()
     recording_moments(_runs(recorded, file))
     assert longest < max(lengths) - SEGMENT_S
+
+
+def test_contacts_of_a_segment_are_found_with_samples_beside_it(
+    recorded: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of the same interval, up to 2 s before and after: a segment begins and ends elsewhere than a contact."""
+    before_s, after_s = [], []
+
+    def nothing_kept(
+        _: SensorRun, intervals: Sequence[CampaignInterval], *, around: Sequence[DataSet], **__: object
+    ) -> tuple[list[IntervalMoments], list[str]]:
+        for interval, wider in zip(intervals, around, strict=True):
+            own = interval.data_set.time_s
+            assert (np.diff(wider.time_s) > 0.0).all()
+            assert np.isin(own, wider.time_s).all()
+            before_s.append(own[0] - wider.time_s[0])
+            after_s.append(wider.time_s[-1] - own[-1])
+        return [], []
+
+    monkeypatch.setattr("forcetorque.calibration.moments_of_samples.agreeing_moments", nothing_kept)
+    with short_segments(), pytest.raises(RecordingError, match="samples that agree"):
+        recording_moments(*_runs(recorded, CALIBRATION[0]))
+    assert len(before_s) > 2
+    assert [*before_s[1:], *after_s[:-1]] == pytest.approx([2.0] * (2 * len(before_s) - 2), abs=0.01)
+    assert (before_s[0], after_s[-1]) == (0.0, 0.0)
 
 
 def test_a_long_recording_is_reduced_once(recorded: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -80,3 +80,13 @@ def test_the_prior_is_as_wide_as_it_was() -> None:
     unit = LOADS[0] / UNITS
     expected = np.einsum("b,abcd,d->ac", unit, by_row, unit) * np.outer(UNITS, UNITS)
     np.testing.assert_allclose(np.diag(before), np.diag(expected), rtol=0.3)  # turned by 1 + D
+
+
+def test_data_never_widen_what_was_known_before() -> None:
+    """In no direction of all unknowns has the fit more variance than before the data, and in some nearly none."""
+    fit = _fit()
+    before = fit.prior_root @ fit.prior_root.T
+    size = np.sqrt(np.diag(before))
+    narrowed = np.linalg.eigvalsh((before - fit.covariance) / np.outer(size, size))
+    assert narrowed[0] > -1e-9  # rounding
+    assert (np.diag(fit.covariance) / size**2).min() < 1e-6
