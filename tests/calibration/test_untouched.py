@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any
 
@@ -151,12 +150,11 @@ def test_a_second_interval_tells_that_the_first_was_touched() -> None:
 
 @pytest.mark.parametrize(("moving", "times"), [((20.0, 28.0), -1.0), ((40.0, 60.0), 4.0)])
 def test_a_motion_that_the_prior_does_not_read_is_no_contact(moving: tuple[float, float], times: float) -> None:
-    """Wrong masses are refused, and a wrong sense is found; without the only motion there would be neither."""
+    """Where sense or masses are wrong the fit is refused; without the only motion there would be one."""
     loads = _limb(moving=moving)
     wrong = replace(_data(loads), reference=times * loads)
-    with nullcontext() if times < 0.0 else pytest.raises(FitError, match="of what its prior says"):
-        fitted = fit_generative([WindowMeans.of(wrong)], PRIOR, assumptions(accuracy=None))
-        assert (np.diag(fitted.model.matrix @ np.linalg.pinv(PRIOR)) < -0.9).all()
+    with pytest.raises(FitError, match="of what its prior says"):
+        fit_generative([WindowMeans.of(wrong)], PRIOR, assumptions(accuracy=None))
     loads[:, 5] = 0.25  # a component at rest is no direction, nor is the fit refused for every wrong reference
     for data in (wrong, replace(_data(loads), reference=times * loads)):
         (agree,), spans = agreeing_samples([data], PRIOR, assumptions(accuracy=None))

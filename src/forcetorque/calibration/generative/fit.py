@@ -133,8 +133,7 @@ class Layout:
             sensor = expected.STATED
         if not with_prior:  # nothing is known of the sensor: its deviations may be as large as they like
             sensor = Scale(expected=1e3, weight=np.inf)
-        quadratic = expected.quadratic_scale(with_prior=with_prior)
-        own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), quadratic, expected.FLATTENING)
+        own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING)
         kinds = list(dict.fromkeys(term.kind for term in terms))
         mount = expected.mount_scales(assumptions.mount)
         shared = (expected.GAIN, *mount, *(expected.MODEL for _ in kinds)) if terms else ()

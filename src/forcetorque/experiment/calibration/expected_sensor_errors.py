@@ -66,13 +66,8 @@ SHIFT: Final = Scale(expected=0.002, weight=6.0)
 """Shift of its origin along each of them; m. Centres of mass that are off look like one, so it is held."""
 MODEL: Final = Scale(expected=1.0, weight=4.0, least=1.0)
 """Errors of the robot model of one kind, over their tolerance: evidence may find them larger, never smaller."""
-QUADRATIC: Final = Scale(expected=0.01, weight=2.0)
-"""Quadratic terms, over full scale: data sheets state as much, and data tell where a sensor has more.
-
-Where 5 % are expected, which count for six terms, gains of the yoga log pass for quadratic terms.
-"""
-QUADRATIC_WITHOUT_PRIOR: Final = Scale(expected=0.05, weight=6.0)
-"""The same of a sensor without a prior matrix: by how much evidence falls with such terms tells a linear sensor."""
+QUADRATIC: Final = Scale(expected=0.05, weight=6.0)
+"""Quadratic terms, over full scale."""
 FLATTENED: Final = 1.0 / 3.0
 """What the derivative window took from the reference, over what one of twice the length would take besides.
 
@@ -88,18 +83,6 @@ DRIFT_SHARE_PER_DEGREE: Final = 0.005
 """What a temperature coefficient may be: a share of full scale per degree."""
 VARIABLE_SHARE: Final = 1.0
 """What any other variable may do over the range in which it was seen: a share of full scale."""
-
-
-def quadratic_scale(*, with_prior: bool) -> Scale:
-    """Give the expected size of quadratic terms.
-
-    Args:
-        with_prior: Whether the sensor has a prior matrix.
-
-    Returns:
-        The size.
-    """
-    return QUADRATIC if with_prior else QUADRATIC_WITHOUT_PRIOR
 
 
 def variable_sizes(variable: LinearVariable, from_load: FloatArray, extent: float) -> FloatArray:
