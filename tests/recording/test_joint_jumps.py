@@ -202,3 +202,13 @@ def test_a_wrong_row_at_rest_is_left_out_and_metres_have_no_turns() -> None:
     assert (np.flatnonzero(np.isnan(values)).tolist(), finding.kind) == ([300], "joint_spike")
     (finding,) = _repaired(_with(0.2 * SWING, slice(500, None), TURN), unit="m")[1]
     assert (finding.kind, finding.unit) == ("joint_jump", "m")
+
+
+def test_a_joint_that_lies_where_its_reading_wraps_stays_there() -> None:
+    """Turns beside turns, and noise between them; a turn for all samples is the same posture."""
+    angles = np.pi + 0.002 * SWING + 1e-3 * np.random.default_rng(8).normal(size=COUNT)
+    values, (finding,) = _repaired((angles + np.pi) % TURN - np.pi)
+    off = (values - angles) / TURN
+    np.testing.assert_allclose(off, np.rint(off[0]), rtol=0.0, atol=1e-12)
+    assert finding.kind == "joint_spike"
+    assert finding.count > 20

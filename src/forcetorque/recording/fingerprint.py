@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """By what samples are known again: hashes of windows of them, for any stamps and any cut of the log.
 
-Every window of `WINDOW` samples, repeats left out, has a hash of its values, rounded to so many digits as every way of
-writing a log keeps. Of these the smallest are kept: they are distributed over all of the samples, and the same of every
-log that holds them. Of samples whose share p another log holds, none of `KEPT` is found again with the probability
-(1 - p)^KEPT.
+Every window of `WINDOW` samples has a hash of its values, rounded to so many digits as every way of writing a log
+keeps; repeats between which most channels change are left out. Of these the smallest are kept: they are distributed
+over all of the samples, and the same of every log that holds them. Of samples whose share p another log holds, none of
+`KEPT` is found again with the probability (1 - p)^KEPT. Where a load moves few channels at a time, a log in which
+readings repeat has few hashes, or none.
 """
 
 from __future__ import annotations

@@ -253,7 +253,8 @@ def repeated_readings(stamp_ns: IntArray, values: FloatArray) -> BoolArray:
     """Find samples that repeat the reading before them in all channels under a new stamp.
 
     They are of a sensor that is slower than its log, or of messages that were lost and replaced; at a load that moves
-    they are late. They count where noise gives far fewer of them, or nearly every reading stays while the load moves;
+    they are late. They count where noise gives far fewer of them, or nearly every reading stays while the load moves
+    by more than four steps of the converter from reading to reading;
     up to 0.15 s, of a sensor of at least 4 Hz up to twice the usual time between its readings.
 
     Args:

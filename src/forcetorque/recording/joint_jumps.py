@@ -85,12 +85,16 @@ class _Joint:
         # a reading that is held moves by what it missed
         seconds = np.diff(stamps[changes + 1], prepend=stamps[0]) * 1e-9
         far = np.flatnonzero(np.abs(steps[changes]) > _JUMP)
-        usual, scatter = _movement_beside(steps[changes], seconds, far)
+        is_angle = signal.units[column] == "rad"
+        moved = steps[changes]
+        if is_angle:  # a joint that lies where its reading wraps has turns beside turns
+            wraps = (np.abs(moved) > np.pi) & (np.abs(_beside_turns(moved)) < _OF_TURN)
+            moved = np.where(wraps, _beside_turns(moved), moved)
+        usual, scatter = _movement_beside(moved, seconds, far)
         beside = steps[changes[far]] - usual * seconds[far]
         size = np.abs(beside)
         rests = len(changes) <= 2 * _AROUND
-        everywhere = 0.0 if rests else _OF_ALL * float(np.median(np.abs(np.diff(steps[changes]))))
-        is_angle = signal.units[column] == "rad"
+        everywhere = 0.0 if rests else _OF_ALL * float(np.median(np.abs(np.diff(moved))))
         turns = is_angle & (np.abs(_beside_turns(beside)) < _OF_TURN) & (size > np.pi)
         # a joint whose reading stops may change its speed meanwhile
         possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * seconds[far]

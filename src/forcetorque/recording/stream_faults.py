@@ -38,6 +38,9 @@ that are seen to be too many to tell."""
 _GLITCH_REACH, _GLITCH_SIZE = 12.0, 0.5
 """Standard deviations, by the distances from the median of all values that are no glitches, and part of the median
 beyond which a value is a glitch, if it comes and goes by a jump of as much."""
+_GLITCH_VALUES = 2
+"""Most different values that glitches have where they are more than may be of a column that rests: a failed
+conversion repeats its value, and a variable that comes in bursts does not."""
 _GLITCH_LENGTH, _GLITCH_AT_ENDS, _SHORTEST_HOLD = 10, 3, 0.1
 """Values in a row that may be glitches, three at an end of the log; and quantile of the lengths of runs of equal rows
 that is the length for which a log holds one value."""
@@ -139,6 +142,8 @@ def glitched_values(values: FloatArray) -> tuple[BoolArray, int]:
     away = np.abs(known - np.median(known))
     deviation = _deviation(away, _GLITCH_SHARE) or _deviation(away, _GLITCH_SHARE_AT_REST)
     apart = _brief(known, away, deviation)
+    if np.count_nonzero(apart) > _GLITCH_SHARE_AT_REST * len(known) and len(np.unique(known[apart])) > _GLITCH_VALUES:
+        apart = _brief(known, away, _deviation(away, _GLITCH_SHARE_AT_REST))
     glitched[seen[apart]] = True
     of_half = _deviation(away, _GLITCH_SHARE_TO_SEE)
     more = int(np.count_nonzero(_brief(known, away, of_half) & ~apart)) if of_half > 0.0 else 0
