@@ -97,18 +97,6 @@ def test_the_chance_of_differences_is_that_of_draws(count: int, degrees: list[fl
         assert 0.9 < found < 1.0 + (most if min(degrees) < 1000.0 else 0.05)
 
 
-def test_too_few_rows_give_no_chance() -> None:
-    """Two rows in each of three power cycles; control: four."""
-    given = []
-    for rows in (2, 4):
-        gravity = poses(3 * rows, np.random.default_rng(7))
-        noisy = weight(gravity) + SIZES * np.random.default_rng(8).normal(size=(len(gravity), 6))
-        problem = problem_of(noisy, gravity, session=np.repeat(np.arange(3), rows))
-        (sessions,) = bias_tests(fit(problem, drift=False), drift=False)
-        given.append(sessions.p_value is not None)
-    assert given == [False, True]
-
-
 @pytest.mark.long
 @pytest.mark.parametrize(("rows", "power_ups"), [(4, 2), (6, 4)])
 def test_few_rows_differ_by_chance_as_often_as_said(rows: int, power_ups: int) -> None:

@@ -83,7 +83,7 @@ def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float | None
     of_biases = covariance[np.ix_(touched, touched)]
     components = np.array([one.component for one in listed])[touched]
     degrees = np.array([fitted.estimate.degrees_of_freedom[touched][components == k].mean() for k in range(6)])
-    if not np.isfinite(of_biases).all() or not degrees.min() >= 3.0 * _LEAST_FREEDOM:
+    if not np.isfinite(of_biases).all() or not degrees.min() > 0.0:
         p_value = None
     else:
         spread = matrix[:, touched] @ of_biases @ matrix[:, touched].T
@@ -95,7 +95,7 @@ def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float | None
 
 
 _LEAST_FREEDOM = 4.2
-"""Degrees of freedom of an axis below which there is no probability: of 4 an F distribution has no variance."""
+"""Degrees of freedom of an axis that are reckoned with at least: of 4 an F distribution has no variance."""
 
 
 def _chance(square: float, count: int, degrees: FloatArray) -> float:
@@ -114,7 +114,7 @@ def _chance(square: float, count: int, degrees: FloatArray) -> float:
     """
     from scipy.special import fdtrc  # here because importing it takes longer than most commands
 
-    own, total = degrees / 3.0, 6 * count
+    own, total = np.maximum(degrees / 3.0, _LEAST_FREEDOM), 6 * count
     mean = float((own / (own - 2.0)).mean())
     variances = 2.0 * own**2 * (count + own - 2.0) / (count * (own - 2.0) ** 2 * (own - 4.0))
     relative = float(variances.sum()) / 36.0 / (2.0 * mean**2)
