@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
+from forcetorque.base.true_runs import true_runs
 from forcetorque.formats.specified_signals import even_stamps
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
-from forcetorque.recording.stream_faults import true_runs
 
 _BY_CHANCE = 1e-6
 """Chance of a run of equal values, by how often values repeat elsewhere in the episode, below which it is stuck."""

@@ -13,9 +13,9 @@ from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
 from forcetorque.base.rows_on_disk import row_blocks
+from forcetorque.base.true_runs import true_runs
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream_faults import true_runs
 
 FLANGE = "tool0"
 """Frame of the mechanical flange as the controller has it, which is that of an all-zero tool: z points out of the

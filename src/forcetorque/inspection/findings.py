@@ -13,6 +13,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.progress import Progress, TimeLeft
+from forcetorque.base.true_runs import true_runs
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
@@ -27,7 +28,7 @@ from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.joint_jumps import JUMPS, are_ignored
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use
-from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings, true_runs
+from forcetorque.recording.stream_faults import frozen_finding, saturation_findings, stream_findings
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.taxels.pressure_cycles import patch_recordings

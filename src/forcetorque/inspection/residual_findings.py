@@ -21,12 +21,12 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ShapeError
+from forcetorque.base.true_runs import true_runs
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.inspection.model_errors import ModelErrors
 from forcetorque.recording.frozen_and_saturated_samples import mask_of
 from forcetorque.recording.recording import Finding
-from forcetorque.recording.stream_faults import true_runs
 
 LOAD_SHARE = 0.1
 """Least residual of a finding, as a share of the load of the limb."""

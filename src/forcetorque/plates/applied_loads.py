@@ -22,12 +22,12 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.errors import ExperimentError, FormatError, require_known
 from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import invert_pose
+from forcetorque.base.true_runs import true_runs
 from forcetorque.base.wrench import MeasureDirection, reading_sign, transform_wrench
 from forcetorque.formats.c3d.force_platform import ForcePlate
 from forcetorque.formats.c3d.plate_conventions import factor_of, stated_unit
 from forcetorque.plates.plate_file import PlateFile
 from forcetorque.plates.weight_on_plates import STEADY, WINDOW_S
-from forcetorque.recording.stream_faults import true_runs
 from forcetorque.workbench.known_loads import BenchLoads, LoadTable, read_loads
 from forcetorque.workbench.position_means import Bench
 

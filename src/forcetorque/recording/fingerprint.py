@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.rows_on_disk import BLOCK_ROWS, forget_pages
+from forcetorque.base.true_runs import run_edges
 
 WINDOW = 16
 """Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""
@@ -64,7 +65,7 @@ def _each_reading_once(values: FloatArray) -> BoolArray:
         forget_pages([values])
     same = changed == 0
     by_reading = np.concatenate([[True], changed >= 0.5 * values.shape[1], [True]])
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8))).reshape(-1, 2)
+    edges = run_edges(same)
     for first, last in edges[by_reading[edges[:, 0]] & by_reading[edges[:, 1] + 1]].tolist():
         once[first + 1 : last + 1] = False
     return once

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.special import erf
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.true_runs import run_edges
 from forcetorque.recording.alignment import usable_samples
 
 FROZEN_SECONDS = 0.5
@@ -186,8 +187,7 @@ def equal_runs(stamp_ns: IntArray, values: FloatArray) -> list[Run]:
     """
     usable = usable_samples(stamp_ns)
     same = (np.diff(values[usable], axis=0) == 0.0).all(axis=1)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
-    runs = zip(usable[edges[::2]].tolist(), usable[edges[1::2]].tolist(), strict=True)
+    runs = usable[run_edges(same)].tolist()
     return [(first, last) for first, last in runs if stamp_ns[last] - stamp_ns[first] > round(FROZEN_SECONDS * 1e9)]
 
 
@@ -311,8 +311,7 @@ def _period_of_slow_sensor(stamps: IntArray, samples: FloatArray, same: BoolArra
 
 def _noisy_at_ends(stamps: IntArray, samples: FloatArray, same: BoolArray, longest_ns: int) -> Iterator[Run]:
     """Short runs of equal readings that most channels enter and leave by a change; a load at rest does not."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
-    for start, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+    for start, end in run_edges(same).tolist():
         if stamps[end] - stamps[start] > longest_ns:
             continue
         beside = [k for k in (start - 1, end) if 0 <= k < len(same)]

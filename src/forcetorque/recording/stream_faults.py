@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.true_runs import run_edges, true_runs
 from forcetorque.recording.alignment import gap_limit_ns, usable_samples
 from forcetorque.recording.frozen_and_saturated_samples import (
     SATURATION_SHARE,
@@ -172,19 +173,6 @@ def _brief(known: FloatArray, away: FloatArray, deviation: float) -> BoolArray:
     return brief
 
 
-def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
-    """Find the runs of true values.
-
-    Args:
-        mask: Truth per sample; shape (n,).
-
-    Returns:
-        First and last index of every run.
-    """
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
-    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
-
-
 def _gaps(stream: Stream) -> list[Finding]:
     over = partial(Finding.over, stream.name, stream.stamp_ns)
     usable = usable_samples(stream.stamp_ns)
@@ -309,11 +297,10 @@ def _seconds(stream: Stream, run: Run) -> float:
 
 def _stuck_runs(stream: Stream, column: FloatArray, alone: BoolArray) -> list[Run]:
     """Runs of equal values of one channel, other than of all, that are too long for noise."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], alone, [False]]).astype(np.int8)))
-    seconds = (stream.stamp_ns[edges[1::2]] - stream.stamp_ns[edges[::2]]) * 1e-9
+    edges = run_edges(alone)
+    seconds = (stream.stamp_ns[edges[:, 1]] - stream.stamp_ns[edges[:, 0]]) * 1e-9
     # of millions of samples two in a row are often equal
-    long = seconds > STUCK_NOISY_SECONDS
-    runs: list[Run] = list(zip(edges[::2][long].tolist(), edges[1::2][long].tolist(), strict=True))
+    runs: list[Run] = [(first, last) for first, last in edges[seconds > STUCK_NOISY_SECONDS].tolist()]
     short = [run for run in runs if _seconds(stream, run) <= STUCK_SECONDS]
     surely = set(noisy_runs(stream.stamp_ns, column, short))
     return [run for run in runs if _seconds(stream, run) > STUCK_SECONDS or run in surely]

@@ -19,12 +19,12 @@ from forcetorque.base.errors import FormatError, ShapeError
 from forcetorque.base.output_file import new_folder, write_bytes_atomically
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import first_error
+from forcetorque.base.true_runs import true_runs
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import write_recording
-from forcetorque.recording.stream_faults import true_runs
 from forcetorque.results.answer import Answer, typed
 from forcetorque.results.result import Result
 from forcetorque.results.table import Row, Shown, Table, table_of

@@ -15,13 +15,13 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.true_runs import true_runs
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.gravity_fit import MARGIN_S, SHORTEST_S
 from forcetorque.inspection.draft.intervals_and_clocks import MOST_SPANS
 from forcetorque.inspection.findings import over_the_whole_log
 from forcetorque.inspection.model_errors import ModelErrors
 from forcetorque.inspection.residual_findings import LOAD_SHARE, UNEXPLAINED, model_findings
-from forcetorque.recording.stream_faults import true_runs
 
 _BLOCK_S = 0.5
 """Length of the medians whose levels are compared."""

@@ -15,6 +15,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.inertia import Inertia
+from forcetorque.base.true_runs import true_runs
 from forcetorque.base.units import MAD_TO_DEVIATION, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
@@ -22,7 +23,6 @@ from forcetorque.recording.alignment import interpolate, usable_samples
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.smoothing import DERIVATIVE_WINDOW
 from forcetorque.recording.stream import Stream
-from forcetorque.recording.stream_faults import true_runs
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion, joint_motion_at
