@@ -46,7 +46,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.device.device_file import DeviceFile
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.experiment.calibration.calibration_file import Calibration
-    from forcetorque.experiment.calibration.joint_posterior import JointPosterior
+    from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import JointPosterior
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
     from forcetorque.experiment.experiment_file import experiment_file
     from forcetorque.experiment.workbench_file import BenchFile

@@ -124,7 +124,7 @@ def calibrate_skin(
     Saved(
         flags=("--film",),
         help="GIF of the field of pressure over time.",
-        function="forcetorque.skin.pressure_animation:save_skin_film",
+        function="forcetorque.skin.figures:save_skin_film",
         endings=(".gif",),
     ),
 )
