@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.contests.pairwise_comparison import (
+from forcetorque.contests.contestant_errors_and_comparison import (
     ContestPairRow,
     compared_pairs,
     mean_squares,

@@ -12,10 +12,13 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
 from forcetorque.contests.contest_file import Entries
-from forcetorque.contests.contestant_errors import Phases, Reader, contestant_reader, contestant_trials
-from forcetorque.contests.pairwise_comparison import (
+from forcetorque.contests.contestant_errors_and_comparison import (
     ContestPairRow,
+    Phases,
+    Reader,
     compared_pairs,
+    contestant_reader,
+    contestant_trials,
     mean_squares,
     ranks_and_winner,
     rms_intervals,

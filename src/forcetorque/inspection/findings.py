@@ -10,10 +10,9 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, true_runs
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.base.true_runs import true_runs
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
