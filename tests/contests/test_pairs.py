@@ -15,7 +15,7 @@ from forcetorque.contests.contestant_errors_and_comparison import (
     ranks_and_winner,
     rms_intervals,
 )
-from forcetorque.contests.phases import Trial, by_load, common_phases, trial_by_phase
+from forcetorque.contests.phases_and_runs_by_load import Trial, by_load, common_phases, trial_by_phase
 
 PHASES, LOADS = 120, (10.0, 15.0, 20.0)
 ALL = np.ones(PHASES, dtype=np.bool_)

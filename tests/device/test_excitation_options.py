@@ -15,7 +15,12 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import device_span, direction_rows, optimised_motion, sensor_span_row
+from forcetorque.device.excitation_and_predicted_errors import (
+    device_span,
+    direction_rows,
+    optimised_motion,
+    sensor_span_row,
+)
 from forcetorque.device.excitation_options import (
     SAMPLES,
     ExcitationOption,
@@ -25,12 +30,11 @@ from forcetorque.device.excitation_options import (
     still_poses,
     swing_at_yaw_zero,
     third_lock_steps,
-    uncertain,
 )
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory, joint_ranges
 from forcetorque.device.optimised_motion import Designer
-from forcetorque.device.tolerances import RestTable, Tolerances
+from forcetorque.device.tolerances import RestTable, Tolerances, joined_loads
 from forcetorque.workbench.excitation import Span
 from forcetorque.workbench.known_loads import THESIS_TABLE, read_loads
 from forcetorque.workbench.position_means import Placement
@@ -65,7 +69,9 @@ def _device_errors(poses: list, seeds: int) -> FloatArray:  # type: ignore[type-
 
 
 def _predicted(option: ExcitationOption) -> tuple[float, float]:
-    return uncertain(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
+    return (
+        joined_loads(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
+    )
 
 
 def test_the_12_steps_leave_the_moment_about_the_line_of_both_centres() -> None:

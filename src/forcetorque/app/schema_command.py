@@ -57,7 +57,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.sensor.choice.load_case import LoadCaseFile
     from forcetorque.simulation.scenario.scenario_file import ScenarioFile
     from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
-    from forcetorque.skin.taxels.patch_calibration import PatchCalibration
+    from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PatchCalibration
 
     return {
         "experiment": experiment_file().model_json_schema,

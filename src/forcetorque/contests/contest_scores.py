@@ -23,7 +23,14 @@ from forcetorque.contests.contestant_errors_and_comparison import (
     ranks_and_winner,
     rms_intervals,
 )
-from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
+from forcetorque.contests.phases_and_runs_by_load import (
+    Trial,
+    by_load,
+    changes,
+    common_phases,
+    repeatability,
+    require_same_motion,
+)
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, optional_table, table_of
 

@@ -32,7 +32,7 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.calibration.generative.generative_calibration import generative_calibration
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.contests.contest_file import Contestant, ContestRun, Method
-from forcetorque.contests.phases import MotionPath, Trial, trial_by_phase
+from forcetorque.contests.phases_and_runs_by_load import MotionPath, Trial, trial_by_phase
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.named_files import stated_in

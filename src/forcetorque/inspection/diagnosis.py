@@ -24,7 +24,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison_with_model import Comparison, compared, robot_of
 from forcetorque.inspection.plausibility.evidence import Evidence, Fit
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation, explanations, senses
-from forcetorque.inspection.plausibility.sense_gain_and_unit_checks import require_moving_load
+from forcetorque.inspection.plausibility.gravity_sense_gain_and_unit_checks import require_moving_load
 from forcetorque.recording.alignment import ClockShift
 from forcetorque.recording.recording import Finding
 

@@ -22,8 +22,8 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison_with_model import Comparison, compared
 from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
-from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
+from forcetorque.inspection.plausibility.gate import FEWEST, examine
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.joint_jumps import JUMPS, are_ignored
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use

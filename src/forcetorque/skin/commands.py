@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from forcetorque.skin.layout.check import SkinCheck
     from forcetorque.skin.patches_of_experiment import PatchExperiment
     from forcetorque.skin.taxels.calibrate import SkinCalibration
-    from forcetorque.skin.taxels.patch_calibration import PatchCalibration
+    from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PatchCalibration
     from forcetorque.skin.wrench.skin_wrench import SkinWrench
 
 _PATCH = Option("Name of the patch. Default: the only one.")
