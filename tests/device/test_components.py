@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from forcetorque.device.components import Turn, device_load, part_inertia
+from forcetorque.device.components import Hinge, Turn, device_load, part_inertia
 from forcetorque.device.device_file import read_device
 from forcetorque.device.robot_model import BASE, device_model
 from forcetorque.robot.dynamics import link_pose
@@ -43,6 +43,13 @@ def test_plates_are_a_solid_cylinder_beyond_the_foot_beside_the_carrier(load_kg:
     assert whole.mass == pytest.approx(load_kg)
     np.testing.assert_allclose(first, [0.0, 0.0, mass * up.mean()], rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(second, np.diag([across, across, mass * square]), rtol=1e-4, atol=1e-12)
+
+
+def test_a_hinge_of_a_file_that_states_no_more_is_that_of_the_thesis() -> None:
+    """It locks by itself at 0 and at 90 degrees, and its stops are those of the default device."""
+    hinge = Hinge(bracket=DEVICE.hinge.bracket)
+    assert hinge.locks_deg == (0.0, 90.0)
+    assert hinge.range_deg == DEVICE.hinge.range_deg
 
 
 def test_a_turn_is_a_joint_before_the_hinge() -> None:
