@@ -60,6 +60,14 @@ def test_a_turn_is_a_joint_before_the_hinge() -> None:
     assert device_model(turned, device_load(turned, 5.0)).joints["hinge"].parent == "bracket"
 
 
+def test_axes_are_unit_vectors() -> None:
+    """As a joint of a robot model has them, of every kind of device."""
+    for device in (DEVICE, DEVICE.changed(turn=Turn(), yaw_first=True)):
+        axes = [joint.axis for joint in device_model(device, device_load(device, 5.0)).joints.values()]
+        assert len(axes) > len(device.joint_names)
+        np.testing.assert_allclose(np.linalg.norm(axes, axis=1), 1.0, rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("count", "words"), [(0, "at least 1 item"), (4, "at most 3 items")], ids=["without a sensor", "too many"]
 )

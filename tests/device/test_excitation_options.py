@@ -378,7 +378,7 @@ def test_the_turned_load_goes_to_both_positions_of_the_turn() -> None:
 def test_errors_of_poses_are_those_of_the_expected_wrench() -> None:
     """One standard deviation each, by its derivative; of a lock only where the hinge is at it, of a free hinge else."""
     twelve = _options(25.0)["free hinge"].trajectories[0]
-    poses = still_poses(twelve)
+    poses = still_poses(twelve, spacing_deg=45.0)
     name, hinge = twelve.load.name, np.rad2deg(poses.position[:, -1])
     expected = ExpectedWrench(
         device=twelve.device,
