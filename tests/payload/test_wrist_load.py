@@ -176,7 +176,6 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
     assert "--to" not in answer.command
 
 
-@pytest.mark.long
 def test_a_load_with_contact_in_its_samples_is_not_offered_to_the_robot(tmp_path: Path) -> None:
     """The first reason says how many samples disagree, and the next step names the session of most of them.
 
