@@ -15,6 +15,8 @@ most. The integers are sums of the differences, or sums of sums where the order 
 
 A calibration is a linear map of what the first measured series of its sensor shows, and an offset. Where that holds,
 the map is in the header (`ArrayRef.matrix`), and what is packed is the difference, which is constant.
+
+Extremes and sums of blocks of a long log come with it, so that the page draws all of it before it unpacks a sample.
 """
 
 from __future__ import annotations
