@@ -34,7 +34,7 @@ from forcetorque.device.expected_wrench import (
     device_response,
 )
 from forcetorque.device.motion import twelve_steps
-from forcetorque.device.tolerances import NOISE_REACH, Tolerance
+from forcetorque.device.tolerances import Tolerance
 
 THREE = read_device().with_sensors(3)
 ONE = THREE.with_sensors(1)
@@ -218,7 +218,7 @@ def test_errors_of_steps_zero_and_noise_count_as_they_are() -> None:
     """Full widths over root 12, noise as its deviation; the largest is half of widths, three deviations of noise."""
     tolerance = Tolerance(step=0.6, zero=1.2, noise=0.1)
     assert tolerance.variance == pytest.approx((0.36 + 1.44) / 12.0 + 0.01)
-    assert tolerance.largest == pytest.approx(0.9 + NOISE_REACH * 0.1)
+    assert tolerance.largest == pytest.approx(0.9 + 3.0 * 0.1)
     drawn = np.concatenate([tolerance.drawn(np.random.default_rng(seed), 50) for seed in range(400)])
     assert drawn.var() == pytest.approx(tolerance.variance, rel=0.1)
     stays = Tolerance(zero=1.0).drawn(np.random.default_rng(1), 50)
@@ -240,7 +240,7 @@ def test_a_budget_is_that_of_its_slopes_by_hand() -> None:
     slopes = np.random.default_rng(4).normal(size=(3, 5, 6))
     tolerances = (Tolerance(step=0.6), Tolerance(zero=0.2, noise=0.1), Tolerance(fixed=-0.7, step=0.1))
     budget = ErrorBudget(quantities=("pitch", "yaw", MASS), tolerances=tolerances, slopes=slopes)
-    variances, reach = [0.03, 0.04 / 12.0 + 0.01, 0.01 / 12.0], [0.3, 0.1 + NOISE_REACH * 0.1, 0.05]
+    variances, reach = [0.03, 0.04 / 12.0 + 0.01, 0.01 / 12.0], [0.3, 0.1 + 3.0 * 0.1, 0.05]
     square = sum(variance * slope**2 for variance, slope in zip(variances, slopes, strict=True))
     np.testing.assert_allclose(budget.rms**2, (square + (0.7 * slopes[2]) ** 2).mean(axis=0))
     worst = sum(size * np.abs(slope) for size, slope in zip(reach, slopes, strict=True)) + 0.7 * np.abs(slopes[2])

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from types import SimpleNamespace
@@ -444,6 +445,30 @@ def test_a_motion_searched_is_valued_as_it_is_published() -> None:
     assert motion.duration_s == pytest.approx(third.duration_s)
     assert motion.value == pytest.approx(error.volume, abs=0.3)
     assert motion.squares == pytest.approx(error.mean_squares(held_out_loads()), rel=0.02)
+
+
+def test_a_search_begins_from_motions_that_are_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those that are picked posture by posture use nearly all of the time, rests included, and no more."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(
+        device=third.device, load=third.load, sensor="ft_1", seconds=60.0, hold_s=3.0, candidates=40, swaps=0
+    )
+    begun: list[FloatArray] = []
+
+    def noted(
+        through: Callable[[FloatArray], object], drawn: FloatArray, orders: list[FloatArray], **_: object
+    ) -> object:
+        begun.extend(orders)
+        return through(orders[-1])
+
+    monkeypatch.setattr("forcetorque.device.optimised_motion.search", noted)
+    initial = np.deg2rad([[-90.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    designer.improve(initial)
+    *picked, last = begun
+    np.testing.assert_array_equal(last, initial)
+    lasting = [designer.through(order).duration_s for order in picked]
+    assert len(lasting) >= 2
+    assert 0.8 * 60.0 < min(lasting) <= max(lasting) <= 60.0
 
 
 def test_a_posture_that_is_listed_twice_is_visited_once() -> None:
