@@ -12,7 +12,7 @@ import pytest
 from forcetorque.device.commands import design_device
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
-from forcetorque.device.excitation import PLACEMENTS, predicted_rms
+from forcetorque.device.excitation_and_predicted_errors import PLACEMENTS, predicted_rms
 from forcetorque.device.excitation_options import SAMPLES, sample_noise, workbench_loads
 from forcetorque.device.simulated_recordings import write_device
 from forcetorque.experiment.calibration.calibration_file import read_calibration

@@ -18,7 +18,7 @@ from forcetorque.base.errors import RobotError
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import (
+from forcetorque.device.excitation_and_predicted_errors import (
     COMPARED_KG,
     device_span,
     direction_rows,
@@ -39,12 +39,11 @@ from forcetorque.device.excitation_options import (
     still_poses,
     swing_at_yaw_zero,
     third_lock_steps,
-    uncertain,
 )
 from forcetorque.device.expected_wrench import ExpectedWrench, device_response
 from forcetorque.device.motion import DeviceTrajectory, joint_ranges
 from forcetorque.device.optimised_motion import Designer
-from forcetorque.device.tolerances import RestTable, Tolerances
+from forcetorque.device.tolerances import RestTable, Tolerances, joined_loads
 from forcetorque.robot.motion import JointMotion
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.excitation import Span, UncertainLoads
@@ -81,7 +80,9 @@ def _device_errors(poses: list, seeds: int) -> FloatArray:  # type: ignore[type-
 
 
 def _predicted(option: ExcitationOption) -> tuple[float, float]:
-    return uncertain(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
+    return (
+        joined_loads(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
+    )
 
 
 def test_the_12_steps_leave_the_moment_about_the_line_of_both_centres() -> None:
@@ -440,7 +441,7 @@ def test_a_motion_searched_is_valued_as_it_is_published() -> None:
     third = _options(25.0)["third lock"].trajectories[0]
     designer = Designer(device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, swaps=0)
     motion = designer.through(third.sequence.postures)
-    error = uncertain(_options(25.0)["third lock"].sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise())
+    error = joined_loads(_options(25.0)["third lock"].sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise())
     assert motion.duration_s == pytest.approx(third.duration_s)
     assert motion.value == pytest.approx(error.volume, abs=0.3)
     assert motion.squares == pytest.approx(error.mean_squares(held_out_loads()), rel=0.02)

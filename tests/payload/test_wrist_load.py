@@ -22,7 +22,7 @@ from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.payload import load_on_wrist_sensor, load_warnings as sense
 from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identification.load_estimates import LoadSolution, OutlierRow
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.load_on_wrist_sensor import wrist_loads
 from forcetorque.payload.load_warnings import overweight_loads, reference_doubts

@@ -10,9 +10,13 @@ import numpy as np
 import pytest
 
 from forcetorque.payload.identification.estimation_problem import Load
+from forcetorque.payload.identification.loads_with_intervals import (
+    _untold,
+    solve,
+    spanned_directions,
+    vector_words,
+)
 from forcetorque.payload.identification.parameter_vector import Kind, Parameter
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.identification.unobservable_parameters import _untold, spanned_directions, vector_words
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 
 if TYPE_CHECKING:
