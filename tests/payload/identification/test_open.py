@@ -10,7 +10,12 @@ import numpy as np
 import pytest
 
 from forcetorque.payload.identification.estimation_problem import Load
-from forcetorque.payload.identification.loads_with_intervals import _untold, solve, spanned_directions, vector_words
+from forcetorque.payload.identification.loads_with_intervals import (
+    _untold,
+    solve,
+    spanned_directions,
+    vector_words,
+)
 from forcetorque.payload.identification.parameter_vector import Kind, Parameter
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 
