@@ -30,7 +30,7 @@ from forcetorque.fleet.parquet_dataset import Dataset, is_dataset
 from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.report import fleet_report_of
 from forcetorque.fleet.report_page import page
-from forcetorque.fleet.run import CalibrateJob, run_calibrate
+from forcetorque.fleet.run import run_calibrate
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.table import fleet_table_of
 from tests.app.outcome import Run
@@ -433,8 +433,7 @@ def test_a_copy_of_a_recording_counts_once(added: Path, days: Path, tmp_path: Pa
     assert [row.samples for row in both.errors] == [row.samples for row in alone.errors]
     assert any("copy 1" in text and "it is left out" in text for text in both.warnings)
     folder = tmp_path / "calibrations"
-    job = CalibrateJob(serial=SERIAL, dataset=twice.folder, folder=folder, code_version="1", created="now")
-    calibrated = run_calibrate(job)
+    calibrated = run_calibrate(SERIAL, twice.folder, folder, code_version="1", created="now")
     assert [re.findall(r"copy \d", text) for text in calibrated.left_out] == [["copy 0"], ["copy 1"]]
     of_once, of_twice = (fleet_report_of(one.folder, [folder]) for one in (once, twice))
     assert of_once.warnings == ()
