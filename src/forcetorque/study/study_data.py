@@ -177,9 +177,8 @@ def generative_fits(
         progress: Called with a line for people as work goes on.
 
     Returns:
-        The fits to be evaluated; the same as artefacts, by combination; and the combinations that are left out, with
-        the reason. A combination without a load, with readings that do not follow it, or without a prior and with too few
-        loads, is left out.
+        The fits to be evaluated; the same as artefacts, by combination; and the reasons why others are left out: they
+        have no load, readings that do not follow it, or no prior and too few loads.
     """
     text = f"fitting {len(combinations)} combinations of data sets by the generative model"
     progress(text)

@@ -65,8 +65,8 @@ def first_look_at_sensor(path: Path, log_format: str | None) -> tuple[Recording,
         log_format: Name of the format; it is recognised by what is there if None.
 
     Returns:
-        The recording, and likely values that the file does not state, as lines of an experiment file; None for any other table, one of more rows than are read at once, or where
-        no value is likely.
+        The recording, and likely values that the file does not state, as lines of an experiment file; None for any
+        other table, one of more rows than are read at once, or where no value is likely.
     """
     log = draft_log([path], None, log_format)
     if not all(stream.is_sensor_alone for stream in log.streams):

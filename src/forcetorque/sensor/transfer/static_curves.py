@@ -65,24 +65,14 @@ class Score:
     """The function fitted to all points."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Failure:
-    """A kind of function that could not be fitted."""
-
-    name: str
-    """Name of the kind."""
-    reason: str
-    """Message of the error."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Comparison:
     """All kinds, compared on the same held-out points."""
 
     scores: tuple[Score, ...]
     """Kinds that could be fitted in every fold, the least RMSE first."""
-    failures: tuple[Failure, ...]
-    """The others, in the order given."""
+    failures: dict[str, str]
+    """Messages of the errors of the others by name, in the order given."""
 
 
 def compare(
@@ -115,13 +105,13 @@ def compare(
     """
     stimuli, outputs = calibration_points(stimulus, output, parameters=2)
     held_out = _held_out(len(stimuli), groups, folds)
-    scores, failures = [], []
+    scores, failures = [], {}
     for name, fit in fitters.items():
         try:
             scores.append(_score(name, fit, stimuli, outputs, held_out))
         except ForceTorqueError as error:
-            failures.append(Failure(name=name, reason=str(error)))
-    return Comparison(scores=tuple(sorted(scores, key=lambda score: score.rmse)), failures=tuple(failures))
+            failures[name] = str(error)
+    return Comparison(scores=tuple(sorted(scores, key=lambda score: score.rmse)), failures=failures)
 
 
 def _held_out(count: int, groups: Any, folds: int) -> list[BoolArray]:
@@ -311,7 +301,7 @@ def channel_curve(
         linear_rmse=line.rmse,
         curved=curved if moved else None,
         nonlinearity_percent=100.0 * distance / span if moved else None,
-        not_fitted=tuple(failure.name for failure in comparison.failures),
+        not_fitted=tuple(comparison.failures),
     )
 
 
