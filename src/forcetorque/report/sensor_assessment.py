@@ -183,7 +183,7 @@ def assess(
         independence=counts or (),
         contact_forces=contacts.verdicts if contacts else (),
         best=contacts.best if contacts else (),
-        joint_torques=torques.verdicts if torques else (),
+        joint_torques=torques[0] if torques else (),
         spheres=clouds.rows if clouds else (),
         static=static,
         criteria=criteria,
