@@ -23,7 +23,7 @@ from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.add import add_recording, add_recordings
-from forcetorque.fleet.analyses_of_dataset import COMMANDS, FROM_LOGS, DatasetLogs
+from forcetorque.fleet.analyses_of_dataset import COMMANDS, FROM_LOGS, dataset_logs
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.parquet_columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.parquet_dataset import Dataset, is_dataset
@@ -483,16 +483,16 @@ def test_commands_that_need_samples_read_the_recordings(added: Path, recorded: P
 def test_recordings_are_read_where_they_were_added_from(added: Path, recorded: Path) -> None:
     """Those of the chosen sensors in the order of time, by the names that these have there."""
     dataset = Dataset.opened(added)
-    logs = DatasetLogs.of(dataset, "plan", [SERIAL])
-    assert {file.name for file in logs.files} == set(FILES)
-    rows = [row for file in logs.files for row in dataset.rows(dataset.of_path(path_digest(file)), ["start_ns"])]
+    files, sensors = logs = dataset_logs(dataset, "plan", [SERIAL])
+    assert {file.name for file in files} == set(FILES)
+    rows = [row for file in files for row in dataset.rows(dataset.of_path(path_digest(file)), ["start_ns"])]
     starts = [row["start_ns"] for row in rows]
     assert starts == sorted(starts)
-    assert logs.sensors == (dataset.identity(SERIAL).name,)
+    assert sensors == (dataset.identity(SERIAL).name,)
     given = {"experiments": [added], "sensor": SERIAL}
     replaced = _in_place_of(added, logs, given, ["experiments"])
-    assert replaced == {"experiments": list(logs.files), "sensor": logs.sensors[0]}
-    assert _in_place_of(added, logs, {"log": added}, ["log"]) == {"log": logs.files[-1]}
+    assert replaced == {"experiments": list(files), "sensor": sensors[0]}
+    assert _in_place_of(added, logs, {"log": added}, ["log"]) == {"log": files[-1]}
 
 
 def test_recordings_that_are_not_there_are_named(days: Path, tmp_path: Path) -> None:
@@ -503,7 +503,7 @@ def test_recordings_that_are_not_there_are_named(days: Path, tmp_path: Path) -> 
     dataset = Dataset.opened(tmp_path / "fleet")
     file.rename(tmp_path / "moved" / file.name)
     with pytest.raises(MissingFileError, match=f"view needs samples, .* added from, .*{file.name}, which is not there"):
-        DatasetLogs.of(dataset, "view", ())
+        dataset_logs(dataset, "view", ())
 
 
 def test_the_page_says_what_every_command_does_with_a_dataset() -> None:
