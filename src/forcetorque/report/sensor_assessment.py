@@ -200,9 +200,7 @@ def assess(
             *_warnings(run, unseen, names, tried),
         ),
         not_evaluated=tried.reasons,
-        left_out=tuple(
-            dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])
-        ),
+        left_out=tuple(dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques[1] if torques else ())])),
         evaluated=judged,
         clouds=clouds.analyses if clouds else (),
     )
