@@ -46,7 +46,7 @@ class EstimatedJointRow(EvaluatedRow):
 
     joint: Annotated[str, Shown("joint")]
     """A joint whose torque depends on the sensor."""
-    unit: Annotated[Literal["N m", "N"], Shown("unit")]
+    unit: Annotated[Literal["N", "N m"], Shown("unit")]
     """Unit of its torque: N for a prismatic joint."""
 
 

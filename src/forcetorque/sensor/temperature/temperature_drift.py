@@ -22,7 +22,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import with_error
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import FloatOrNull, Row, Shown, Table, optional_table, table_of
+from forcetorque.results.table import FloatOrNull, Row, RowOfSensor, Shown, Table, optional_table, table_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
 from forcetorque.sensor.temperature.drift_regression import (
@@ -75,13 +75,9 @@ class ThermalCurve(Row):
     """Mean temperature, about which lines turn."""
 
 
-class SensorThermal(Row):
+class SensorThermal(RowOfSensor):
     """One sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     wrench_source: str
     """What makes a wrench of its reading."""
     variable: str
