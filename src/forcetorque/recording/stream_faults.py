@@ -163,7 +163,7 @@ def glitched_values(values: FloatArray, failed: Collection[float] = ()) -> tuple
 
 def _failing(known: FloatArray, failed: Collection[float]) -> BoolArray:
     """Values that stand for no measurement, which come and go by a jump that no others make; shape (n,)."""
-    failing, others = np.zeros(len(known), dtype=bool), known[~np.isin(known, failed)]
+    failing, others = np.zeros(len(known), dtype=bool), known[~np.isin(known, list(failed))]
     changes = np.abs(np.diff(others))
     if not failed or not len(others):
         return failing
