@@ -19,6 +19,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.inspection.draft.fault_corrections import DividedStream
 from forcetorque.inspection.draft.proposals import Proposal, proposals
+from forcetorque.inspection.draft.toml_lines import toml_value
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import inspect_log
 from forcetorque.recording.recording import Recording
@@ -331,6 +332,32 @@ def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pos
     assert set(comments) <= set(changed.splitlines())
     file.write_text(changed, encoding="utf-8")
     assert not [one for one in proposals(file) if one.kind == "delay"]
+
+
+@pytest.mark.parametrize("form", ["one line", "lines", "comment in it"])
+def test_signals_in_a_list_are_divided(tmp_path: Path, form: str) -> None:
+    """Also on several lines; where comments between them would be lost, it is left to a person."""
+    text = _late_wrist(tmp_path, 3)
+    content = tomllib.loads(text)
+    (stream,) = content["recording"]["stream"]
+    start = text.index("[[recording.stream.signal]]")
+    signals = [toml_value(signal) for signal in stream["signal"]]
+    between = {"one line": ", ", "lines": ",\n  ", "comment in it": ",  # N\n  # pose\n  "}[form]
+    text = f"{text[:start]}signal = [{between.join(signals)}]  # all\n\n{text[text.index('[[sensor]]', start) :]}"
+    content["recording"] = tomllib.loads(text)["recording"]
+    division = DividedStream.of(content, "log", 0.12, ())
+    assert division is not None
+    edit = division.edit(text, content)
+    if form == "comment in it":
+        assert edit is None
+        return
+    assert edit is not None
+    assert tomllib.loads(edit.applied(text)) == division.content(content, 0.12)
+    kinds = [
+        [one["quantity"] for one in stream["signal"]]
+        for stream in division.content(content, 0.12)["recording"]["stream"]
+    ]
+    assert kinds == [["wrench"], ["orientation"]]
 
 
 SLOW_TO_LOG = 'stream = "slow"\nto = "log"\ndelay_s = 5.0\n'

@@ -87,6 +87,18 @@ def test_slips_below_a_tenth_of_a_turn_are_no_turns(size: float) -> None:
     assert [one.kind for one in findings] == ["joint_jump", "joint_jump"]
 
 
+@pytest.mark.parametrize("size", [6.0, -6.1, 6.5])
+def test_a_slip_of_nearly_a_turn_is_named(size: float) -> None:
+    """Of 16 degrees and less beside it; at rest, and where the speed changes, a turn is one."""
+    for values in (np.zeros(COUNT), 0.3 * np.sin(np.arange(COUNT) * 0.01)):
+        repaired, (finding,) = _repaired(_with(values, slice(500, None), size))
+        assert (finding.kind, np.flatnonzero(np.isnan(repaired)).tolist()) == ("joint_jump", [*range(497, 503)])
+        assert f"jumps by {abs(size):.2g} rad" in finding.message
+        turned, (finding,) = _repaired(_with(values, slice(500, None), TURN))
+        np.testing.assert_allclose(turned, values, rtol=0.0, atol=1e-12)
+        assert finding.kind == "joint_spike"
+
+
 @pytest.mark.parametrize("rows", [1, 3, 60])
 @pytest.mark.parametrize("between", [0.5 * TURN, 1.0])
 def test_a_turn_that_takes_several_rows_is_taken_off_behind_them(rows: int, between: float) -> None:
@@ -97,6 +109,7 @@ def test_a_turn_that_takes_several_rows_is_taken_off_behind_them(rows: int, betw
     kept[500 : 500 + rows] = False
     np.testing.assert_allclose(values[kept], SWING[kept], rtol=0.0, atol=1e-12)
     assert np.isnan(values[500 : 500 + rows]).all() == (finding.kind == "joint_spike") == (rows <= 5)
+    assert ("s later, a turn off, which is taken off: where" in finding.message) == (rows > 5)
 
 
 @pytest.mark.parametrize("rows", [slice(0, 1), slice(0, 5), slice(-1, None), slice(-5, None)])

@@ -10,7 +10,12 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.recording.stream_faults import glitched_values, saturation_findings, stream_findings
+from forcetorque.recording.stream_faults import (
+    FAILED_TEMPERATURES,
+    glitched_values,
+    saturation_findings,
+    stream_findings,
+)
 
 PERIOD_NS = 10_000_000
 COUNT = 1000
@@ -178,6 +183,21 @@ def _with(base: FloatArray, first: int, last: int, value: float) -> FloatArray:
 def test_values_nowhere_near_the_others_are_glitches(values: FloatArray, glitched: set[int]) -> None:
     """Those that come and go by a jump; not steps, drifts or what lasts."""
     assert set(np.flatnonzero(glitched_values(values)[0]).tolist()) == glitched
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, -127.0])
+@pytest.mark.parametrize("rows", [slice(100, 180), slice(0, 60), slice(340, None)])
+def test_a_thermometer_that_fails_for_long_is_left_out(value: float, rows: slice) -> None:
+    """Also at the ends of the log; controls: another value or quantity, a temperature that stays there, 40 %."""
+    failing = _WARMING.copy()
+    failing[rows] = value
+    assert set(np.flatnonzero(glitched_values(failing, FAILED_TEMPERATURES)[0])) == set(np.arange(400)[rows])
+    assert not glitched_values(failing)[0].any()
+    failing[rows] = value + 0.5
+    assert not glitched_values(failing, FAILED_TEMPERATURES)[0].any()
+    near = np.clip(np.linspace(value - 3.0, value + 3.0, 400), None, value)
+    assert not glitched_values(near, FAILED_TEMPERATURES)[0].any()
+    assert glitched_values(np.where(np.arange(400) < 160, value, _WARMING), FAILED_TEMPERATURES)[1] == 160
 
 
 def test_glitches_that_are_too_many_to_tell_are_counted() -> None:

@@ -204,7 +204,7 @@ def readings_over(
         recording, stream, interval, experiment.processing.smoothing, apart=apart, repeated=repeated
     )
     rows, at_ns = padded.rows, padded.stamp_ns
-    logged = usable_readings(experiment, sensor)[rows]
+    logged = usable_readings(experiment, sensor, rows)
     columns = [sensor.variable(name).source.at(recording, at_ns)[:, None] for name in variables]
     values = padded.smoothed(np.hstack([logged, *columns]))
     complete = values[np.isfinite(values).all(axis=1)]

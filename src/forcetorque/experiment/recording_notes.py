@@ -21,7 +21,7 @@ from forcetorque.experiment.named_files import stated_in
 from forcetorque.recording.joint_jumps import without_joint_jumps
 from forcetorque.recording.orientation import orientation_at, pose_at, wrench_in_frame
 from forcetorque.recording.recording import Finding, Recording
-from forcetorque.recording.stream_faults import glitched_values
+from forcetorque.recording.stream_faults import FAILED_TEMPERATURES, glitched_values
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import Result, UnusableSamples
 from forcetorque.robot.model import RobotModel
@@ -137,7 +137,7 @@ def _without_glitches(parsed: schema.ExperimentFile, recording: Recording) -> Re
             continue  # whoever reads the variable says so
         place = 0 if column is None else signal.columns.index(column)
         values = signal.values[:, place]
-        glitched, more = glitched_values(values)
+        glitched, more = glitched_values(values, FAILED_TEMPERATURES if quantity == "temperature" else ())
         about = f"{signal.columns[place]} ({signal.units[place]})"
         if more:
             message = (

@@ -61,14 +61,19 @@ def sample_quality(experiment: Experiment, sensor: ExperimentSensor) -> SampleQu
     return experiment.qualities[sensor.name]
 
 
-def usable_readings(experiment: Experiment, sensor: ExperimentSensor) -> FloatArray:
+def usable_readings(experiment: Experiment, sensor: ExperimentSensor, rows: IntArray) -> FloatArray:
     """Give what a sensor logged, without the samples that say nothing of its load.
 
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        rows: Rows of its stream; shape (m,).
+
     Returns:
-        As logged, NaN where a sample is missing or unusable; shape (n, c); counts, or N and N m.
+        As logged, NaN where a sample is missing or unusable; shape (m, c); counts, or N and N m.
     """
-    values = experiment.recording.stream(sensor.stream).signal(sensor.quantity).values
-    return np.where(sample_quality(experiment, sensor).unusable[:, None], np.nan, values)
+    values = experiment.recording.stream(sensor.stream).signal(sensor.quantity).values[rows]
+    return np.where(sample_quality(experiment, sensor).unusable[rows, None], np.nan, values)
 
 
 def unusable_in(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> UnusableCounts:

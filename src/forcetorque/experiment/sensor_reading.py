@@ -16,9 +16,8 @@ from forcetorque.experiment.calibration.calibration_file import Calibration, Pri
 from forcetorque.experiment.calibration.sensor_model import WrenchModel, recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.sample_quality import sample_quality, usable_readings
-from forcetorque.recording.alignment import interpolate
+from forcetorque.recording.alignment import Interpolation
 from forcetorque.recording.recording import Interval
-from forcetorque.recording.stream import Stream
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -256,14 +255,11 @@ def readings_at(
         Its readings; NaN in gaps and where samples say nothing of the load; between the others where it is repeated.
     """
     stream = experiment.recording.stream(sensor.stream)
-    logged = usable_readings(experiment, sensor)
-    repeated = sample_quality(experiment, sensor).repeated
-    if repeated.any():
-        logged = logged[~repeated]
-        signals = {sensor.quantity: replace(stream.signal(sensor.quantity), values=logged)}
-        stream = Stream(name=stream.name, clock=stream.clock, stamp_ns=stream.stamp_ns[~repeated], signals=signals)
+    rows = np.flatnonzero(~sample_quality(experiment, sensor).repeated)
+    neighbours = Interpolation(stream, rows).at(at_ns)
+    before, after = (usable_readings(experiment, sensor, row) for row in (neighbours.before, neighbours.after))
     values = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in variables}
-    return Readings.of(sensor, interpolate(stream, logged, at_ns), values)
+    return Readings.of(sensor, neighbours.interpolated(before, after), values)
 
 
 def wrench_at(

@@ -105,13 +105,17 @@ class Neighbours:
 class Interpolation:
     """Straight lines between the samples of a stream that step forward in time, never across gaps."""
 
-    def __init__(self, stream: Stream) -> None:
+    def __init__(self, stream: Stream, among: IntArray | None = None) -> None:
         """Find the samples.
+
+        Args:
+            stream: The stream.
+            among: Rows of it that count; all if None.
 
         Raises:
             RecordingError: If it holds no two samples that step forward in time.
         """
-        self.rows = usable_samples(stream.stamp_ns)
+        self.rows = usable_samples(stream.stamp_ns) if among is None else among[usable_samples(stream.stamp_ns[among])]
         if len(self.rows) < 2:
             raise RecordingError(
                 f"stream {stream.name!r}: expected at least two samples to align, got {len(self.rows)}"

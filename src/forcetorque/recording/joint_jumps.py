@@ -23,7 +23,10 @@ _JUMP, _SPEED, _STEPS, _AROUND = 0.1, 15.0, 10.0, 5
 _OF_ALL = 3.0
 """Part of what one change usually differs from the next in the whole log, beyond which a change can be a jump."""
 _TURN, _OF_TURN = 2.0 * np.pi, 0.3
-"""A turn, and how far a jump may be from whole ones; rad."""
+"""A turn, and how far a jump may be from whole ones at most, as at rates at which a robot may turn so far; rad."""
+_LEAST_OF_TURN, _OF_SPEED = 0.02, 0.5
+"""How far any may be, rad; and the part of its movement from one sample to the next by which the joint may be faster or
+slower meanwhile. A slip that is nearer to whole turns is not told from them."""
 _BACK = 0.25
 """Part of a jump by which one back from it may differ: the joint moves meanwhile."""
 _LOOKED_AT = 1000
@@ -95,9 +98,11 @@ class _Joint:
         size = np.abs(beside)
         rests = len(changes) <= 2 * _AROUND
         everywhere = 0.0 if rests else _OF_ALL * float(np.median(np.abs(np.diff(moved))))
-        turns = is_angle & (np.abs(_beside_turns(beside)) < _OF_TURN) & (size > np.pi)
         # a joint whose reading stops may change its speed meanwhile
         possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * seconds[far]
+        own = np.maximum(np.maximum(_LEAST_OF_TURN, _STEPS * scatter), _OF_SPEED * np.abs(usual) * seconds[far])
+        off = np.where(size > possible, np.minimum(own, _OF_TURN), _OF_TURN)
+        turns = is_angle & (np.abs(_beside_turns(beside)) < off) & (size > np.pi)
         jumps = (
             (size > np.maximum(max(_JUMP, everywhere), _STEPS * scatter))
             & ((size > possible) | turns)
@@ -106,15 +111,17 @@ class _Joint:
         if not jumps.any():
             return None
         places, sizes = changes[far[jumps]] + 1, beside[jumps]
-        found = _excursions(sizes, places, len(rows), is_angle=is_angle)
+        found = _excursions(sizes, places, len(rows), off[jumps] if is_angle else None)
         return cls(rows=rows, excursions=tuple(found))
 
     def repaired(self, values: FloatArray) -> FloatArray:
         """Take whole turns off, and wrong rows and those about lasting jumps out; `values` of all rows, shape (n,)."""
-        fixed = values.copy()
+        turns = np.zeros(len(values))
         for one in self.excursions:
             if one.turns:
-                fixed[self.rows[one.end] :] -= _TURN * one.turns
+                turns[self.rows[one.end]] += one.turns
+        fixed = values - _TURN * np.cumsum(turns)
+        for one in self.excursions:
             if one.is_brief:
                 fixed[self.rows[one.begin : one.end]] = np.nan
             else:
@@ -139,15 +146,17 @@ def _beside_turns(angles: FloatArray) -> FloatArray:
     return (angles + 0.5 * _TURN) % _TURN - 0.5 * _TURN
 
 
-def _excursions(sizes: FloatArray, places: IntArray, count: int, *, is_angle: bool) -> Iterator[_Excursion]:
-    """Jumps in the order of time, each with those that lead back from it."""
+def _excursions(sizes: FloatArray, places: IntArray, count: int, off: FloatArray | None) -> Iterator[_Excursion]:
+    """Jumps in the order of time, each with those that lead back from it; `off` is how far each may be from turns."""
     first = 0
     while first < len(sizes):
         size = abs(float(sizes[first]))
-        away, after, ends, turns = 0.0, first + 1, False, 0
+        away, far, after, ends, turns = 0.0, 0.0, first + 1, False, 0
         for k in range(first, min(first + _LOOKED_AT, len(sizes))):
             away += float(sizes[k])
-            turns = round(away / _TURN) if is_angle and abs(away - _TURN * round(away / _TURN)) < _OF_TURN else 0
+            if off is not None:
+                far, nearest = min(far + float(off[k]), _OF_TURN), round(away / _TURN)
+                turns = nearest if abs(away - _TURN * nearest) < far else 0
             if turns or (k > first and abs(away) < max(_JUMP, _BACK * size)):
                 after, ends = k + 1, True
                 break
@@ -229,6 +238,8 @@ def _findings(stream: Stream, joint: _Joint, start_ns: int, finding: partial[Fin
         # outwards: an interval that is stated so holds every wrong sample
         start_s, end_s = floor((start - start_ns) * 1e-7) / 100.0, ceil((end - start_ns) * 1e-7) / 100.0
         back = f"back {end_s - start_s:.2f} s later" if one.ends else f"not back for {end_s - start_s:.2f} s"
+        if one.turns:
+            back += f", {'a turn' if abs(one.turns) == 1 else f'{abs(one.turns)} turns'} off, which is taken off"
         # a span of the file may not go on behind the log
         stated = f"end_s = {end_s:.2f}" if one.ends and end_s < (last - start_ns) * 1e-9 else "no end_s"
         text = (

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import partial
 
 import numpy as np
@@ -44,6 +44,10 @@ conversion repeats its value, and a variable that comes in bursts does not."""
 _GLITCH_LENGTH, _GLITCH_AT_ENDS, _SHORTEST_HOLD = 10, 3, 0.1
 """Values in a row that may be glitches, three at an end of the log; and quantile of the lengths of runs of equal rows
 that is the length for which a log holds one value."""
+FAILED_TEMPERATURES = (0.0, -1.0, -127.0, -273.15)
+"""What thermometers give where they fail, for as long as they do: no reading, error, disconnected, 0 K; degC."""
+_STEPS = 0.95
+"""Quantile of the changes of other values that is the usual one."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -124,13 +128,14 @@ def _reported_saturation(stream: Stream) -> list[Finding]:
     return [over("saturation", text, first, last, channel="saturated") for first, last in true_runs(stream.held)]
 
 
-def glitched_values(values: FloatArray) -> tuple[BoolArray, int]:
+def glitched_values(values: FloatArray, failed: Collection[float] = ()) -> tuple[BoolArray, int]:
     """Find values that a quantity takes for a moment and that are nowhere near its others, such as a failed conversion.
 
     A value that the log holds over several rows counts as one.
 
     Args:
         values: One column in the order of the log; shape (n,); NaN where it is missing.
+        failed: Values that stand for no measurement, and may last, if they come and go by a jump.
 
     Returns:
         Which they are; shape (n,). Number of others that come and go as they do, too many to tell which are wrong.
@@ -139,6 +144,11 @@ def glitched_values(values: FloatArray) -> tuple[BoolArray, int]:
     glitched, known = np.isinf(values), values[seen]
     if len(seen) < 2 * _GLITCH_AT_ENDS:
         return glitched, 0
+    failing = _failing(known, failed)
+    if np.count_nonzero(failing) > _GLITCH_SHARE * len(known):
+        return glitched, int(np.count_nonzero(failing))
+    glitched[seen[failing]] = True
+    seen, known = seen[~failing], known[~failing]
     away = np.abs(known - np.median(known))
     deviation = _deviation(away, _GLITCH_SHARE) or _deviation(away, _GLITCH_SHARE_AT_REST)
     apart = _brief(known, away, deviation)
@@ -148,6 +158,23 @@ def glitched_values(values: FloatArray) -> tuple[BoolArray, int]:
     of_half = _deviation(away, _GLITCH_SHARE_TO_SEE)
     more = int(np.count_nonzero(_brief(known, away, of_half) & ~apart)) if of_half > 0.0 else 0
     return glitched, more if more > _GLITCH_SHARE_AT_REST * len(known) else 0
+
+
+def _failing(known: FloatArray, failed: Collection[float]) -> BoolArray:
+    """Values that stand for no measurement, which come and go by a jump that no others make; shape (n,)."""
+    failing, others = np.zeros(len(known), dtype=bool), known[~np.isin(known, list(failed))]
+    changes = np.abs(np.diff(others))
+    if not failed or not len(others):
+        return failing
+    usual = float(np.quantile(changes[changes > 0.0], _STEPS)) if changes.any() else 0.0
+    limit = max(_GLITCH_REACH * usual, _GLITCH_SIZE * abs(float(np.median(others))))
+    steps = np.abs(np.diff(known))
+    for value in failed:
+        for first, last in true_runs(known == value):
+            ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
+            if ends and min(ends) > limit:
+                failing[first : last + 1] = True
+    return failing
 
 
 def _deviation(away: FloatArray, share: float) -> float:
