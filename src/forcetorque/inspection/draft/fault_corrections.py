@@ -15,7 +15,7 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison_with_model import Comparison
 from forcetorque.inspection.diagnosis import clock_of_division, late_and_kept, motion_name
-from forcetorque.inspection.draft.toml_edits import Edit, edit_between, key_edit, table_blocks, table_edit
+from forcetorque.inspection.draft.toml_edits import Edit, TableBlocks, edit_between, key_edit, table_blocks, table_edit
 from forcetorque.inspection.draft.toml_lines import tables_of, toml_value
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
 from forcetorque.recording.alignment import ClockShift
@@ -122,23 +122,33 @@ class DividedStream:
             changed = changed if edit is None else edit.applied(changed)
         number = next(k for k, one in enumerate(_streams(content)) if one["name"] == self.stream)
         blocks = table_blocks(changed, "recording.stream", number)
-        signals = _streams(content)[number]["signal"]
-        if blocks is None or len(blocks.inner) != len(signals):
+        divided = None if blocks is None else self._divided(blocks, _streams(content)[number]["signal"])
+        if blocks is None or divided is None:
             return None
-        is_own = [signal["quantity"] not in _OF_MOTION for signal in signals]
-        named = key_edit("\n".join(blocks.head) + "\n", "recording.stream", 0, "name", motion_name(self.stream))
-        if named is None:
-            return None
-        divided = [
-            *blocks.head,
-            *(text for own, block in zip(is_own, blocks.inner, strict=True) if own for text in block),
-            *named.applied("\n".join(blocks.head) + "\n").removesuffix("\n").split("\n"),
-            *(text for own, block in zip(is_own, blocks.inner, strict=True) if not own for text in block),
-        ]
         changed = "\n".join([*blocks.before, *divided, *blocks.behind]) + "\n"
         clock = table_edit(changed, "clock", self.clock, before="clock" if self.is_first else "sensor")
         edit = None if clock is None else edit_between(text, clock.applied(changed))
         return edit if edit is not None and edit.results_in(self.content(content, self.tried), text) else None
+
+    def _divided(self, blocks: TableBlocks, signals: Sequence[Mapping[str, Any]]) -> list[str] | None:
+        """Lines of the two streams; None where the signals are written in a form that is not changed."""
+        head = "\n".join(blocks.head) + "\n"
+        named = key_edit(head, "recording.stream", 0, "name", motion_name(self.stream))
+        if named is None or len(blocks.inner) not in (0, len(signals)):
+            return None
+        lines = []
+        for moves, text in ((False, head), (True, named.applied(head))):
+            part = [signal for signal in signals if (signal["quantity"] in _OF_MOTION) == moves]
+            if blocks.inner:
+                lines += text.removesuffix("\n").split("\n")
+                pairs = zip(signals, blocks.inner, strict=True)
+                lines += [line for signal, block in pairs if signal in part for line in block]
+                continue
+            inline = key_edit(text, "recording.stream", 0, "signal", part)
+            if inline is None or any("#" in line for line in inline.old[1:-1]):  # comments in a list would be lost
+                return None
+            lines += inline.applied(text).removesuffix("\n").split("\n")
+        return lines
 
     def _references(self, content: Mapping[str, Any]) -> Iterator[tuple[Any, tuple[str, int], str, list[str]]]:
         """Tables that list the stream as that of a motion, with their names, keys and new lists."""
