@@ -25,14 +25,14 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Provenance, Selection, SensorIdentity, Validity
-from forcetorque.live.bias_tracking import Tracking
+from forcetorque.live.bias_tracking_and_tare import Tracking
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.gravity_and_tool_weight import Tool
 from forcetorque.live.loop import LiveLoop
 from forcetorque.live.option_values import OffsetSource
 from forcetorque.live.outputs import parquet_file
 from forcetorque.live.packets import NUMBERS, Packet, PacketAccount, PacketCounts
 from forcetorque.live.recent_samples import RecentSamples
-from forcetorque.live.tool_weight import Tool
 from forcetorque.robot.contacts import Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates

@@ -28,7 +28,7 @@ from forcetorque.robot.urdf import read_urdf
 from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contacts
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import DISC_POINTS, DISC_RADIUS_M
 

@@ -15,8 +15,7 @@ import numpy as np
 import pyarrow.csv as pacsv
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
-from forcetorque.formats.yarp.plain_ports import read_analog
-from forcetorque.formats.yarp.state_ext import read_state_ext
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_state_ext
 
 JOINTS = tuple(f"joint_{k}" for k in range(6))
 _EPOCH = 1457614036.0

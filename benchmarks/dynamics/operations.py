@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Floating-point operations of a question per sample, counted from its plan.
 
-Every addition, subtraction and multiplication of the formulas in `robot/compiled/recursion.py` counts as
+Every addition, subtraction and multiplication of the formulas in `robot/compiled/recursion_and_vectors.py` counts as
 one; that is also what the compiler's vector loops hold, with a multiply-add counted as two. Moving
 data and marking gaps are not counted.
 """

@@ -70,6 +70,8 @@ def test_another_encoding_is_still_refused(tmp_path: Path) -> None:
 def test_one_function_reads_toml_files() -> None:
     """`tomllib` is elsewhere only given texts of our own or of an option."""
     users = {path.relative_to(ROOT).as_posix() for path in ROOT.rglob("*.py") if "tomllib" in path.read_text()}
-    drafts = {f"inspection/draft/{name}.py" for name in ("draft", "first_look", "proposals", "questions", "toml_edits")}
+    drafts = {
+        f"inspection/draft/{name}.py" for name in ("draft", "proposals", "questions", "recording_table", "toml_edits")
+    }
     options = {"formats/specified_keys.py", "payload/log_without_experiment.py"}
     assert users == {"base/toml_file.py"} | drafts | options

@@ -21,7 +21,7 @@ import pytest
 
 from forcetorque.app.command_line import commands, whole_program
 from forcetorque.base.errors import ForceTorqueError
-from forcetorque.fleet.add import add_recordings
+from forcetorque.fleet.added_and_failed_recordings import add_recordings
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.plates.simulated_plates import SimulatedPlate, write_pole_trial, write_standing
 from forcetorque.results.answer import MOST_LINES

@@ -26,7 +26,7 @@ from forcetorque.report.sorted_input_files import sort_sources
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.skin.layout.formats.icub_skin_gui import read_plan
 from forcetorque.skin.layout.formats.registry import describe_patch
-from forcetorque.skin.taxels.patch_calibration import read_patch_calibration
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import read_patch_calibration
 from forcetorque.viewer.meshes import read_mesh
 from forcetorque.viewer.scene_builder import view_source
 

@@ -16,9 +16,9 @@ from forcetorque.experiment.calibration.expected_sensor_errors import Assumption
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, settled
 from forcetorque.payload.identification.measurement_model import load_wrench
-from forcetorque.payload.identification.solve import solve
 
 POSES = 24
 NOISE = np.repeat([0.02, 0.002], 3)

@@ -10,7 +10,11 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RobotError
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.robot_correction import place_in_urdf, read_model_errors, robot_errors
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import (
+    place_in_urdf,
+    read_model_errors,
+    robot_errors,
+)
 from forcetorque.experiment.calibration.robot_model_error import ModelError
 from forcetorque.experiment.evaluated_wrenches import evaluated_wrenches
 from forcetorque.experiment.experiment import Experiment

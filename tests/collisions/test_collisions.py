@@ -26,9 +26,9 @@ from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.residual_findings import UNEXPLAINED
 from forcetorque.recording.recording import Finding, Support
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.robot.dynamics import joints_between, link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.measured_and_expected_wrench import robot_motion_at
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, joints_between
 from forcetorque.viewer.scene_builder import build_scene
 from forcetorque.viewer.viewer_log import viewer_log
 from tests.app.outcome import Run

@@ -8,14 +8,14 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.contests.pairwise_comparison import (
+from forcetorque.contests.contestant_errors_and_comparison import (
     ContestPairRow,
     compared_pairs,
     mean_squares,
     ranks_and_winner,
     rms_intervals,
 )
-from forcetorque.contests.phases import Trial, by_load, common_phases, trial_by_phase
+from forcetorque.contests.phases_and_runs_by_load import Trial, by_load, common_phases, trial_by_phase
 
 PHASES, LOADS = 120, (10.0, 15.0, 20.0)
 ALL = np.ones(PHASES, dtype=np.bool_)

@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RecordingError
-from forcetorque.contests.phases import MotionPath, require_same_motion
+from forcetorque.contests.phases_and_runs_by_load import MotionPath, require_same_motion
 
 NAMES = ("pitch", "yaw")
 COARSE = 0.02

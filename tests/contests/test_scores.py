@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.contests.phases import Trial, by_load, changes, repeatability
+from forcetorque.contests.phases_and_runs_by_load import Trial, by_load, changes, repeatability
 
 PHASES = 200
 COMMON = np.ones(PHASES, dtype=np.bool_)

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.contests.contest_file import PHASES, Contestant, ContestRun, Method
-from forcetorque.contests.phases import MotionPath, trial_by_phase
+from forcetorque.contests.phases_and_runs_by_load import MotionPath, trial_by_phase
 from forcetorque.device.components import device_load
 from forcetorque.device.device_file import read_device
 from forcetorque.device.expected_wrench import device_response

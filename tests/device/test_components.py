@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from forcetorque.device.components import Turn, device_load, part_inertia
+from forcetorque.device.components import Hinge, Turn, device_load, part_inertia
 from forcetorque.device.device_file import read_device
 from forcetorque.device.robot_model import BASE, device_model
 from forcetorque.robot.dynamics import link_pose
@@ -45,12 +45,27 @@ def test_plates_are_a_solid_cylinder_beyond_the_foot_beside_the_carrier(load_kg:
     np.testing.assert_allclose(second, np.diag([across, across, mass * square]), rtol=1e-4, atol=1e-12)
 
 
+def test_a_hinge_of_a_file_that_states_no_more_is_that_of_the_thesis() -> None:
+    """It locks by itself at 0 and at 90 degrees, and its stops are those of the default device."""
+    hinge = Hinge(bracket=DEVICE.hinge.bracket)
+    assert hinge.locks_deg == (0.0, 90.0)
+    assert hinge.range_deg == DEVICE.hinge.range_deg
+
+
 def test_a_turn_is_a_joint_before_the_hinge() -> None:
     """Its joint is there only if the device has one."""
     assert DEVICE.joint_names == ("pitch", "yaw", "hinge")
     turned = DEVICE.changed(turn=Turn())
     assert turned.joint_names == ("pitch", "yaw", "turn", "hinge")
     assert device_model(turned, device_load(turned, 5.0)).joints["hinge"].parent == "bracket"
+
+
+def test_axes_are_unit_vectors() -> None:
+    """As a joint of a robot model has them, of every kind of device."""
+    for device in (DEVICE, DEVICE.changed(turn=Turn(), yaw_first=True)):
+        axes = [joint.axis for joint in device_model(device, device_load(device, 5.0)).joints.values()]
+        assert len(axes) > len(device.joint_names)
+        np.testing.assert_allclose(np.linalg.norm(axes, axis=1), 1.0, rtol=1e-12)
 
 
 @pytest.mark.parametrize(

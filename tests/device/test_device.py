@@ -9,7 +9,7 @@ import pytest
 from forcetorque.device.demands import DeviceDemands
 from forcetorque.device.design import DeviceDesign, design_device
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import DeviceSpan
+from forcetorque.device.excitation_and_predicted_errors import DeviceSpan
 
 BALL = 0.01
 """Share of the force that inertia adds at these speeds, at most."""

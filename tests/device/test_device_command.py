@@ -12,6 +12,8 @@ import pytest
 from forcetorque.device.commands import design_device
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
+from forcetorque.device.excitation_and_predicted_errors import PLACEMENTS, predicted_rms
+from forcetorque.device.excitation_options import SAMPLES, sample_noise, workbench_loads
 from forcetorque.device.simulated_recordings import write_device
 from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.robot.urdf import read_urdf
@@ -80,6 +82,24 @@ def test_it_writes_what_a_robot_and_a_calibration_need(folder: Path) -> None:
     }
     assert (folder / "12_steps.csv").read_text().startswith("time_s,pitch,yaw\n")
     assert set(read_urdf(folder / "device_35_kg.urdf").sensors) == {"ft_1"}
+
+
+def test_the_page_has_the_figures_of_the_options(design: DeviceDesign) -> None:
+    """Rank, least excitation and predicted errors of all options, and errors of the workbench with both placements."""
+    lines = (Path(__file__).parents[2] / "docs" / "device" / "span.md").read_text(encoding="utf-8").splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("| 12 steps alone"))
+    table = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines[first : first + 8]]
+    shown = {}
+    for row in design.span.options:
+        errors = f"{row.force_N:#.2g} N, {row.moment_Nm:#.2g} N m" if np.isfinite(row.force_N) else "infinite"
+        numbers = (f"{row.smallest:.3f}", f"{row.excitation:.2f}") if row.rank == 6 else ("0", "0")
+        shown[row.motion] = [str(row.rank), *numbers, errors]
+    assert [cells[1:5] for cells in table[:6]] == list(shown.values())
+    for placement, cells in zip(PLACEMENTS, table[6:], strict=True):
+        degrees, millimetres = np.rad2deg(placement.angle_rad), 1e3 * placement.position_m
+        assert cells[0] == f"24 positions, placed to {degrees:g} degree and {millimetres:g} mm"
+        force, moment = predicted_rms(workbench_loads(placement, SAMPLES).matrix_error(sample_noise()))
+        assert cells[4] == f"{force:#.2g} N, {moment:#.2g} N m"
 
 
 @pytest.mark.long

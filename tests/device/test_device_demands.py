@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from forcetorque.device.components import device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
-from forcetorque.device.motors_hinge_and_envelope import average_torque
+from forcetorque.device.motors_hinge_and_envelope import ARM_RADIUS_M, average_torque
 from forcetorque.device.requirements import RequirementRow, Verdict, _heat, requirement_rows
 from forcetorque.device.tolerances import Tolerance
 
@@ -201,6 +202,45 @@ def test_the_page_has_these_figures(demands: DeviceDemands) -> None:
     assert len(table) == 6
     for gravity_by, width, *cells in table:
         assert cells == shown[gravity_by, width]
+
+
+def test_limits_are_those_that_requirements_are_worded_with(demands: DeviceDemands) -> None:
+    """The number of the text is that of the limit; fewer than six joints are five at most."""
+    compared = [row for row in demands.requirements if row.number in (2, 6, 7, 10, 11)]
+    assert len(compared) == 6
+    for row in compared:
+        number = re.search(r"[\d.]+", row.requirement)
+        assert number is not None
+        assert row.limit == float(number[0]) - (row.number == 10), row.requirement
+        assert (row.value <= row.limit) == (row.verdict is Verdict.MET), row.requirement
+
+
+def test_the_page_has_the_figures_of_motors_space_and_locks(demands: DeviceDemands) -> None:
+    """Of the default device with three sensors."""
+    page = (Path(__file__).parents[2] / "docs" / "device" / "demands.md").read_text(encoding="utf-8")
+    pitch, yaw = demands.motors
+    least = max(row.yaw_over_peak or 0.0 for row in demands.unwinding)
+    for row, extra in ((pitch, ""), (yaw, f"; {least:.3f} if yaw need not return")):
+        cells = (f"{row.peak_Nm:.2f} N m", f"{row.average_Nm:.2f} N m", f"{row.average_over_peak:.3f}{extra}")
+        assert f"| {row.joint} | {' | '.join(cells)} |" in page
+    above, side, behind = demands.envelope
+    assert f"has {above.rectangle_m2:.2f} m2 seen from above, {side.rectangle_m2:.2f} m2 from the side" in page
+    assert f"({side.width_m:.2f} by {side.height_m:.2f} m) and {behind.rectangle_m2:.2f} m2 from behind" in page
+    assert f"the arm stays within {ARM_RADIUS_M:g} m of its axis" in page
+    empty, heaviest = demands.locks[0], demands.locks[-1]
+    assert f"1 degree before it are {heaviest.closing_Nm:.2f} N m at 35 kg and\n{empty.closing_Nm:.3f} N m of" in page
+    force, moment = _requirement(demands, 6)
+    assert f"| {force.value:.2f} N in the worst component, with encoders of" in page
+    assert f"| {moment.value:.2f} N m; met up to 5 kg |" in page
+
+
+def test_a_grade_is_shown_by_half_of_its_width_and_its_worst_components(demands: DeviceDemands) -> None:
+    """A component is at most the norm, and an error of one at most that of all."""
+    for row in demands.grades:
+        assert row.plus_minus == row.full_width / 2.0
+        assert (row.largest_force_N, row.largest_moment_Nm) == (max(row.largest[:3]), max(row.largest[3:]))
+        assert row.single_force_N <= row.force_norm_N <= np.sqrt(3.0) * row.largest_force_N
+        assert row.single_moment_Nm <= row.moment_norm_Nm <= np.sqrt(3.0) * row.largest_moment_Nm
 
 
 def test_heat_reaches_what_is_put_in_over_what_is_lost(demands: DeviceDemands) -> None:

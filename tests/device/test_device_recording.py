@@ -18,7 +18,9 @@ from forcetorque.device.simulated_recordings import (
     simulate_device,
 )
 from forcetorque.formats.icub_matrix import read_matrix_file
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
+from forcetorque.simulation.trace import EPOCH_NS
 
 RATE_HZ = 20.0
 
@@ -52,6 +54,20 @@ def test_the_hinge_is_logged_at_locks_alone(recordings: list[DeviceRecording]) -
         first, second = known_intervals(recording.trajectory)
         assert first.end_s < second.start_s
         assert (first.name, second.name) == ("hinge 0, 1", "hinge 90, 2")
+
+
+def test_the_hinge_is_logged_where_it_is_in_known_intervals(recordings: list[DeviceRecording]) -> None:
+    """From its lock to the swing and from the end of the swing on; in between the log has the lock that it left."""
+    for recording in recordings:
+        stamps = recording.recording.stream("joints").stamp_ns
+        seconds = seconds_since(stamps, EPOCH_NS)
+        logged = recording.recording.stream("joints").signals["position"].values[:, -1]
+        hinge = recording.trajectory(seconds).position[:, -1]
+        first, second = known_intervals(recording.trajectory)
+        swings = (seconds > first.end_s) & (seconds < second.start_s)
+        np.testing.assert_allclose(logged[~swings], hinge[~swings], atol=1e-9)
+        assert not logged[swings].any()
+        assert (np.abs(logged - hinge)[swings] > 1e-6).mean() > 0.9
 
 
 def test_an_encoder_of_the_hinge_sees_the_swing() -> None:

@@ -53,3 +53,12 @@ def test_an_arm_three_times_as_long_is_not() -> None:
     longer = DEVICE.changed(pitch=DEVICE.pitch.model_copy(update={"part": part}))
     poses = twelve_steps(longer).still_poses(longer, LOAD, spacing_deg=10.0)
     assert max(row.rectangle_m2 for row in envelope(longer, LOAD, poses)) > 1.5
+
+
+def test_a_view_is_measured_by_its_outline() -> None:
+    """A right triangle of 3 by 4 in either order: its area is half of that of the rectangle around it."""
+    corners = np.array([[1.0, 2.0], [4.0, 2.0], [1.0, 6.0]])
+    for outline in (corners, corners[::-1]):
+        row = EnvelopeRow.of("above", outline)
+        assert (row.width_m, row.height_m) == (3.0, 4.0)
+        assert (row.rectangle_m2, row.hull_m2) == (pytest.approx(12.0), pytest.approx(6.0))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from types import SimpleNamespace
@@ -10,28 +11,42 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError
+from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.device_file import read_device
-from forcetorque.device.excitation import device_span, direction_rows, optimised_motion, sensor_span_row
+from forcetorque.device.excitation_and_predicted_errors import (
+    COMPARED_KG,
+    device_span,
+    direction_rows,
+    optimised_motion,
+    predicted_rms,
+    sensor_span_row,
+)
 from forcetorque.device.excitation_options import (
+    FAMILY,
+    NOISE_COUNTS,
     SAMPLES,
+    SECOND_KG,
     ExcitationOption,
     excitation_options,
     held_out_loads,
+    least_excitation,
     sample_noise,
     still_poses,
     swing_at_yaw_zero,
     third_lock_steps,
-    uncertain,
 )
-from forcetorque.device.expected_wrench import device_response
+from forcetorque.device.expected_wrench import ExpectedWrench, device_response
 from forcetorque.device.motion import DeviceTrajectory, joint_ranges
 from forcetorque.device.optimised_motion import Designer
-from forcetorque.device.tolerances import RestTable, Tolerances
-from forcetorque.workbench.excitation import Span
+from forcetorque.device.tolerances import RestTable, Tolerances, joined_loads
+from forcetorque.robot.motion import JointMotion
+from forcetorque.simulation.sensor_family import FAMILIES
+from forcetorque.workbench.excitation import Span, UncertainLoads
 from forcetorque.workbench.known_loads import THESIS_TABLE, read_loads
 from forcetorque.workbench.position_means import Placement
 from tests.device.simulated_calibrations import bench_error, device_error
@@ -65,7 +80,9 @@ def _device_errors(poses: list, seeds: int) -> FloatArray:  # type: ignore[type-
 
 
 def _predicted(option: ExcitationOption) -> tuple[float, float]:
-    return uncertain(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
+    return (
+        joined_loads(option.sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise()).mean_squares(held_out_loads())
+    )
 
 
 def test_the_12_steps_leave_the_moment_about_the_line_of_both_centres() -> None:
@@ -311,6 +328,158 @@ def test_the_optimised_motion_beats_the_third_lock_in_50_seeds() -> None:
     realised = [_errors("third lock", SEEDS), _device_errors(better.sampled(SAMPLES), SEEDS)]
     squares = np.array([(errors**2).mean(axis=0) for errors in realised])
     assert (squares[1] < squares[0]).all()
+
+
+def test_predicted_errors_are_root_mean_squares_of_a_component() -> None:
+    """Of mean squares of all three components together: 12 N^2 are 2 N in each, 27 (N m)^2 are 3 N m."""
+    error = cast("MatrixError", SimpleNamespace(mean_squares=lambda loads: (12.0, 27.0 * (len(loads) == 400))))
+    assert predicted_rms(error) == pytest.approx((2.0, 3.0))
+
+
+def test_the_least_excitation_is_that_of_the_worst_direction() -> None:
+    """Of loads against themselves 1, a pose held twice counts as two; the least root of a generalised eigenvalue."""
+    rng = np.random.default_rng(6)
+
+    def loads(wrench: FloatArray, count: FloatArray) -> UncertainLoads:
+        return UncertainLoads(wrench=wrench, count=count, systematic={}, independent=np.zeros((len(wrench), 6, 0)))
+
+    wrench, count = rng.normal(size=(30, 6)) + 5.0, rng.integers(1, 4, 30).astype(np.float64)
+    others = loads(wrench, count)
+    repeated = np.repeat(wrench, count.astype(int), axis=0)
+    assert least_excitation(loads(repeated, np.ones(len(repeated))), others) == pytest.approx(1.0)
+    mixed = wrench @ rng.normal(size=(6, 6)) - 7.0
+    covariances = [np.cov(some.T, fweights=count.astype(int), ddof=0) for some in (mixed, wrench)]
+    least = np.sqrt(eigh(*covariances, eigvals_only=True)[0])
+    assert least_excitation(loads(mixed, count), others) == pytest.approx(least)
+    assert least_excitation(loads(wrench * [1, 1, 1, 1, 1, 0], count), others) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_noise_of_a_sample_is_that_of_a_count_in_each_channel() -> None:
+    """Through the matrix of the nominal sensor; a load read with it has that covariance."""
+    response = FAMILIES[FAMILY].nominal()
+    np.testing.assert_allclose(response @ sample_noise() @ response.T, NOISE_COUNTS**2 * np.eye(6), atol=1e-9)
+
+
+def test_the_device_is_compared_with_the_heaviest_weight_of_the_workbench() -> None:
+    """And both loads of a second calibration are loads that it takes."""
+    bench = read_loads(THESIS_TABLE, measure_direction=MeasureDirection.CHILD_TO_PARENT)
+    heaviest = np.linalg.norm(bench.wrench[:, :3], axis=1).max() / STANDARD_GRAVITY
+    assert pytest.approx(heaviest, rel=0.02) == COMPARED_KG
+    assert {COMPARED_KG, SECOND_KG} <= set(DEVICE.loads_kg)
+
+
+def test_the_turned_load_goes_to_both_positions_of_the_turn() -> None:
+    """And to no others."""
+    (trajectory,) = _options(25.0)["load turned"].trajectories
+    assert trajectory.device.turn is not None
+    column = trajectory.sequence.joints.index("turn")
+    visited = set(np.rad2deg(trajectory.sequence.postures[:, column]).round(6))
+    assert visited == set(trajectory.device.turn.positions_deg)
+
+
+def test_errors_of_poses_are_those_of_the_expected_wrench() -> None:
+    """One standard deviation each, by its derivative; of a lock only where the hinge is at it, of a free hinge else."""
+    twelve = _options(25.0)["free hinge"].trajectories[0]
+    poses = still_poses(twelve, spacing_deg=45.0)
+    name, hinge = twelve.load.name, np.rad2deg(poses.position[:, -1])
+    expected = ExpectedWrench(
+        device=twelve.device,
+        load=twelve.load,
+        poses=JointMotion.at_rest(twelve.device.joint_names, poses.position),
+        sensor="ft_1",
+    )
+    locked = {lock: np.abs(hinge - lock) < 1e-6 for lock in (0.0, 90.0)}
+    angle = np.deg2rad(0.1) / np.sqrt(12.0)
+    everywhere = np.ones(len(hinge), dtype=np.bool_)
+    by_hand = {
+        "pitch": (angle, "pitch", everywhere),
+        "yaw": (angle, "yaw", everywhere),
+        "hinge": (angle, "hinge", ~locked[0.0] & ~locked[90.0]),
+        "lock 0": (angle, "hinge", locked[0.0]),
+        "lock 90": (angle, "hinge", locked[90.0]),
+        "height": (1e-4, "bracket_length", everywhere),
+        f"distance of {name}": (1e-4, "load_length", everywhere),
+        f"mass of {name}": (5e-4, "mass", everywhere),
+    }
+    loads = poses.uncertain("ft_1", EXACT)
+    assert set(loads.systematic) == set(poses.errors) == set(by_hand)
+    for error, (size, quantity, where) in by_hand.items():
+        assert where.any()
+        slope = np.where(where[:, None], expected.derivative(quantity), 0.0)
+        np.testing.assert_allclose(loads.systematic[error], size * slope, atol=1e-8)
+        change = poses.wrench("ft_1", {error: 1e-5}) - poses.wrench("ft_1")
+        np.testing.assert_allclose(change, 1e-5 * slope, atol=1e-6)
+    apart = np.random.default_rng(1).uniform(-1e-5, 1e-5, (len(hinge), 3))
+    change = poses.wrench("ft_1", {}, apart) - poses.wrench("ft_1")
+    slopes = [
+        np.where(by_hand[joint][2][:, None], expected.derivative(joint), 0.0) for joint in ("pitch", "yaw", "hinge")
+    ]
+    np.testing.assert_allclose(change, np.einsum("kni,nk->ni", slopes, apart), atol=1e-6)
+    np.testing.assert_array_equal(loads.independent[:, :, 0], loads.systematic["pitch"])
+
+
+@pytest.mark.parametrize(
+    ("error", "normal"), [("pitch", False), ("lock 90", False), ("height", True), ("mass of x", True)]
+)
+def test_drawn_errors_of_a_device_have_their_size(error: str, normal: bool) -> None:
+    """Of 4000 draws a standard deviation is off by 1.1 %; uniform ones stay within half of the width, and reach it."""
+    tolerances = Tolerances(encoder_deg=2.0, length_m=3e-3, mass_share=2e-2)
+    rng = np.random.default_rng(8)
+    drawn = np.array([tolerances.draw(error, rng) for _ in range(4000)])
+    size = tolerances.size_of(error)
+    assert drawn.std() == pytest.approx(size, rel=0.055)
+    if normal:
+        assert np.mean(np.abs(drawn) < size) == pytest.approx(0.683, abs=0.03)
+    else:
+        half = np.deg2rad(1.0)
+        assert -half <= drawn.min() < -0.98 * half
+        assert 0.98 * half < drawn.max() <= half
+
+
+def test_a_motion_searched_is_valued_as_it_is_published() -> None:
+    """The volume of the covariance by the table of rest and by the robot model, but for rests after the swings."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, swaps=0)
+    motion = designer.through(third.sequence.postures)
+    error = joined_loads(_options(25.0)["third lock"].sampled(SAMPLES), "ft_1", EXACT).matrix_error(sample_noise())
+    assert motion.duration_s == pytest.approx(third.duration_s)
+    assert motion.value == pytest.approx(error.volume, abs=0.3)
+    assert motion.squares == pytest.approx(error.mean_squares(held_out_loads()), rel=0.02)
+
+
+def test_a_search_begins_from_motions_that_are_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those that are picked posture by posture use nearly all of the time, rests included, and no more."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(
+        device=third.device, load=third.load, sensor="ft_1", seconds=60.0, hold_s=3.0, candidates=40, swaps=0
+    )
+    begun: list[FloatArray] = []
+
+    def noted(
+        through: Callable[[FloatArray], object], drawn: FloatArray, orders: list[FloatArray], **_: object
+    ) -> object:
+        begun.extend(orders)
+        return through(orders[-1])
+
+    monkeypatch.setattr("forcetorque.device.optimised_motion.search", noted)
+    initial = np.deg2rad([[-90.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    designer.improve(initial)
+    *picked, last = begun
+    np.testing.assert_array_equal(last, initial)
+    lasting = [designer.through(order).duration_s for order in picked]
+    assert len(lasting) >= 2
+    assert 0.8 * 60.0 < min(lasting) <= max(lasting) <= 60.0
+
+
+def test_a_posture_that_is_listed_twice_is_visited_once() -> None:
+    """Without a second rest."""
+    third = _options(25.0)["third lock"].trajectories[0]
+    designer = Designer(device=third.device, load=third.load, sensor="ft_1", seconds=third.duration_s, swaps=0)
+    postures = np.deg2rad([[-90.0, 10.0, 0.0], [30.0, 100.0, 0.0], [30.0, 100.0, 0.0], [-20.0, 200.0, 0.0]])
+    twice, once = designer.through(postures), designer.through(postures[[0, 1, 3]])
+    np.testing.assert_array_equal(twice.sequence.postures, postures[[0, 1, 3]])
+    assert twice.sequence.steps == (1, 2, 3)
+    assert twice.duration_s == once.duration_s
 
 
 def test_errors_by_direction_are_under_the_loads_of_the_heading() -> None:

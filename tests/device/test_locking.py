@@ -79,6 +79,27 @@ def test_gravity_drives_to_the_end_that_its_moment_points_to(lock_deg: float, en
     assert not drives(towards * [1.0, -0.01, 1.0])
 
 
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e6])
+def test_rounding_of_a_large_moment_does_not_drive_a_load_back(size: float) -> None:
+    """Of a moment of some newton metres 1e-12 is rounding, whatever its size; 1e-6 is not."""
+
+    def drives(back: float) -> bool:
+        moment = size * np.array([3.0, -back, 5.0])
+        return HingePath(step=11, unlocked=True, lock_rad=0.0, end_rad=1.0, moment=moment).drives_to_end
+
+    assert drives(1e-12)
+    assert not drives(1e-5)
+
+
+def test_moments_are_looked_at_every_two_degrees() -> None:
+    """Of the joint that turns most on a way, from its start to its end."""
+    sequence = twelve_steps(DEVICE)
+    ways = hinge_ways(DEVICE, device_load(DEVICE, 35.0), sequence)
+    assert len(ways) == len(sequence.postures) - 1
+    for way, change in zip(ways, np.rad2deg(np.diff(sequence.postures, axis=0)), strict=True):
+        assert np.abs(change).max() / (len(way.moment) - 1) <= 2.0 + 1e-9
+
+
 def test_a_lock_that_the_load_cannot_reach_is_refused() -> None:
     """Without the half turn it swings to +90; a quarter turn brings the axis of the hinge upright."""
     device, load = DEVICE.with_locks(-90.0, 0.0, 90.0), device_load(DEVICE, 35.0)

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError, ShapeError
 from forcetorque.device.components import AttachedLoad, Device, Turn, device_load
-from forcetorque.device.device_file import read_device
+from forcetorque.device.device_file import DeviceMotion, read_device
 from forcetorque.device.motion import DeviceTrajectory, Sequence, YawReturn, twelve_steps
+from forcetorque.device.optimised_motion import Designer
 from forcetorque.device.robot_model import hanging
 from forcetorque.robot.motion import JointMotion
 
@@ -36,6 +39,48 @@ def test_the_steps_go_where_the_thesis_says(yaw_return: YawReturn) -> None:
     turned = {step: abs(ends[step][1] - ends[before][1]) for before, step in ((7, 8), (11, 12))}
     assert turned == {8: 360.0, 12: 360.0}
     sequence.require_possible(_device(yaw_return), LOAD)
+
+
+@pytest.mark.parametrize("yaw_return", YawReturn)
+def test_each_step_turns_what_the_thesis_turns(yaw_return: YawReturn) -> None:
+    """Pitch through half a turn in steps 2 and 4, yaw by a quarter in 3 and 5, a whole turn in 8 and 12."""
+    sequence = twelve_steps(_device(yaw_return), yaw_return=yaw_return)
+    ways = np.rad2deg(np.abs(np.diff(sequence.postures, axis=0)))
+    turned = {step: ways[np.array(sequence.steps[1:]) == step].sum(axis=0) for step in sequence.steps}
+    back = 0.0 if yaw_return in (YawReturn.BACKWARDS, YawReturn.NEVER) else 360.0
+    by_hand = {
+        **dict.fromkeys((2, 4), [360.0, 0.0, 0.0]),
+        **dict.fromkeys((3, 5), [0.0, 180.0, 0.0]),
+        **dict.fromkeys((7, 9), [90.0, back, 0.0]),
+        **dict.fromkeys((8, 12), [0.0, 360.0, 0.0]),
+        11: [90.0, 0.0, 90.0],
+    }
+    for step, angles in by_hand.items():
+        np.testing.assert_allclose(turned[step], angles, atol=1e-9)
+    first, *_, last = np.rad2deg(sequence.postures)
+    np.testing.assert_allclose(first, [-90.0, 0.0, 0.0])
+    np.testing.assert_allclose(last, [0.0, 1080.0 if yaw_return is YawReturn.NEVER else 360.0, 90.0])
+    # in one way, pitch before yaw, or yaw before pitch
+    in_step_7 = ways[np.array(sequence.steps[1:]) == 7]
+    first_way = {YawReturn.BEFORE: [0.0, 360.0, 0.0], YawReturn.AFTER: [90.0, 0.0, 0.0]}
+    np.testing.assert_allclose(in_step_7[0], first_way.get(yaw_return, [90.0, back, 0.0]), atol=1e-9)
+
+
+def test_a_motion_may_reach_its_stops() -> None:
+    """Pitch, yaw and the hanging load at the ends of their ranges."""
+    device = DEVICE.changed(
+        pitch=DEVICE.pitch.model_copy(update={"range_deg": (-90.0, 90.0)}),
+        yaw=DEVICE.yaw.model_copy(update={"range_deg": (0.0, 360.0)}),
+        hinge=DEVICE.hinge.model_copy(update={"range_deg": (0.0, 90.0)}),
+    )
+    twelve_steps(device).require_possible(device, LOAD)
+
+
+def test_postures_rest_as_long_wherever_they_are_from() -> None:
+    """One second, of motions of files, in Python and of a search alike."""
+    defaults = {field.name: field.default for field in dataclasses.fields(DeviceTrajectory)}
+    searched = {field.name: field.default for field in dataclasses.fields(Designer)}
+    assert defaults["hold_s"] == searched["hold_s"] == DeviceMotion().hold_s == DEVICE.motion.hold_s
 
 
 def test_the_load_swings_with_pitch_and_locks_at_90() -> None:

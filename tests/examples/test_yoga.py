@@ -22,7 +22,7 @@ from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.plausibility.checks import examine
+from forcetorque.inspection.plausibility.gate import examine
 from forcetorque.recording.recording import Use
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot.mechanics.measured_and_expected_wrench import SensorSamples

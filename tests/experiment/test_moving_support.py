@@ -15,10 +15,10 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.dynamics import joints_between, motion_of_link
+from forcetorque.robot.dynamics import motion_of_link
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, sensor_samples
 from forcetorque.robot.motion import RootMotion, joint_motion_at
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, joints_between
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
 from tests.scenes.experiments import JOINTS, PARQUET, edit

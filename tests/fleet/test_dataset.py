@@ -22,7 +22,7 @@ from forcetorque.evaluation.evaluation import validation_errors
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.fleet.add import add_recording, add_recordings
+from forcetorque.fleet.added_and_failed_recordings import add_recording, add_recordings
 from forcetorque.fleet.analyses_of_dataset import COMMANDS, FROM_LOGS, DatasetLogs
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.parquet_columns import columns_of, rows_of, schema_of, unit_of

@@ -15,9 +15,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.errors import ChangingFileError, ExperimentError, FormatError, OutputError
-from forcetorque.fleet import add
-from forcetorque.fleet.add import add_recording
-from forcetorque.fleet.failed_recordings import Failures, stored_failures
+from forcetorque.fleet import added_and_failed_recordings as add
+from forcetorque.fleet.added_and_failed_recordings import Failures, add_recording, stored_failures
 from forcetorque.fleet.parquet_dataset import Dataset
 from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.run import run_plan

@@ -17,7 +17,7 @@ from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Reason
 from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.fleet.add import add_recordings
+from forcetorque.fleet.added_and_failed_recordings import add_recordings
 from forcetorque.fleet.commands import fleet_report
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.parquet_dataset import Dataset

@@ -34,7 +34,7 @@ from forcetorque.formats.log_format import SketchingFormat
 from forcetorque.formats.registry import recognised_format
 from forcetorque.formats.tabular.numbers import ISO8601
 from forcetorque.formats.tabular.table_layout import StampColumn
-from forcetorque.formats.yarp.plain_ports import read_analog
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream

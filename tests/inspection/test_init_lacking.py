@@ -16,8 +16,8 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.toml_file import unanswered_keys
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.inspection.draft.divided_stream import DividedStream
 from forcetorque.inspection.draft.draft import draft_experiment
+from forcetorque.inspection.draft.fault_corrections import DividedStream
 from forcetorque.inspection.draft.proposals import Proposal, proposals
 from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.inspection.inspect import inspect_log

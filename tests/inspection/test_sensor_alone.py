@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.inspection.draft.first_look import SensorLog
+from forcetorque.inspection.draft.recording_table import SensorLog
 from forcetorque.inspection.inspect import Inspection, inspect_log
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Recording
@@ -188,7 +188,7 @@ def test_a_log_of_a_robot_is_no_sensor_by_itself(tmp_path: Path) -> None:
 
 def test_a_table_that_is_too_long_to_be_read_at_once_is_listed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its columns are, some rows at a time."""
-    monkeypatch.setattr("forcetorque.inspection.draft.first_look.MOST_ROWS", 1000)
+    monkeypatch.setattr("forcetorque.inspection.draft.recording_table.MOST_ROWS", 1000)
     inspection = _inspected(tmp_path, *_clean())
     assert inspection.sensor is None
     assert len(inspection.unread) == 7

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.live import biased_contact, tares_of_a_moving_arm
 from forcetorque.base.errors import RecordingError
-from forcetorque.live.bias_tracking import BiasTracker, Tracking
+from forcetorque.live.bias_tracking_and_tare import BiasTracker, Tracking
 
 STEP_NS = 20_000_000
 

@@ -21,10 +21,10 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_reading import Correction, wrench_at
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.gravity_and_tool_weight import Tool
 from forcetorque.live.option_values import FaultPolicy, HeldQuantity, OffsetSource
 from forcetorque.live.sample_status import FAULTS, Status, status_of_device, status_text
 from forcetorque.live.sources import replayed_groups
-from forcetorque.live.tool_weight import Tool
 from tests.scenes.calibrations import FACTORY, make_calibration, make_variable
 from tests.scenes.experiments import PARQUET
 

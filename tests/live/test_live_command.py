@@ -20,7 +20,7 @@ from forcetorque.calibration.export.wholebodydynamics import from_calibration, w
 from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.bag import opened_bag
-from forcetorque.formats.ros.wrench_message import read_wrench
+from forcetorque.formats.ros.single_messages import read_wrench
 from forcetorque.live.figures import live_figure
 from forcetorque.live.result import KeptSamples
 from forcetorque.results.terminal.command_output import drawn_to

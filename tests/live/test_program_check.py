@@ -20,13 +20,13 @@ from forcetorque.calibration.export.wholebodydynamics import from_calibration, w
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.posterior import Posterior, RowNoise
 from forcetorque.live.corrector import Corrector, CorrectorOptions
+from forcetorque.live.gravity_and_tool_weight import Tool
 from forcetorque.live.loop import LiveLoop
 from forcetorque.live.option_values import HeldQuantity, Input, OffsetSource
 from forcetorque.live.program_check import program_checks
 from forcetorque.live.result import LiveRun
 from forcetorque.live.run_from_settings import make_run
 from forcetorque.live.settings import Settings
-from forcetorque.live.tool_weight import Tool
 from forcetorque.payload.export.export import export_load
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.export.load_parameters import RobotLoad

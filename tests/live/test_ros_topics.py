@@ -19,7 +19,7 @@ import pytest
 from forcetorque.base.errors import FormatError, MissingExtraError, RecordingError
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
-from forcetorque.formats.ros.wrench_message import WrenchEncoder, read_wrench
+from forcetorque.formats.ros.single_messages import WrenchEncoder, read_wrench
 from forcetorque.live.loop import LiveLoop
 from forcetorque.live.result import LiveRun
 from forcetorque.live.ros_topics import (

@@ -21,7 +21,7 @@ import pytest
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.base.output_file import is_replaceable
 from forcetorque.experiment.calibration.calibration_file import SessionOffset
-from forcetorque.formats.ros.wrench_message import read_wrench
+from forcetorque.formats.ros.single_messages import read_wrench
 from forcetorque.live import outputs
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.loop import LiveLoop

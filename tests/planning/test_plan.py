@@ -17,7 +17,7 @@ from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
-from forcetorque.formats.yarp.plain_ports import read_state
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_state
 from forcetorque.planning.planning import Plan, plan, plan_sentence
 from forcetorque.planning.trajectory_files import write_plan
 from tests.scenes.experiments import JOINTS, PARQUET

@@ -27,7 +27,7 @@ from forcetorque.calibration.joint.robust_fit import PartResidual
 from forcetorque.calibration.summary import InformationGain
 from forcetorque.contests.contest_scores import ContestLoadRow
 from forcetorque.contests.figures import contest_figure
-from forcetorque.device.excitation import DirectionRow
+from forcetorque.device.excitation_and_predicted_errors import DirectionRow
 from forcetorque.device.figures import device_figure, envelope_figure, predicted_error_figure, reference_error_figure
 from forcetorque.device.motors_hinge_and_envelope import VIEWS, EnvelopeRow
 from forcetorque.device.requirements import GradeRow

@@ -8,7 +8,7 @@ import re
 import pytest
 from hypothesis import given, strategies as st
 
-from forcetorque.results.document.pdf_layout import lines_of
+from forcetorque.results.document.pdf_letters_and_layout import lines_of
 from forcetorque.results.number_text import NO_BREAK, with_joined_units
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, table_text, wrapped

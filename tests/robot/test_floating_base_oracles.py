@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RobotError
-from forcetorque.robot.dynamics import expected_wrenches, joints_between, motion_of_link
+from forcetorque.robot.dynamics import expected_wrenches, motion_of_link
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, joints_between
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import PENDULUM_URDF, example_robot, icub, random_motion, read_text
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.base.errors import RobotError
-from forcetorque.robot.tree import BodyTree, SubModel, build_tree, cut_of, outboard_bodies, path_to_root, sub_models
+from forcetorque.robot.sub_models import SubModel, sub_models
+from forcetorque.robot.tree import BodyTree, build_tree, cut_of, outboard_bodies, path_to_root
 from forcetorque.robot.urdf import read_urdf
 from tests.scenes.robots import icub, joint_xml, link_xml, read_text, robot_xml, sensor_xml
 

@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from forcetorque.device.excitation import device_span
+from forcetorque.device.excitation_and_predicted_errors import device_span
 
 
 def hardly_optimise(patch: pytest.MonkeyPatch) -> None:

@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import RecordingError
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_state_ext
 from forcetorque.formats.yarp.log_format import PortKind
-from forcetorque.formats.yarp.plain_ports import read_analog
-from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.formats.yarp.writing import StreamPort, write_ports
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.recording import Finding, Recording

@@ -25,7 +25,7 @@ from forcetorque.skin.layout.normals import rebuilt_normals
 from forcetorque.skin.simulation.objects_on_skin import ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import REFERENCE_PA, SIMPLE_AREA_M2, TaxelResponses, chamber_recording
 from forcetorque.skin.taxels.curve_comparison import calibrated_taxel
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.taxels.pressure_cycles import REST_SHARE, pressure_cycle
 from forcetorque.skin.taxels.taxel_curve import CurveKind, fit_curve
 from forcetorque.skin.wrench.patch_sensor import SkinPatch

@@ -24,7 +24,7 @@ from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.simulation.objects_on_skin import ON_SKIN, ContactTruth, SkinBody, contacts
 from forcetorque.skin.simulation.recordings import TaxelResponses
 from forcetorque.skin.simulation.temperature import HeatResponses, Warmth, warm_recording
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, TaxelDrift
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from forcetorque.skin.wrench.patch_sensor import SkinPatch

@@ -15,7 +15,7 @@ from forcetorque.skin.contact.contact_clusters import SkinContacts
 from forcetorque.skin.contact.contact_tracking import PatchFollower
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.simulation.temperature import Warmth
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains
 from forcetorque.skin.temperature.warm_up_calibration import fit_warm_up
 from forcetorque.skin.wrench.patch_sensor import SkinPatch

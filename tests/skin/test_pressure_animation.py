@@ -10,7 +10,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.skin.pressure_animation import skin_film
+from forcetorque.skin.figures import skin_film
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.skin.wrench.result import SkinWrenchPicture
 from tests.skin.layout.skins import cylinder
@@ -45,6 +45,6 @@ def test_a_film_shows_the_pressure_of_each_time() -> None:
 
 def test_a_long_film_leaves_images_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every third of seven, shown three times as long."""
-    monkeypatch.setattr("forcetorque.skin.pressure_animation.MOST_IMAGES", 3)
+    monkeypatch.setattr("forcetorque.skin.figures.MOST_IMAGES", 3)
     film = Image.open(io.BytesIO(_film(np.arange(7.0))))
     assert (film.n_frames, film.info["duration"]) == (3, 1200)

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.contact.pressure_frame import WAKING, PatchReader
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.wrench.pressures_over_recording import stuck_taxels
 from tests.skin.layout.skins import plane_layout
 

@@ -52,7 +52,7 @@ def test_a_figure_is_drawn(run: Run, folder: Path) -> None:
     assert "drawn to patch.png" in ended.out
     assert (folder / "patch.png").read_bytes()[:4] == b"\x89PNG"
     refused = run("skin", "check", "none.txt", "--figure", "patch.jpg").error()
-    assert refused == "error: --figure patch.jpg: expected a name that ends in .png"
+    assert refused == "error: --figure patch.jpg: expected a name that ends in .png or .svg or .pdf"
 
 
 def test_a_repaired_layout_is_written(run: Run, folder: Path) -> None:

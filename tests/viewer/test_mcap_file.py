@@ -15,8 +15,7 @@ import pytest
 
 from forcetorque.base.errors import MissingExtraError
 from forcetorque.formats.ros.bag import opened_bag, typestore
-from forcetorque.viewer.foxglove_layout import layout_file, write_layout
-from forcetorque.viewer.mcap_file import write_mcap
+from forcetorque.viewer.mcap_and_foxglove_files import layout_file, write_layout, write_mcap
 from forcetorque.viewer.scene_builder import BuiltScene
 from forcetorque.viewer.viewer_log import ViewerLog, viewer_log
 

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.viewer import overview
-from forcetorque.viewer.overview import with_overviews
-from forcetorque.viewer.packing import packed
+from forcetorque.viewer import packing as overview
+from forcetorque.viewer.packing import packed, with_overviews
 from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.scene_builder import BuiltScene
 

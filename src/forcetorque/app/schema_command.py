@@ -46,7 +46,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.device.device_file import DeviceFile
     from forcetorque.evaluation.acceptance.acceptance_file import AcceptanceFile
     from forcetorque.experiment.calibration.calibration_file import Calibration
-    from forcetorque.experiment.calibration.joint_posterior import JointPosterior
+    from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import JointPosterior
     from forcetorque.experiment.calibration.stored_moments import RecordingMoments
     from forcetorque.experiment.experiment_file import experiment_file
     from forcetorque.experiment.workbench_file import BenchFile
@@ -57,7 +57,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.sensor.choice.load_case import LoadCaseFile
     from forcetorque.simulation.scenario.scenario_file import ScenarioFile
     from forcetorque.skin.layout.formats.urdf_frames import ModuleFrames
-    from forcetorque.skin.taxels.patch_calibration import PatchCalibration
+    from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PatchCalibration
 
     return {
         "experiment": experiment_file().model_json_schema,

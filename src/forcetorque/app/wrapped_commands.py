@@ -124,7 +124,7 @@ def with_view(name: str, command: Callable[..., Result | None]) -> Callable[...,
         if view is None:
             return command(**given)
         from forcetorque.base.output_file import existing_files_replaced_last
-        from forcetorque.experiment.kept_experiments import kept_experiments
+        from forcetorque.experiment.loading import kept_experiments
         from forcetorque.viewer.posture import sample_count
         from forcetorque.viewer.view_file import require_room
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays with a checked shape that are read-only: in data classes, in pydantic models, and mappings of them."""
+"""Arrays with a checked shape that are read-only, in data classes and pydantic models; runs of true values in masks."""
 
 from __future__ import annotations
 
@@ -338,3 +338,27 @@ def _reduced(
 # Python pickles and deep-copies everything that an experiment holds but these: without it no experiment goes to
 # another process
 copyreg.pickle(MappingProxyType, _reduced)
+
+
+def run_edges(mask: BoolArray) -> IntArray:
+    """Find where runs of true values begin and end.
+
+    Args:
+        mask: Truth per sample; shape (n,).
+
+    Returns:
+        Index of the first sample of every run, and of the first one behind it; shape (runs, 2).
+    """
+    return np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8))).reshape(-1, 2)
+
+
+def true_runs(mask: BoolArray) -> list[tuple[int, int]]:
+    """Find the runs of true values.
+
+    Args:
+        mask: Truth per sample; shape (n,).
+
+    Returns:
+        First and last index of every run.
+    """
+    return [(first, behind - 1) for first, behind in run_edges(mask).tolist()]

@@ -34,7 +34,7 @@ from forcetorque.calibration.summary import (
 from forcetorque.calibration.thesis.calibrate import thesis_calibration
 from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
-from forcetorque.experiment.calibration.robot_correction import place_in_urdf
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.output_file import refuse_output, write_bytes_atomically
-from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import read_model_errors, robot_errors
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.robot.installed_robots import urdf_file

@@ -30,7 +30,8 @@ from forcetorque.robot.mechanics.root_motion import imu_frame
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
+from forcetorque.robot.sub_models import SubModel, sub_models
+from forcetorque.robot.tree import BodyTree, build_tree
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""

@@ -31,8 +31,8 @@ from forcetorque.experiment.long_recording import share_of_segments
 from forcetorque.experiment.raw_counts import full_scale_of, prior_size_of
 from forcetorque.experiment.segmented_samples import IntervalParts
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.plausibility.checks import examine
-from forcetorque.inspection.plausibility.sense_gain_and_unit_checks import require_moving_load
+from forcetorque.inspection.plausibility.gate import examine
+from forcetorque.inspection.plausibility.gravity_sense_gain_and_unit_checks import require_moving_load
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.parameter_vector import OF_LOAD, Kind, places
 from forcetorque.payload.load_warnings import reference_doubts

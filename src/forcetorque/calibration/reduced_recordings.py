@@ -36,7 +36,7 @@ def recording_moments(runs: Runs, *, block_s: float | None = None) -> list[Recor
     Raises:
         ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
     """
-    from forcetorque.inspection.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.gate import examine
 
     campaign = Campaign.of(runs)
     sensor = campaign.sensor

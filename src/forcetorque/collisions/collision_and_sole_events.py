@@ -26,7 +26,8 @@ from forcetorque.locomotion.standing.sole_limits import EventKind, SoleEventRow,
 from forcetorque.recording.recording import Finding, Use
 from forcetorque.results.number_text import plus_minus
 from forcetorque.robot.mechanics.shared_wrenches import SharedWrenches
-from forcetorque.robot.tree import build_tree, sub_models
+from forcetorque.robot.sub_models import sub_models
+from forcetorque.robot.tree import build_tree
 
 
 def events_on_soles(

@@ -19,7 +19,8 @@ from forcetorque.base.units import NORMAL_95
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
 from forcetorque.robot.mechanics.sub_model_equations import PartEquation, joints_of_part, part_equations
-from forcetorque.robot.tree import BodyTree, build_tree, sub_models
+from forcetorque.robot.sub_models import sub_models
+from forcetorque.robot.tree import BodyTree, build_tree
 
 _ALONG: Final = 21
 """Points of the axis of a link from which the nearest is taken."""

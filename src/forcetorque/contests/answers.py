@@ -9,7 +9,7 @@ from forcetorque.results.answer import Answer, Concern
 
 if TYPE_CHECKING:
     from forcetorque.contests.contest_scores import Contest
-    from forcetorque.contests.pairwise_comparison import ContestPairRow
+    from forcetorque.contests.contestant_errors_and_comparison import ContestPairRow
 
 
 _NAMED = 5

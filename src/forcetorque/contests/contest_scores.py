@@ -12,15 +12,25 @@ from pydantic import Field
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
 from forcetorque.contests.contest_file import Entries
-from forcetorque.contests.contestant_errors import Phases, Reader, contestant_reader, contestant_trials
-from forcetorque.contests.pairwise_comparison import (
+from forcetorque.contests.contestant_errors_and_comparison import (
     ContestPairRow,
+    Phases,
+    Reader,
     compared_pairs,
+    contestant_reader,
+    contestant_trials,
     mean_squares,
     ranks_and_winner,
     rms_intervals,
 )
-from forcetorque.contests.phases import Trial, by_load, changes, common_phases, repeatability, require_same_motion
+from forcetorque.contests.phases_and_runs_by_load import (
+    Trial,
+    by_load,
+    changes,
+    common_phases,
+    repeatability,
+    require_same_motion,
+)
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, optional_table, table_of
 

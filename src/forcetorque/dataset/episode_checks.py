@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array
-from forcetorque.base.true_runs import true_runs
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, array, true_runs
 from forcetorque.formats.specified_signals import even_stamps
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
 

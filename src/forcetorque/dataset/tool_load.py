@@ -20,9 +20,9 @@ from forcetorque.base.units import MAD_TO_DEVIATION, NORMAL_95
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
 from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import changes, load_columns, load_wrench
 from forcetorque.payload.identification.parameter_vector import Kind
-from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.load_from_result_file import SCHEMA
 
 MOST_WINDOWS = 1500

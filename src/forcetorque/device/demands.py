@@ -233,7 +233,7 @@ def _lock_row(device: Device, sequence: Sequence, load_kg: float) -> LockRow:
 def _budget_rows(sensor: str, errors: LoadErrors) -> Iterator[BudgetRow]:
     budget = errors.at_largest_load
     for quantity, tolerance in zip(budget.quantities, budget.tolerances, strict=True):
-        unit, factor = _UNITS.get(quantity, ("m/s2", 1.0))
+        unit, factor = _UNITS[quantity]
         plus_minus = factor * (tolerance.largest + abs(tolerance.fixed))
         yield _budget_row(sensor, quantity, plus_minus, unit, budget.only(quantity))
     yield _budget_row(sensor, "all", None, "", budget)

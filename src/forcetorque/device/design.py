@@ -14,7 +14,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceFile
-from forcetorque.device.excitation import DeviceSpan, device_span
+from forcetorque.device.excitation_and_predicted_errors import DeviceSpan, device_span
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.results.result import DrawnResult

@@ -12,7 +12,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.device.components import AttachedLoad, Device, Turn, device_load
 from forcetorque.device.motion import DeviceTrajectory, Sequence, twelve_steps
-from forcetorque.device.tolerances import Poses, Tolerances
+from forcetorque.device.tolerances import Poses
 from forcetorque.experiment.workbench_file import THESIS_TABLE
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.workbench.excitation import UncertainLoads, load_sizes
@@ -146,20 +146,6 @@ def sampled_poses(trajectory: DeviceTrajectory, samples: int) -> Poses:
     """
     seconds = np.linspace(0.0, trajectory.duration_s, samples)
     return Poses.of_samples(trajectory.device, trajectory.load, trajectory(seconds).position)
-
-
-def uncertain(poses: list[Poses], sensor: str, tolerances: Tolerances) -> UncertainLoads:
-    """Join the expected wrenches of several motions, with their errors.
-
-    Args:
-        poses: Poses with each load.
-        sensor: Name of the sensor.
-        tolerances: Tolerances of the device.
-
-    Returns:
-        The loads; errors of the device are the same with every load.
-    """
-    return UncertainLoads.join([segment.uncertain(sensor, tolerances) for segment in poses])
 
 
 def excitation_options(device: Device, load_kg: float) -> dict[str, ExcitationOption]:

@@ -16,7 +16,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import space_figure
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
-from forcetorque.device.excitation import DirectionRow
+from forcetorque.device.excitation_and_predicted_errors import DirectionRow
 from forcetorque.device.motors_hinge_and_envelope import VIEWS, EnvelopeRow
 from forcetorque.device.requirements import GradeRow, RequirementRow, Verdict
 from forcetorque.results.figure_style import (

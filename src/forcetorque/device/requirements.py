@@ -14,11 +14,11 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.device.components import device_load
 from forcetorque.device.device_file import DeviceFile, DeviceHeat
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM, LoadErrors
-from forcetorque.device.excitation_options import SAMPLES, least_excitation, sampled_poses, uncertain, workbench_loads
+from forcetorque.device.excitation_options import SAMPLES, least_excitation, sampled_poses, workbench_loads
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.motors_hinge_and_envelope import EnvelopeRow
-from forcetorque.device.tolerances import Tolerances
+from forcetorque.device.tolerances import Tolerances, joined_loads
 from forcetorque.results.table import Row, Shown, ShownWrench, WrenchValues
 from forcetorque.workbench.position_means import Placement
 
@@ -237,7 +237,7 @@ def _excitation(file: DeviceFile) -> RequirementRow:
     ]
     poses = [sampled_poses(trajectory, SAMPLES // len(trajectories)) for trajectory in trajectories]
     bench = workbench_loads(Placement(angle_rad=0.0, position_m=0.0), SAMPLES)
-    least = {sensor: least_excitation(uncertain(poses, sensor, Tolerances()), bench) for sensor in file.sensor_names}
+    least = {sensor: least_excitation(joined_loads(poses, sensor, Tolerances()), bench) for sensor in file.sensor_names}
     worst = min(least, key=lambda sensor: least[sensor])
     loads = " and ".join(f"{load_kg:g} kg" for load_kg in loads_kg)
     return RequirementRow(

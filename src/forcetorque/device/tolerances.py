@@ -319,3 +319,17 @@ def _basis(pitch: FloatArray, yaw: FloatArray) -> FloatArray:
     """Products of the waves of both; shape (n, 9)."""
     waves = [np.column_stack([np.ones(len(angle)), np.cos(angle), np.sin(angle)]) for angle in (pitch, yaw)]
     return np.einsum("ni,nj->nij", *waves).reshape(len(pitch), 9)
+
+
+def joined_loads(poses: list[Poses], sensor: str, tolerances: Tolerances) -> UncertainLoads:
+    """Join the expected wrenches of several motions, with their errors.
+
+    Args:
+        poses: Poses with each load.
+        sensor: Name of the sensor.
+        tolerances: Tolerances of the device.
+
+    Returns:
+        The loads; errors of the device are the same with every load.
+    """
+    return UncertainLoads.join([segment.uncertain(sensor, tolerances) for segment in poses])

@@ -82,8 +82,7 @@ def estimate(
     from forcetorque.base.output_file import declare_outputs, existing_files_replaced_last
     from forcetorque.estimation.result import estimates_of_recordings
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
-    from forcetorque.experiment.kept_experiments import experiment_finished
-    from forcetorque.experiment.loading import Purpose
+    from forcetorque.experiment.loading import Purpose, experiment_finished
     from forcetorque.experiment.named_files import file_of_each, stated_in
     from forcetorque.formats.sample_table_writing import SUFFIXES
     from forcetorque.results.terminal.command_inputs import read_calibrations, read_experiment

@@ -20,13 +20,13 @@ from forcetorque.recording.clock_offset import estimate_delay
 from forcetorque.recording.recording import Finding, Recording, Support, Use
 from forcetorque.recording.smoothing import smooth_columns
 from forcetorque.recording.stream import Stream
-from forcetorque.robot.dynamics import joints_between, motion_of_link
+from forcetorque.robot.dynamics import motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.tree import BodyTree, build_tree, joints_between
 
 _PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Axes of angular velocity that centrifugal and gyroscopic terms multiply."""

@@ -32,7 +32,8 @@ from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.dynamics import body_pose
 from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import BodyTree, SubModel, build_tree, cut_of, sub_models
+from forcetorque.robot.sub_models import SubModel, sub_models
+from forcetorque.robot.tree import BodyTree, build_tree, cut_of
 
 
 class OtherSensors(StrEnum):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from forcetorque.base.errors import ExperimentError, MissingFileError, known_names
 from forcetorque.experiment import experiment_file as schema
-from forcetorque.experiment.calibration.robot_correction import read_model_errors, robot_errors
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import read_model_errors, robot_errors
 from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
 from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.experiment_file_tables import Sensor

@@ -13,7 +13,7 @@ from forcetorque.results.terminal.options import WholeSentences
 
 if TYPE_CHECKING:
     from forcetorque.base.progress import Progress
-    from forcetorque.fleet.add import Added
+    from forcetorque.fleet.added_and_failed_recordings import Added
     from forcetorque.fleet.report import FleetReport
     from forcetorque.fleet.run import FleetRun
     from forcetorque.fleet.table import FleetTable
@@ -44,7 +44,7 @@ def fleet_add(
     Raises:
         ExperimentError: If a recording changed after it was added, or another robot has a sensor of that serial number.
     """
-    from forcetorque.fleet.add import add_recordings
+    from forcetorque.fleet.added_and_failed_recordings import add_recordings
     from forcetorque.fleet.sensor_record import AddOptions
 
     return add_recordings(

@@ -18,7 +18,7 @@ from forcetorque.evaluation.load_cases.predicted_error import CONFIDENCE
 from forcetorque.evaluation.load_cases.verdict import LOOK_FOR_CAUSE, Decision, LoadCaseVerdict
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.fleet.failed_recordings import stored_failures
+from forcetorque.fleet.added_and_failed_recordings import stored_failures
 from forcetorque.fleet.parquet_dataset import Dataset, RecordingNames
 from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord

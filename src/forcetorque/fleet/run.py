@@ -18,9 +18,8 @@ from forcetorque.calibration.calibrate import calibrate_for_file
 from forcetorque.calibration.joint.calibrate import calibration_file
 from forcetorque.evaluation.answers import CONCERN
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.fleet.add import AddedSensor, add_recording
+from forcetorque.fleet.added_and_failed_recordings import AddedSensor, Failures, add_recording
 from forcetorque.fleet.evaluate import evaluate_records
-from forcetorque.fleet.failed_recordings import Failures
 from forcetorque.fleet.parquet_dataset import Dataset, is_dataset, require_folder
 from forcetorque.fleet.plan_file import PlannedRecording, planned_recordings, read_plan
 from forcetorque.fleet.process_pool import Pool

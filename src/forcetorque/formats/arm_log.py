@@ -9,11 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, names
+from forcetorque.base.arrays import ArrayRecord, BoolArray, FloatArray, IntArray, array, names, true_runs
 from forcetorque.base.errors import FormatError
 from forcetorque.base.pose import cross
 from forcetorque.base.rows_on_disk import row_blocks
-from forcetorque.base.true_runs import true_runs
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.recording import Finding
 

@@ -10,10 +10,9 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, true_runs
 from forcetorque.base.errors import FitError, ForceTorqueError
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.base.true_runs import true_runs
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import recover_raw
 from forcetorque.experiment.experiment import Experiment, ExperimentSensor
@@ -23,8 +22,8 @@ from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.comparison_with_model import Comparison, compared
 from forcetorque.inspection.diagnosis import diagnosed, fault_finding, stability_of
-from forcetorque.inspection.plausibility.checks import FEWEST, examine
 from forcetorque.inspection.plausibility.fault_hypotheses import Explanation
+from forcetorque.inspection.plausibility.gate import FEWEST, examine
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings
 from forcetorque.recording.joint_jumps import JUMPS, are_ignored
 from forcetorque.recording.recording import Finding, Interval, MovingSupport, Recording, Support, Use

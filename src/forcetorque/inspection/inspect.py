@@ -28,9 +28,8 @@ from forcetorque.formats.prior.prior_file import PriorFile
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.formats.registry import format_named, not_recognised, recognised_format
 from forcetorque.formats.specified_keys import description_of, specified_keys
-from forcetorque.inspection.draft.first_look import first_look_at_sensor
 from forcetorque.inspection.draft.logged_robot import robot_findings
-from forcetorque.inspection.draft.recording_table import likely_quantities
+from forcetorque.inspection.draft.recording_table import first_look_at_sensor, likely_quantities
 from forcetorque.inspection.file_contents import (
     ClockRow,
     ColumnRow,

@@ -19,9 +19,8 @@ from operator import itemgetter
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, true_runs
 from forcetorque.base.errors import ShapeError
-from forcetorque.base.true_runs import true_runs
 from forcetorque.base.units import MAD_TO_DEVIATION
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.inspection.model_errors import ModelErrors

@@ -8,10 +8,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from scipy.special import stdtrit
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.true_runs import true_runs
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, true_runs
 from forcetorque.base.wrench import FORCE
-from forcetorque.inspection.draft.first_look import SensorLog
+from forcetorque.inspection.draft.recording_table import SensorLog
 from forcetorque.recording.alignment import usable_samples
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
 from forcetorque.recording.recording import Finding

@@ -7,15 +7,15 @@ from forcetorque.base.lazy import lazy_names
 from forcetorque.results.capability import Capability
 
 if TYPE_CHECKING:
-    from forcetorque.live.bias_tracking import Tracking as Tracking
+    from forcetorque.live.bias_tracking_and_tare import Tracking as Tracking
     from forcetorque.live.corrector import (
         Corrected as Corrected,
         Corrector as Corrector,
         CorrectorOptions as CorrectorOptions,
     )
+    from forcetorque.live.gravity_and_tool_weight import Tool as Tool
     from forcetorque.live.option_values import FaultPolicy as FaultPolicy, OffsetSource as OffsetSource
     from forcetorque.live.sample_status import Status as Status
-    from forcetorque.live.tool_weight import Tool as Tool
 
 CAPABILITY = Capability(
     page="live.md",
@@ -31,6 +31,6 @@ __all__, __getattr__, __dir__ = lazy_names(
     FaultPolicy="forcetorque.live.option_values",
     OffsetSource="forcetorque.live.option_values",
     Status="forcetorque.live.sample_status",
-    Tool="forcetorque.live.tool_weight",
-    Tracking="forcetorque.live.bias_tracking",
+    Tool="forcetorque.live.gravity_and_tool_weight",
+    Tracking="forcetorque.live.bias_tracking_and_tare",
 )

@@ -20,7 +20,7 @@ from forcetorque.base.output_file import temporary_beside
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.formats.ros.bag import mcap_writer, typestore
 from forcetorque.formats.ros.messages import WRENCH_TYPE
-from forcetorque.formats.ros.wrench_message import encoder_of, has_time_for
+from forcetorque.formats.ros.single_messages import encoder_of, has_time_for
 from forcetorque.live.sample_status import FAULTS, status_text
 
 _UNITS = ("N", "N", "N", "Nm", "Nm", "Nm")

@@ -20,14 +20,14 @@ from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.export.wholebodydynamics import SensorCorrection, corrected, read_groups
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrected, Corrector
+from forcetorque.live.gravity_and_tool_weight import Tool
 from forcetorque.live.option_values import HeldQuantity, OffsetSource
 from forcetorque.live.packets import Packet
 from forcetorque.live.result import LiveCheck
 from forcetorque.live.sample_status import FAULTS
-from forcetorque.live.tool_weight import Tool
 from forcetorque.payload.export.arm_controllers_and_simulators import READABLE_ARMS, read_arm_load
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.export.ros2_control_and_ft_tools import read_gravity_filter
+from forcetorque.payload.export.ros_hrpsys_and_mc_rtc import read_gravity_filter
 
 _WHOLE_BODY = ExportFormat.WHOLEBODYDYNAMICS.value
 PROGRAMS = (_WHOLE_BODY, LoadFormat.GRAVITY_FILTER.value, *(form.value for form in READABLE_ARMS))

@@ -23,8 +23,8 @@ import numpy as np
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
-from forcetorque.formats.ros.wrench_message import encoder_of, read_positions, read_wrench
-from forcetorque.live.joint_gravity import JointGravity, JointPositions
+from forcetorque.formats.ros.single_messages import encoder_of, read_positions, read_wrench
+from forcetorque.live.gravity_and_tool_weight import JointGravity, JointPositions
 from forcetorque.live.outputs import CorrectedRow
 from forcetorque.live.packets import NUMBERS, Packet, PacketCounts
 from forcetorque.live.sample_status import FAULTS, Status

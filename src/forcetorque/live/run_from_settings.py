@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.base.errors import RecordingError, require_known
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrector
-from forcetorque.live.joint_gravity import JointGravity, JointPositions
+from forcetorque.live.gravity_and_tool_weight import JointGravity, JointPositions
 from forcetorque.live.lines_from_settings import OF_LINES, line_source, message_frames, one_corrector, require_gravity
 from forcetorque.live.net_ft import CountUnits, NetFtSource, fetch_units
 from forcetorque.live.option_values import HeldQuantity, OffsetSource

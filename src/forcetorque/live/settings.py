@@ -13,11 +13,11 @@ import numpy as np
 
 from forcetorque.base.errors import ForceTorqueError, RecordingError, known_names
 from forcetorque.base.units import parsed_numbers
-from forcetorque.live.bias_tracking import Tracking
+from forcetorque.live.bias_tracking_and_tare import Tracking
 from forcetorque.live.corrector import CorrectorOptions
+from forcetorque.live.gravity_and_tool_weight import Tool
 from forcetorque.live.net_ft import RDT_PORT
 from forcetorque.live.option_values import FaultPolicy, HeldQuantity, Input, OffsetSource
-from forcetorque.live.tool_weight import Tool
 from forcetorque.live.zenoh_session import ROUTER
 
 

@@ -157,8 +157,7 @@ def payload(
     """
     from forcetorque.base.output_file import write_bytes_atomically
     from forcetorque.experiment.campaign_intervals import refuse_a_file_twice
-    from forcetorque.experiment.kept_experiments import keep_experiment
-    from forcetorque.experiment.loading import load_experiment
+    from forcetorque.experiment.loading import keep_experiment, load_experiment
     from forcetorque.experiment.named_files import stated_in
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.formats.decoded_parts_cache import parts_kept
@@ -262,7 +261,7 @@ def _refuse_without_log(logs: Sequence[Path], specified: Mapping[str, object], s
 def _refuse_beside_torques(
     experiments: Sequence[Path], torques: Collection[Path], save_experiment: Path | None, to: LoadFormat | None
 ) -> None:
-    from forcetorque.experiment.kept_experiments import experiments_asked_by
+    from forcetorque.experiment.loading import experiments_asked_by
     from forcetorque.payload.export.arm_controllers_and_simulators import ARMS
 
     first = next(iter(torques))

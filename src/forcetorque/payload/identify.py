@@ -18,8 +18,8 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.held_load import held_load
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution, three
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
-from forcetorque.payload.identification.solve import solve
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
 from forcetorque.payload.load_warnings import (
     behind_flange,

@@ -21,10 +21,10 @@ from forcetorque.experiment.raw_counts import full_scale_of, prior_size_of
 from forcetorque.payload.export.load_parameters import require_rigid
 from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate
+from forcetorque.payload.identification.loads_with_intervals import load_estimates
 from forcetorque.payload.identification.matrix_uncertainty import MatrixSpread, settled
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.payload.identification.robust_fit import fit
-from forcetorque.payload.identification.solve import load_estimates
 
 SCHEMA = "forcetorque/payload/3"
 """Form of the results that are read."""

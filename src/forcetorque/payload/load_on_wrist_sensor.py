@@ -16,7 +16,7 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.named_files import Inputs, stated_in
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.load_from_result_file import LoadFromFile, read_wrist_load_from_file
 from forcetorque.payload.load_tables import Load as LoadTable
 from forcetorque.payload.samples_from_recordings import load_number, load_problem, samples_left_out

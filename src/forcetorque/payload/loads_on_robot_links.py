@@ -15,7 +15,7 @@ from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, require_link
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, together
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.load_from_result_file import LoadFromFile, read_load_from_file, spread_of, with_matrix_in_part
 from forcetorque.payload.load_on_wrist_sensor import inertia_of_estimated, inertia_of_stated
 from forcetorque.payload.load_tables import LinkLoad

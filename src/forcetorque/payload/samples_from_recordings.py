@@ -28,13 +28,13 @@ from forcetorque.payload.identification.measurement_model import inertial_column
 from forcetorque.payload.load_tables import Load as LoadTable
 from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support, Use
-from forcetorque.robot.dynamics import body_poses, joints_between, motion_of_link
+from forcetorque.robot.dynamics import body_poses, motion_of_link
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import LoggedRobot, Processing
 from forcetorque.robot.mechanics.root_motion import support_motion_at
 from forcetorque.robot.motion import JointMotion, RootMotion, blocks_of
-from forcetorque.robot.tree import BodyTree, build_tree, path_to_root
+from forcetorque.robot.tree import BodyTree, build_tree, joints_between, path_to_root
 
 MOST_ROWS = 3600
 """Means of an interval, at most: an hour has means of 1 s, a day of half a minute."""

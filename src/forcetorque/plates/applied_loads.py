@@ -18,11 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, array
+from forcetorque.base.arrays import ArrayRecord, FloatArray, array, true_runs
 from forcetorque.base.errors import ExperimentError, FormatError, require_known
 from forcetorque.base.input_file import read_text
 from forcetorque.base.pose import invert_pose
-from forcetorque.base.true_runs import true_runs
 from forcetorque.base.wrench import MeasureDirection, reading_sign, transform_wrench
 from forcetorque.formats.c3d.force_platform import ForcePlate
 from forcetorque.formats.c3d.plate_conventions import factor_of, stated_unit

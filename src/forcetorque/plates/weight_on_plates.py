@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray, true_runs
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.window_means import mean_error
-from forcetorque.base.true_runs import true_runs
 from forcetorque.formats.c3d.force_platform import EDGE_M, ForcePlate, centre_of_pressure
 from forcetorque.plates.plate_file import PlateFile
 from forcetorque.plates.result import PlateRow, PlateWeight

@@ -16,9 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray, run_edges
 from forcetorque.base.rows_on_disk import BLOCK_ROWS, forget_pages
-from forcetorque.base.true_runs import run_edges
 
 WINDOW = 16
 """Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""

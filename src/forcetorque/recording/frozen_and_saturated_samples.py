@@ -10,8 +10,7 @@ from typing import Self
 import numpy as np
 from scipy.special import erf
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.base.true_runs import run_edges
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, run_edges
 from forcetorque.recording.alignment import usable_samples
 
 FROZEN_SECONDS = 0.5

@@ -9,8 +9,7 @@ from functools import partial
 import numpy as np
 from scipy.special import ndtri
 
-from forcetorque.base.arrays import BoolArray, FloatArray
-from forcetorque.base.true_runs import run_edges, true_runs
+from forcetorque.base.arrays import BoolArray, FloatArray, run_edges, true_runs
 from forcetorque.recording.alignment import gap_limit_ns, usable_samples
 from forcetorque.recording.frozen_and_saturated_samples import (
     SATURATION_SHARE,

@@ -9,12 +9,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.base.errors import RobotError, ShapeError, known_names, require_known
+from forcetorque.base.errors import RobotError, ShapeError, known_names
 from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import cross, invert_pose, make_pose, split_pose
 from forcetorque.base.wrench import transform_wrench
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import Body, BodyTree, Connection, needed_bodies, path_to_root, required_joints
+from forcetorque.robot.tree import (
+    Body,
+    BodyTree,
+    Connection,
+    joints_between,
+    needed_bodies,
+    path_from_root,
+    path_to_root,
+    required_joints,
+)
 
 
 @dataclass(slots=True)
@@ -89,7 +98,7 @@ def motion_of_link(tree: BodyTree, joints: JointMotion, root: RootMotion, link: 
                 f"{known_names(joint, joints.names)}"
             )
     state = root_state(stacked_root(root, len(joints)))
-    for index in _path(tree, link)[1:]:
+    for index in path_from_root(tree, link)[1:]:
         state = move_to(tree.bodies[index], state, joints, slice(None))
     body_R_link, body_p_link = split_pose(tree.frames[link][1])
     omega, alpha = state.angular_velocity, state.angular_acceleration
@@ -160,31 +169,8 @@ def link_pose(tree: BodyTree, joints: JointMotion, link: str) -> FloatArray:
     Raises:
         RobotError: If the robot has no such link, or a joint between the two links is not in `joints`.
     """
-    index = _path(tree, link)[-1]
+    index = path_from_root(tree, link)[-1]
     return body_pose(tree, joints, index) @ tree.frames[link][1]
-
-
-def joints_between(tree: BodyTree, link: str) -> tuple[str, ...]:
-    """Name the joints between the root link and another.
-
-    Args:
-        tree: The robot.
-        link: The other link.
-
-    Returns:
-        Joints from the root outwards; leaders instead of joints that mimic.
-
-    Raises:
-        RobotError: If the robot has no such link.
-    """
-    coordinates = (tree.bodies[index].coordinate for index in _path(tree, link))
-    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
-
-
-def _path(tree: BodyTree, link: str) -> list[int]:
-    """Indices of the bodies from the root to a link."""
-    require_known(link, tree.frames, RobotError, f"the robot has no link {link!r}")
-    return list(reversed(path_to_root(tree, tree.frames[link][0])))
 
 
 def root_state(base: FloatArray) -> BodyState:

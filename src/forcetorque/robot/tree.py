@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Body trees, with fixed joints lumped and cuts at the sensors, and the sub-models between sensors (thesis 2.4)."""
+"""Body trees, with fixed joints lumped and cuts at the sensors (thesis 2.4), and the way from the root to a link."""
 
 from __future__ import annotations
 
@@ -295,65 +295,6 @@ def required_joints(tree: BodyTree, sensor: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(coordinate.joint for coordinate in needed if coordinate is not None))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SubModel:
-    """Bodies that no known cut separates."""
-
-    name: str
-    """Name of the sensor at its base; the root link for the part that holds the root."""
-    base: int
-    """Body that the sensor is at, or the root body."""
-    sensor: str | None
-    """Sensor at its base, between it and the part inboard; None for the part that holds the root."""
-    bodies: tuple[int, ...]
-    """Its bodies, parents before children; the first is the base."""
-    outboard_sensors: tuple[str, ...]
-    """Sensors at its other cuts, between it and the parts outboard."""
-
-
-def sub_models(tree: BodyTree, sensors: Sequence[str]) -> tuple[SubModel, ...]:
-    """Cut a robot at some of its sensors; at the others it stays in one piece.
-
-    Args:
-        tree: The robot.
-        sensors: Sensors to cut at.
-
-    Returns:
-        The parts, inboard ones first; the first holds the root.
-
-    Raises:
-        RobotError: If a sensor is not in the tree, comes twice, or shares its joint with another.
-    """
-    sensor_at: dict[int, str] = {}
-    for name in sensors:
-        cut = cut_of(tree, name)
-        if cut in sensor_at:
-            raise RobotError(f"sensors {sensor_at[cut]!r} and {name!r} sit at one joint; cut there once")
-        sensor_at[cut] = name
-    part_of: list[int] = []
-    bases: list[int] = []
-    for index, body in enumerate(tree.bodies):
-        if body.parent < 0 or index in sensor_at:
-            part_of.append(len(bases))
-            bases.append(index)
-        else:
-            part_of.append(part_of[body.parent])
-    return tuple(
-        SubModel(
-            name=sensor_at.get(base, tree.root_link),
-            base=base,
-            sensor=sensor_at.get(base),
-            bodies=tuple(index for index, owner in enumerate(part_of) if owner == part),
-            outboard_sensors=tuple(
-                name
-                for index, name in sensor_at.items()
-                if index != base and part_of[tree.bodies[index].parent] == part
-            ),
-        )
-        for part, base in enumerate(bases)
-    )
-
-
 def cut_of(tree: BodyTree, sensor: str) -> int:
     """Find the body just outboard of a sensor.
 
@@ -455,3 +396,37 @@ def _position_limits(model: RobotModel, name: str) -> tuple[float, float]:
     if joint.type is JointType.REVOLUTE and limit.lower < math.pi and limit.upper > -math.pi:
         return max(limit.lower, -math.pi), min(limit.upper, math.pi)
     return limit.lower, limit.upper
+
+
+def joints_between(tree: BodyTree, link: str) -> tuple[str, ...]:
+    """Name the joints between the root link and another.
+
+    Args:
+        tree: The robot.
+        link: The other link.
+
+    Returns:
+        Joints from the root outwards; leaders instead of joints that mimic.
+
+    Raises:
+        RobotError: If the robot has no such link.
+    """
+    coordinates = (tree.bodies[index].coordinate for index in path_from_root(tree, link))
+    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
+
+
+def path_from_root(tree: BodyTree, link: str) -> list[int]:
+    """List the bodies from the root to that of a link.
+
+    Args:
+        tree: The robot.
+        link: The link.
+
+    Returns:
+        Their indices, outwards.
+
+    Raises:
+        RobotError: If the robot has no such link.
+    """
+    require_known(link, tree.frames, RobotError, f"the robot has no link {link!r}")
+    return list(reversed(path_to_root(tree, tree.frames[link][0])))

@@ -26,6 +26,7 @@ from forcetorque.results.figure_style import (
 )
 from forcetorque.results.visual_roles import LIMIT
 from forcetorque.sensor.answers import response_answer
+from forcetorque.sensor.choice.result import Holds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from forcetorque.sensor.bandwidth.frequency_response import ResponseCurve
     from forcetorque.sensor.bandwidth.pooled_decays import DecayCurve
     from forcetorque.sensor.bandwidth.response import Response
+    from forcetorque.sensor.choice.result import SensorChoice
     from forcetorque.sensor.gains.gains import SensorGains
     from forcetorque.sensor.sessions.session_drift import SensorSessions, SessionRow
     from forcetorque.sensor.temperature.temperature_drift import SensorThermal
@@ -331,3 +333,55 @@ def _draw_sessions(panel: Axes, rows: Sequence[SessionRow], quantity: str, *, ch
 
 _MOST_SESSION_NAMES = 8
 """Sessions that are named below a panel; of more the first and the last are."""
+
+
+_ROW_INCHES = 0.19
+_MOST_PERCENT = 150.0
+"""Shares beyond it are drawn up to it."""
+_LOOKS = {Holds.HELD: look(0), Holds.AXIS_BY_AXIS: look(1), Holds.EXCEEDED: look(5)}
+
+
+@in_figure_style
+def choice_figure(choice: SensorChoice) -> Figure:
+    """Draw the share of every range that the loads use, and simulated readings of the principles.
+
+    Args:
+        choice: Sensors and principles.
+
+    Returns:
+        The figure.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    height = _ROW_INCHES * len(choice.sensors) + 0.8
+    figure = new_figure(height + ROW_INCHES[1])
+    ranges, readings = figure.subplots(2, 1, height_ratios=[height, ROW_INCHES[1]])
+    places = np.arange(len(choice.sensors))
+    for holds, style in _LOOKS.items():
+        rows = [k for k, row in enumerate(choice.sensors) if row.holds is holds]
+        used = [min(choice.sensors[k].combined_percent, _MOST_PERCENT) for k in rows]
+        if rows:
+            ranges.barh(places[rows], used, height=0.7, color=style.colour, label=str(holds))
+    ranges.axvline(100.0 * (1.0 - choice.margin), **LIMIT_LINE)
+    ranges.set_yticks(places, [shown_name(row.name) for row in choice.sensors])
+    ranges.invert_yaxis()
+    ranges.set(xlim=(0.0, _MOST_PERCENT), xlabel="shares of all axes together, % of the range")
+    ranges.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    for k, curve in enumerate(choice.curves):
+        style = look(k)
+        readings.plot(
+            curve.time_s, curve.share, **style.key, markevery=(30 * k, 240), linewidth=0.9, label=curve.principle
+        )
+    readings.set(
+        ylim=(-0.2, 1.6),
+        xlabel="time, s",
+        ylabel="reading over load",
+        title=f"{shown_name(choice.largest)} from 10 s on, 0.1 degC warmer from 60 to 120 s, simulated",
+    )
+    if choice.curves:
+        readings.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    holding = sum(row.holds is Holds.HELD for row in choice.sensors)
+    spare = f"{100.0 * choice.margin:.0f} % to spare"
+    headline(figure, f"{holding} of {len(choice.sensors)} ranges hold the loads, all axes together, with {spare}")
+    return figure

@@ -14,12 +14,11 @@ from typing import Annotated, Any, Final, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from forcetorque.base.arrays import ArrayField, FloatArray
+from forcetorque.base.arrays import ArrayField, FloatArray, true_runs
 from forcetorque.base.errors import FormatError, ShapeError
 from forcetorque.base.output_file import new_folder, write_bytes_atomically
 from forcetorque.base.run_files import declare_input
 from forcetorque.base.toml_file import first_error
-from forcetorque.base.true_runs import true_runs
 from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.writing import StreamPort, write_ports

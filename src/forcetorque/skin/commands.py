@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from forcetorque.skin.layout.check import SkinCheck
     from forcetorque.skin.patches_of_experiment import PatchExperiment
     from forcetorque.skin.taxels.calibrate import SkinCalibration
-    from forcetorque.skin.taxels.patch_calibration import PatchCalibration
+    from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PatchCalibration
     from forcetorque.skin.wrench.skin_wrench import SkinWrench
 
 _PATCH = Option("Name of the patch. Default: the only one.")
@@ -124,7 +124,7 @@ def calibrate_skin(
     Saved(
         flags=("--film",),
         help="GIF of the field of pressure over time.",
-        function="forcetorque.skin.pressure_animation:save_skin_film",
+        function="forcetorque.skin.figures:save_skin_film",
         endings=(".gif",),
     ),
 )

@@ -232,7 +232,7 @@ def _recordings(
     kept: Mapping[str, IntervalMoments],
     left_out: Mapping[str, Sequence[str]],
 ) -> list[RecordingMoments]:
-    from forcetorque.inspection.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.gate import examine
 
     sensor = data.sensor
     doubts = examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)

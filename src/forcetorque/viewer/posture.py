@@ -17,11 +17,11 @@ from forcetorque.experiment.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support
 from forcetorque.recording.stream import Stream
-from forcetorque.robot.dynamics import joints_between, link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.model import Joint, JointType, RobotModel
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, joints_between
 from forcetorque.skin.section import PATCHES
 from forcetorque.viewer import scene
 from forcetorque.viewer.robot_shapes import flat

@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import needs_extra
 from forcetorque.base.output_file import replaced_file
 from forcetorque.base.wrench import WRENCH_COMPONENTS
-from forcetorque.viewer.mcap_file import colour_of
+from forcetorque.viewer.mcap_and_foxglove_files import colour_of
 from forcetorque.viewer.scene_arrays import read_array
 from forcetorque.viewer.viewer_log import ViewerLog
 

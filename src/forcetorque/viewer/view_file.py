@@ -26,7 +26,7 @@ def view_files(path: Path | None) -> tuple[Path, ...]:
         return ()
     if path.suffix.lower() != MCAP:
         return (path,)
-    from forcetorque.viewer.foxglove_layout import layout_file
+    from forcetorque.viewer.mcap_and_foxglove_files import layout_file
 
     return path, layout_file(path)
 
@@ -76,8 +76,7 @@ def write_view(path: Path, built: BuiltScene, progress: Progress = lambda _: Non
 
         return write_rrd(path, viewer_log(built))
     if path.suffix.lower() == MCAP:
-        from forcetorque.viewer.foxglove_layout import write_layout
-        from forcetorque.viewer.mcap_file import write_mcap
+        from forcetorque.viewer.mcap_and_foxglove_files import write_layout, write_mcap
 
         log = viewer_log(built)
         size = write_mcap(path, log)

@@ -384,8 +384,8 @@ _DETERMINED = 1e-6
 
 def _plausibility_doubts(bench: Bench, setup: Setup | None = None) -> tuple[Doubt, ...]:
     """Doubts of the plausibility checks, which raise an error where measurements are implausible."""
-    from forcetorque.inspection.plausibility.checks import examine
     from forcetorque.inspection.plausibility.compared_wrenches import WORKBENCH
+    from forcetorque.inspection.plausibility.gate import examine
 
     blocks = DataSet(
         label=bench.serial,

@@ -16,7 +16,7 @@ from forcetorque.base.errors import FitError, FormatError
 from forcetorque.calibration.joint.calibrate import require_positive_masses
 from forcetorque.calibration.joint.unknowns import JointFit, Places
 from forcetorque.experiment.calibration.calibration_file import JOINT, read_calibration
-from forcetorque.experiment.calibration.joint_posterior import read_joint_posterior
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import read_joint_posterior
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from tests.app.json_schema import faults
 from tests.app.outcome import Run

@@ -10,10 +10,14 @@ import pytest
 from scipy.stats import chi2
 
 from forcetorque.base.errors import EstimationError
+from forcetorque.estimation.section import FusionTable
 from forcetorque.estimation.torque.covariance_fusion import (
+    FALSE_ALARM as DEFAULT_FALSE_ALARM,
+    WINDOW_S,
     Disagreement,
     Innovation,
     WindowMeans,
+    combined,
     disagreement,
     fuse,
     inverse_of_known,
@@ -51,15 +55,16 @@ def test_two_numbers_by_hand() -> None:
     assert fusion.half_width[0, 0] == pytest.approx(1.96 * np.sqrt(0.8), rel=1e-3)
 
 
-@pytest.mark.parametrize("size", [0.02, 2.0])
-def test_parts_of_an_innovation_by_the_eigenvalue_of_what_lasts(size: float) -> None:
+@pytest.mark.parametrize("eigenvalue", [0.01, 0.95, 1.05, 100.0])
+def test_parts_of_an_innovation_by_the_eigenvalue_of_what_lasts(eigenvalue: float) -> None:
     """Two sources of one torque over 20 windows, a lasting error of one: its square by hand, in one part or two.
 
     With d the differences, l the lasting error over the noise of d and h = l.l, below h = 1 all of
     `d (1 + l l')^-1 d` passes; above, `(l.d)^2 / (h (h + 1))` lasts and `d.d - (l.d)^2 / h` passes.
     """
     rng = np.random.default_rng(6)
-    lasting = size * rng.uniform(1.0, 2.0, 20)
+    lasting = rng.uniform(1.0, 2.0, 20)
+    lasting *= np.sqrt(eigenvalue / (lasting @ lasting))
     difference = rng.normal(size=20) + lasting
     noise = np.full((20, 1, 1), 0.5)
     first = WindowMeans(torque=difference[:, None], noise=noise, lasting=lasting[:, None, None])
@@ -114,6 +119,73 @@ def test_means_of_windows_are_over_what_all_sources_know() -> None:
     np.testing.assert_allclose(means_in_windows([slower], 0.3)[0].noise[:, 0, 0], [8.0 / 3.0, 4.0], rtol=EXACT)
 
 
+def test_a_source_that_knows_less_than_half_of_a_window_has_no_mean_in_it() -> None:
+    """One of three samples: no mean, and the mean of the other is over all three; of two of three both have one."""
+    first = replace(_single("a", [1.0, 2.0, 6.0], 1.0), stamp_ns=np.arange(3) * 100_000_000)
+    for torque, means in (([np.nan, 4.0, np.nan], (3.0, np.nan)), ([3.0, np.nan, 5.0], (3.5, 4.0))):
+        second = replace(first, name="b", torque=np.array(torque)[:, None])
+        got = [one.torque[:, 0] for one in means_in_windows([first, second], 0.3)]
+        np.testing.assert_allclose(got, np.array(means)[:, None], rtol=EXACT)
+
+
+def test_the_time_of_day_changes_nothing() -> None:
+    """Stamps since 1970 give the windows of stamps since the start of the recording."""
+    sources = three(1)
+    late = [replace(one, stamp_ns=one.stamp_ns + 1_700_000_000_123_456_789) for one in sources]
+    for mine, other in zip(means_in_windows(sources, 1.0), means_in_windows(late, 1.0), strict=True):
+        np.testing.assert_array_equal(mine.torque, other.torque)
+
+
+def test_a_window_is_judged_as_a_recording_of_that_window_alone() -> None:
+    """Its innovations are those of its own samples and of no others."""
+    sources = three(3)
+    windows = fuse(sources).windows
+    rows_of = np.arange(SAMPLES) // 20
+    assert len(windows) == rows_of.max() + 1
+    for k, window in enumerate(windows):
+        rows = rows_of == k
+        alone = fuse(
+            [
+                replace(one, **{name: getattr(one, name)[rows] for name in ("stamp_ns", "torque", "noise", "lasting")})
+                for one in sources
+            ]
+        )
+        assert window.everyone.total.chi2 == pytest.approx(alone.conflict.everyone.total.chi2)
+        assert window.everyone.total.degrees_of_freedom == alone.conflict.everyone.total.degrees_of_freedom == 4
+
+
+def test_fused_torques_are_those_of_generalised_least_squares() -> None:
+    """Sample by sample from one covariance of all that is known: noise of each source and errors that all share."""
+    rng = np.random.default_rng(12)
+    n, joints, errors = 4, 3, 2
+    roots = rng.normal(size=(3, n, joints, joints))
+    covariances = roots @ roots.swapaxes(2, 3) + 0.2 * np.eye(joints)
+    values, shared = rng.normal(size=(3, n, joints)), rng.normal(size=(3, n, joints, errors))
+    values[0, 1, 2] = values[:, 2, 0] = values[1, 3] = np.nan
+    torque, covariance = combined(list(values), list(covariances), list(shared))
+    for k in range(n):
+        known = np.isfinite(values[:, k])
+        design = np.concatenate([np.eye(joints)[mask] for mask in known])
+        common = np.concatenate([columns[k][mask] for columns, mask in zip(shared, known, strict=True)])
+        whole = common @ common.T
+        ends = np.cumsum([0, *known.sum(axis=1)])
+        for first, last, one, mask in zip(ends, ends[1:], covariances[:, k], known, strict=False):
+            whole[first:last, first:last] += one[np.ix_(mask, mask)]
+        some = known.any(axis=0)
+        gain = design[:, some].T @ np.linalg.inv(whole)
+        expected = np.linalg.inv(gain @ design[:, some])
+        np.testing.assert_allclose(covariance[k][np.ix_(some, some)], expected, rtol=EXACT, atol=EXACT)
+        np.testing.assert_allclose(torque[k, some], expected @ gain @ values[:, k][known], rtol=EXACT, atol=EXACT)
+        assert np.isnan(torque[k, ~some]).all()
+        assert np.isnan(covariance[k][~some]).all()
+
+
+def test_the_options_of_a_file_are_those_of_the_function() -> None:
+    """Rate of false alarms and length of windows are the same where neither states them."""
+    table = FusionTable(model_deviation=0.1)
+    assert (table.false_alarm, table.window_s) == (DEFAULT_FALSE_ALARM, WINDOW_S)
+
+
 def test_weights_are_inverted_where_something_is_known() -> None:
     """The inverse of the block that is known, and zero elsewhere."""
     block = np.array([[2.0, 0.5], [0.5, 1.0]])
@@ -166,6 +238,18 @@ def test_innovations_are_those_of_the_whole_covariance() -> None:
     # negative control: another sign of one source is another sum
     turned = [replace(sources[0], torque=-sources[0].torque), *sources[1:]]
     assert disagreement(means_in_windows(turned, 1.0)).total.chi2 != pytest.approx(square, rel=1e-2)
+
+
+def test_the_innovation_of_a_source_is_what_the_whole_covariance_has_more_with_it() -> None:
+    """Sum and degrees of freedom, from one large covariance with the source and one without it."""
+    sources = three(4)
+    conflict = fuse(sources).conflict
+    square, count = _dense(sources)
+    for one in sources:
+        rest, fewer = _dense([other for other in sources if other is not one])
+        innovation = conflict.innovation(one.name)
+        assert innovation.chi2 == pytest.approx(square - rest, rel=1e-6)
+        assert innovation.degrees_of_freedom == count - fewer == 2 * SAMPLES // 20
 
 
 def _held(fault: str | None) -> tuple[float, int]:

@@ -219,3 +219,99 @@ def test_errors_that_change_every_second_repeat_themselves_for_a_second() -> Non
     )
     assert friction.noise_time_s == pytest.approx(0.5 * 49.0 / RATE_HZ, rel=0.03)
     assert friction.variance == pytest.approx(0.09, rel=0.03)
+
+
+def _trusted(seed: int, samples: int = 900) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Drive torque with gaps over a trusted torque of zero, velocity and acceleration."""
+    rng = np.random.default_rng(seed)
+    velocity, acceleration = _motion(rng, samples)
+    left = friction_terms(velocity, acceleration) @ TRUE
+    left += np.convolve(rng.standard_normal(samples + 9), np.full(10, 0.05), "valid")
+    left[::11] = np.nan
+    return left, velocity, acceleration
+
+
+def test_the_covariance_of_friction_is_that_of_repeated_samples_and_lasting_errors() -> None:
+    """Least squares of samples that are worth less by what repeats itself, and what lasting errors do to the fit."""
+    left, velocity, acceleration = _trusted(9)
+    lasting = np.stack([np.sin(np.arange(len(left)) / 50.0), np.full(len(left), 0.2)], axis=1)
+    shared = np.full((len(left), 1), 0.3)
+    friction = fit_friction(
+        "knee",
+        left,
+        np.zeros(len(left)),
+        velocity,
+        acceleration,
+        period_s=1.0 / RATE_HZ,
+        standstill=STANDSTILL,
+        trusted_lasting=0.01 * lasting,
+        trusted_shared=shared,
+    )
+    used = np.isfinite(left) & (np.abs(velocity) >= STANDSTILL)
+    terms = friction_terms(velocity, acceleration)[used]
+    moved = np.linalg.lstsq(terms, np.hstack([0.01 * lasting, shared])[used], rcond=None)[0]
+    repeated = 1.0 + 2.0 * friction.noise_time_s * RATE_HZ
+    assert repeated > 1.5
+    expected = friction.variance * repeated * np.linalg.inv(terms.T @ terms) + moved @ moved.T
+    np.testing.assert_allclose(friction.covariance, expected, rtol=1e-8, atol=1e-12)
+    np.testing.assert_allclose(friction.shared, -moved[:, 2:], atol=1e-12)
+
+
+def test_noise_of_the_trusted_torque_is_not_the_drives() -> None:
+    """Its mean where friction is fitted is taken off, down to a tenth of the residual variance and no further."""
+    left, velocity, acceleration = _trusted(10)
+    used = np.isfinite(left) & (np.abs(velocity) >= STANDSTILL)
+    stated = np.where(used, np.linspace(1e-3, 5e-3, len(left)), 1e6)
+
+    def fitted(variance: FloatArray | None) -> Friction:
+        motion = (np.zeros(len(left)), velocity, acceleration)
+        options = {"period_s": 1.0 / RATE_HZ, "standstill": STANDSTILL}
+        return fit_friction("knee", left, *motion, **options, trusted_variance=variance)
+
+    plain, less, least = fitted(None), fitted(stated), fitted(np.full(len(left), 1e3))
+    assert plain.variance - less.variance == pytest.approx(stated[used].mean())
+    assert least.variance == pytest.approx(0.1 * plain.variance)
+    for one in (less, least):
+        np.testing.assert_allclose(one.covariance, plain.covariance)
+        assert one.noise_time_s == plain.noise_time_s
+
+
+def test_lasting_errors_that_friction_takes_up_leave_nothing() -> None:
+    """An offset, and one in proportion to the speed: coefficients are as much less sure, and nothing else changes."""
+    left, velocity, acceleration = _trusted(11)
+    motion = (np.zeros(len(left)), velocity, acceleration)
+    options = {"period_s": 1.0 / RATE_HZ, "standstill": STANDSTILL}
+    plain = fit_friction("knee", left, *motion, **options)
+    lasting = np.stack([np.full(len(left), 0.3), 0.2 * velocity], axis=1)
+    friction = fit_friction("knee", left, *motion, **options, trusted_lasting=lasting)
+    assert friction.variance == pytest.approx(plain.variance)
+    assert friction.noise_time_s == pytest.approx(plain.noise_time_s)
+    np.testing.assert_allclose(friction.covariance - plain.covariance, np.diag([0.0, 0.04, 0.0, 0.09]), atol=1e-9)
+
+
+def test_lasting_errors_explain_at_most_nine_tenths_of_a_residual() -> None:
+    """What is left has a tenth of the variance over the degrees of freedom, if lasting errors are all of it."""
+    residual = np.random.default_rng(5).normal(size=400)
+    whole = _Scatter.of(np.ones(400, dtype=np.bool_), residual, residual[:, None], length=50)
+    assert whole.variance == pytest.approx(0.1 * (residual @ residual) / (400 - 4))
+
+
+def test_errors_that_change_sign_at_every_sample_do_not_repeat_themselves() -> None:
+    """Their means are better than of independent ones; samples are still worth one each."""
+    residual = np.resize([1.0, -1.0], 400)
+    alternating = _Scatter.of(np.ones(400, dtype=np.bool_), residual, np.zeros((400, 0)), length=50)
+    assert alternating.repeated == 1.0
+
+
+def test_errors_of_one_drive_do_not_reach_another() -> None:
+    """Of two joints each has four lasting errors of its own, and its own noise."""
+    frictions = [_fitted(1), replace(_fitted(2), joint="hip")]
+    velocity, acceleration = np.array([[0.5, -0.4], [-0.3, 0.6]]), np.array([[1.0, 2.0], [0.5, -1.0]])
+    source = motor_source("current", frictions, np.arange(2), np.ones((2, 2)), velocity, acceleration)
+    for k, friction in enumerate(frictions):
+        terms = friction_terms(velocity[:, k], acceleration[:, k])
+        np.testing.assert_allclose(
+            source.covariance[:, k, k],
+            friction.variance + np.einsum("ni,ij,nj->n", terms, friction.covariance, terms),
+        )
+    np.testing.assert_allclose(source.covariance[:, 0, 1], 0.0, atol=1e-15)

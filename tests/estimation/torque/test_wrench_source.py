@@ -90,6 +90,47 @@ def test_errors_go_to_torques_as_estimator_runs_say(name: str) -> None:
     assert np.abs(effects).max() > 0.1
 
 
+def _stated(noise: FloatArray, shared: FloatArray) -> TorqueSource:
+    samples, joints, _ = noise.shape
+    return TorqueSource(
+        name="some",
+        joints=JOINTS[:joints],
+        stamp_ns=np.arange(samples),
+        torque=np.zeros((samples, joints)),
+        noise=noise,
+        lasting=np.random.default_rng(2).normal(size=(samples, joints, 2)),
+        shared=shared,
+    )
+
+
+def test_the_covariance_of_a_source_is_that_of_all_its_errors() -> None:
+    """Noise, what lasts and what is shared are independent; counted as noise of its own, what is shared stays."""
+    rng = np.random.default_rng(3)
+    roots, shared = rng.normal(size=(SAMPLES, 3, 3)), rng.normal(size=(SAMPLES, 3, 2))
+    source = _stated(roots @ roots.swapaxes(1, 2) + np.eye(3), shared)
+    by_hand = [
+        sum(np.outer(column, column) for matrix in (lasting, common) for column in matrix.T) + noise
+        for noise, lasting, common in zip(source.noise, source.lasting, shared, strict=True)
+    ]
+    np.testing.assert_allclose(source.covariance, by_hand, atol=ROUNDING)
+    np.testing.assert_allclose(source.own_covariance + shared @ shared.swapaxes(1, 2), by_hand, atol=ROUNDING)
+    alone = source.independent
+    assert alone.shared.shape == (SAMPLES, 3, 0)
+    np.testing.assert_allclose(alone.own_covariance, by_hand, atol=ROUNDING)
+    np.testing.assert_array_equal(alone.lasting, source.lasting)
+
+
+@pytest.mark.parametrize("size", [1e-8, 1.0, 1e8])
+def test_rounding_is_told_from_an_asymmetry_of_noise_in_any_unit(size: float) -> None:
+    """Noise of any size may be as unsymmetric as rounding makes it, and no more."""
+    noise = np.eye(2)[None].repeat(SAMPLES, axis=0)
+    noise[1, 0, 1] = 1e-13
+    np.testing.assert_array_equal(_stated(size * noise, np.zeros((0, 0, 0))).noise, size * noise)
+    noise[1, 0, 1] = 1e-4
+    with pytest.raises(EstimationError, match="sample 1: noise: expected a symmetric covariance"):
+        _stated(size * noise, np.zeros((0, 0, 0)))
+
+
 def test_a_torque_that_is_not_determined_is_left_to_others() -> None:
     """Beyond the sensor two links may be touched anyhow: joints between them are silent, those inboard are not."""
     wrench = np.random.default_rng(6).normal(size=(SAMPLES, 6))

@@ -238,19 +238,28 @@ def test_the_covariance_of_a_source_by_hand() -> None:
 
 
 def test_a_frame_holds_until_the_next() -> None:
-    """From 0.1 s on there is a contact, from 0.3 s on none: what changes until then is a third of its square."""
+    """Until 0.1 s there is no contact, and from 0.3 s on none: what changes until the next is a third of its square."""
     touched, free = _touched_and_free()
     frames = SimpleNamespace(
         patch=SimpleNamespace(name="plate", oldest_s=None, link="shank", friction=0.0),
-        read=SimpleNamespace(frames=[(0.1, None, touched), (0.3, None, free)]),
+        read=SimpleNamespace(frames=[(0.0, None, free), (0.1, None, touched), (0.3, None, free)]),
     )
     experiment = SimpleNamespace(recording=SimpleNamespace(start_ns=5_000_000_000))
-    at_ns = 5_000_000_000 + np.array([150, 350], dtype=np.int64) * 1_000_000
+    at_ns = 5_000_000_000 + np.array([50, 150, 350], dtype=np.int64) * 1_000_000
     (source,) = sources_at(cast("Experiment", experiment), [cast("PatchFrames", frames)], at_ns)
-    np.testing.assert_array_equal(source.wrench, [touched.wrench[0], np.zeros(6)])
+    np.testing.assert_array_equal(source.wrench, [np.zeros(6), touched.wrench[0], np.zeros(6)])
     (held,) = skin_sources("plate", "shank", [touched], np.array([0]), friction=0.0)
     change = np.outer(touched.wrench[0], touched.wrench[0]) / 3.0
-    np.testing.assert_allclose(source.covariance[0], held.covariance[0] + change, rtol=1e-9)
+    expected = [change, held.covariance[0] + change, np.zeros((6, 6))]
+    np.testing.assert_allclose(source.covariance, expected, rtol=1e-9)
+
+
+def test_the_page_has_the_stated_errors_of_a_contact() -> None:
+    """Of direction and place, and of the moment about the normal."""
+    page = (Path(__file__).parents[3] / "docs" / "skin" / "estimation.md").read_text(encoding="utf-8")
+    stated = f"an error of direction ({np.rad2deg(TILT_RAD):.2f} degrees) and one of place ({1e3 * PLACE_M:g} mm)"
+    assert stated in page
+    assert f"a moment about the normal of {1e3 * TWIST_M:g} mm times the push" in page
 
 
 def test_there_are_as_many_sources_as_contacts_at_once() -> None:

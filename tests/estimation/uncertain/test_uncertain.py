@@ -12,8 +12,8 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import EstimationError
 from forcetorque.estimation.uncertain.estimate_with_covariance import estimate_with_covariance
-from forcetorque.estimation.uncertain.input_errors import Actor, Uncertainty, wrench_covariances
-from forcetorque.estimation.uncertain.sub_model_posterior import Affine, posterior_of, undetermined_of
+from forcetorque.estimation.uncertain.input_errors import Actor, Tangents, Uncertainty, wrench_covariances
+from forcetorque.estimation.uncertain.sub_model_posterior import Affine, _sparse_basis, posterior_of, undetermined_of
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, TorqueSum, moving_joints
@@ -308,8 +308,56 @@ def test_the_residual_is_what_neither_unknowns_nor_errors_explain() -> None:
     assert np.linalg.norm(found.residual, axis=1).min() > 0.1
 
 
+@pytest.mark.parametrize("unit", [1e-8, 1.0, 1e8])
+def test_rank_and_condition_are_those_of_the_unknowns_in_any_unit(unit: float) -> None:
+    """As numpy has them; equations in another unit determine the same unknowns to the same accuracy."""
+    rng = np.random.default_rng(9)
+    free, errors, constant = rng.normal(size=(3, 7, 4)), rng.normal(size=(3, 7, 9)), rng.normal(size=(3, 7))
+    free[1, :, 3] = free[1, :, 0] - free[1, :, 1]
+    found = posterior_of(Affine(constant=unit * constant, free=unit * free, errors=unit * errors))
+    assert found.rank.tolist() == np.linalg.matrix_rank(free).tolist() == [4, 3, 4]
+    values = np.linalg.svd(free, compute_uv=False)
+    np.testing.assert_allclose(found.condition, values[:, 0] / values[[0, 1, 2], found.rank - 1], rtol=1e-9)
+    in_newtons = posterior_of(Affine(constant=constant, free=free, errors=errors))
+    for name in ("unknowns", "by_errors", "errors", "left", "hidden"):
+        np.testing.assert_allclose(getattr(found, name), getattr(in_newtons, name), atol=1e-9)
+
+
+def test_friction_of_a_known_bound_widens_the_covariance_of_a_push() -> None:
+    """The same contacts and torques as of a push whose covariance has the slip in it."""
+    robot, question, measured = _pushed(ALONE)
+    known = Wrenches.of({"skin": robot.truth["skin"] + 0.1})
+    rng, n = np.random.default_rng(11), len(robot.joints)
+    of_skin, maps, sizes = _covariance(3, 0.1), rng.normal(size=(n, 6, 2)), rng.uniform(0.5, 2.0, n)
+    slip = sizes[:, None, None] ** 2 * maps @ maps.swapaxes(1, 2)
+    at_leg = {"l_leg_ft": _covariance(4, 0.1)}
+    by_slip, by_covariance = (
+        estimate_with_covariance(
+            question, robot.joints, robot.root, measured=measured, known=known, uncertainty=uncertainty
+        )
+        for uncertainty in (
+            Uncertainty(measured=at_leg, known={"skin": of_skin}, tangents={"skin": Tangents(maps=maps, sd_N=sizes)}),
+            Uncertainty(measured=at_leg, known={"skin": of_skin + slip}),
+        )
+    )
+    for name in ("contact_wrenches", "contact_covariance", "torques", "torque_covariance", "residual"):
+        np.testing.assert_allclose(getattr(by_slip, name), getattr(by_covariance, name), rtol=0, atol=ROUNDING)
+    assert np.abs(by_slip.contact_sd("foot")).max() > VISIBLE
+
+
+def test_a_basis_of_what_is_hidden_has_each_unknown_once() -> None:
+    """Vectors that span the range of a projection, as Gauss and Jordan eliminate them."""
+    rng = np.random.default_rng(13)
+    columns = np.linalg.qr(rng.normal(size=(7, 3)))[0]
+    basis = np.array(_sparse_basis(columns @ columns.T))
+    assert np.linalg.matrix_rank(basis) == len(basis) == 3
+    np.testing.assert_allclose(basis @ columns @ columns.T, basis, atol=1e-12)
+    eliminated = [k for k in range(7) if np.allclose(np.sort(basis[:, k]), [0.0, 0.0, 1.0], atol=1e-12)]
+    assert len(eliminated) == 3
+
+
 def test_what_no_reading_sees_is_named_in_newtons() -> None:
-    """Two wrenches of 4 N and 2 N m per unknown that cancel: the largest component is made 1 N."""
+    """Two wrenches of 4 N and 2 N m per unknown that cancel: the largest component is made 1 N; absent ones do not."""
     acts = np.array([0.0, 4.0, 0.0, 0.0, 0.0, 2.0])
     actors = [
         Actor(
@@ -319,7 +367,7 @@ def test_what_no_reading_sees_is_named_in_newtons() -> None:
             free=sign * acts[None, :, None],
             errors=np.zeros((1, 6, 0)),
         )
-        for name, sign in (("shin", 1.0), ("toe", -1.0))
+        for name, sign in (("shin", 1.0), ("knee", 0.0), ("toe", -1.0))
     ]
     seen = np.concatenate([actor.free for actor in actors], axis=2)
     equation = Affine(constant=np.zeros((1, 6)), free=seen, errors=np.zeros((1, 6, 0)))

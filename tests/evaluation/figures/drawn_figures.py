@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.evaluation.acceptance.acceptance import Acceptance
 from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
-from forcetorque.evaluation.figures.acceptance import acceptance_figure
-from forcetorque.evaluation.figures.contact_forces import validation_figure
+from forcetorque.evaluation.figures.acceptance_and_contact_forces import acceptance_figure, validation_figure
 from forcetorque.evaluation.validation.contact_force_errors import BestCalibration, ContactForceErrors
 from forcetorque.evaluation.validation.validation import JointTorqueErrors, Validation
 from forcetorque.experiment.validation_offset import Offset

@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 from forcetorque.base.errors import ShapeError
 from forcetorque.evaluation.acceptance.criteria import Bound
 from forcetorque.evaluation.answers import acceptance_answers
-from forcetorque.evaluation.figures.acceptance import acceptance_figure
-from forcetorque.evaluation.figures.contact_forces import validation_figure
+from forcetorque.evaluation.figures.acceptance_and_contact_forces import acceptance_figure, validation_figure
 from forcetorque.evaluation.validation.answers import validation_answers
 from forcetorque.experiment.validation_offset import Offset
 from tests.evaluation.figures.drawn_figures import acceptance_of, contact_force, criterion_of, validation_of

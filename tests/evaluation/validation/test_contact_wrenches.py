@@ -21,14 +21,14 @@ from forcetorque.experiment.free_sub_model import ContactForceValidation, OtherS
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Recording, Support
 from forcetorque.robot.contacts import Contact, ContactType, Wrenches
-from forcetorque.robot.dynamics import joints_between
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimated_quantities import Question
 from forcetorque.robot.mechanics.measured_and_expected_wrench import Processing, robot_motion_at
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import SubModel, build_tree
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import build_tree, joints_between
 from forcetorque.simulation.motions.joint_motions import random_movement
 from forcetorque.simulation.sensor_family import FAMILIES
 from forcetorque.simulation.simulated_sensor import SimulatedSensor, distorted_by_mounting

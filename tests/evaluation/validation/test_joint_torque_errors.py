@@ -18,7 +18,8 @@ from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, build_tree, sub_models
+from forcetorque.robot.sub_models import sub_models
+from forcetorque.robot.tree import BodyTree, build_tree
 from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import Simulation, random_root

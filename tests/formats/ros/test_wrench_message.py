@@ -12,7 +12,7 @@ from hypothesis import given, strategies as st
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.ros.bag import typestore
 from forcetorque.formats.ros.messages import JOINT_TYPE, WRENCH_TYPE
-from forcetorque.formats.ros.wrench_message import WrenchEncoder, read_positions, read_wrench
+from forcetorque.formats.ros.single_messages import WrenchEncoder, read_positions, read_wrench
 
 pytest.importorskip("rosbags")
 STAMP_NS = 1_700_000_000_123_456_789

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import StreamReading
-from forcetorque.formats.yarp.plain_ports import read_analog
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog
 from tests.formats.yarp.port_logs import INFO, write_port
 
 _GOOD = "7 1457614036.921366 1.5 -2 3e-3 4.0 5.25 -6.125"

@@ -16,10 +16,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_inertial, read_state, read_state_ext
 from forcetorque.formats.yarp.log_format import PortKind, discover_ports, read_found_port
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
-from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
-from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from tests.cases import some_cases
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, STATE_NAMES, parse_nested, parse_slowly, write_port

@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.formats.log_format import StreamReading
-from forcetorque.formats.yarp.plain_ports import read_inertial, read_state
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_inertial, read_state
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_slowly, write_port
 
 _JOINTS = ("hip", "knee", "slide")

@@ -13,8 +13,7 @@ import pytest
 from forcetorque.base import input_file
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.formats.yarp import port_log, port_log as port_folder
-from forcetorque.formats.yarp.plain_ports import read_analog
-from forcetorque.formats.yarp.state_ext import read_state_ext
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_state_ext
 from tests.cases import some_cases
 from tests.formats.yarp.port_logs import INFO, write_port
 

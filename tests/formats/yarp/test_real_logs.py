@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.formats.yarp.plain_ports import read_analog
-from forcetorque.formats.yarp.state_ext import read_state_ext
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_state_ext
 from tests.cases import some_cases
 from tests.formats.yarp.port_logs import STATE_NAMES, parse_slowly, read_text
 

@@ -9,7 +9,7 @@ import pytest
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import StreamReading
-from forcetorque.formats.yarp.plain_ports import read_analog
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _INFO_WITHOUT = INFO.replace("Stamp: tx;\n", "")

@@ -13,7 +13,7 @@ import pytest
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.yarp import message as skeleton, port_log as port_folder
-from forcetorque.formats.yarp.state_ext import read_state_ext
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_state_ext
 from tests.formats.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _JOINTS = ("hip", "knee", "slide")

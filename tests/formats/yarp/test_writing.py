@@ -13,10 +13,9 @@ from scipy.spatial.transform import Rotation
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import MissingFileError, RecordingError
 from forcetorque.formats.yarp import writing
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_inertial, read_state, read_state_ext
 from forcetorque.formats.yarp.log_format import PortKind, discover_ports
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
-from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
-from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.formats.yarp.writing import DevicePort, StreamPort, write_ports
 from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Recording

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.inspection.plausibility.checks import examine
+from forcetorque.inspection.plausibility.gate import examine
 
 SAMPLES = 1200
 TIME_S = 0.01 * np.arange(SAMPLES)

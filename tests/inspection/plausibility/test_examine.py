@@ -11,9 +11,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.experiment.calibration.moments import DataSet, Moments
-from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.inspection.plausibility.compared_wrenches import Movement
-from forcetorque.inspection.plausibility.sense_gain_and_unit_checks import STILL, require_moving_load, require_same_sign
+from forcetorque.inspection.plausibility.gate import examine
+from forcetorque.inspection.plausibility.gravity_sense_gain_and_unit_checks import (
+    STILL,
+    require_moving_load,
+    require_same_sign,
+)
 
 RNG = np.random.default_rng(5)
 PRIOR = 0.02 * (np.eye(6) + 0.1 * RNG.normal(size=(6, 6)))

@@ -11,8 +11,8 @@ import pytest
 
 from forcetorque.base.errors import FitError
 from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.inspection.plausibility.checks import examine
 from forcetorque.inspection.plausibility.compared_wrenches import Doubt
+from forcetorque.inspection.plausibility.gate import examine
 from tests.calibration.push_error import Case, cases
 
 ALONE: dict[str, Sequence[str]] = {"grid": ["grid"], "tz": ["tz"], "bsl": ["bsl"]}

@@ -17,8 +17,8 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
 from forcetorque.payload.identification.estimation_problem import LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadSolution
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.robust_fit import fit, plain_fit
-from forcetorque.payload.identification.solve import solve
 from tests.cases import some_cases
 from tests.payload.identification.payloads import SIZES, poses, problem_of, weight
 

@@ -10,8 +10,8 @@ import pytest
 
 from forcetorque.payload.identification.bias_drift_and_jumps import _chance, bias_tests, choose_drift, strongest_jump
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
+from forcetorque.payload.identification.loads_with_intervals import load_estimates, session_estimates, solve
 from forcetorque.payload.identification.robust_fit import fit
-from forcetorque.payload.identification.solve import load_estimates, session_estimates, solve
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 SEEDS = 200

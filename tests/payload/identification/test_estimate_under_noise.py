@@ -10,8 +10,8 @@ from scipy.stats import chi2
 from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.payload.identification.estimate_under_noise import estimate, groups_of, noise_sizes
 from forcetorque.payload.identification.estimation_problem import LoadRows
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.robust_fit import row_distances
-from forcetorque.payload.identification.solve import solve
 from tests.payload.identification.payloads import SIZES, poses, problem_of, slow, weight
 
 WHITE = SlowNoise(time_constant_s=0.0, ratio=0.0)

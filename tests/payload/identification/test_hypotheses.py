@@ -15,8 +15,8 @@ from scipy.stats import chi2, f
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.frame_unit_and_clock_errors import _lag, hypotheses, unexplained
+from forcetorque.payload.identification.loads_with_intervals import load_estimates, solve
 from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
-from forcetorque.payload.identification.solve import load_estimates, solve
 from tests.payload.identification.payloads import (
     CENTRE,
     GRAVITY as GRAVITY_SIZE,

@@ -23,9 +23,9 @@ from forcetorque.payload.identification.frame_unit_and_clock_errors import (
     unexplained,
 )
 from forcetorque.payload.identification.load_estimates import HypothesisRow
+from forcetorque.payload.identification.loads_with_intervals import _vague, spanned_directions
 from forcetorque.payload.identification.parameter_vector import Kind
 from forcetorque.payload.identification.robust_fit import fit, plain_fit, scales
-from forcetorque.payload.identification.unobservable_parameters import _vague, spanned_directions
 from forcetorque.robot.mount_estimate import rotation_vector
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 

@@ -3,13 +3,24 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
+
 import numpy as np
 import pytest
 
 from forcetorque.payload.identification.estimation_problem import Load
-from forcetorque.payload.identification.solve import solve
-from forcetorque.payload.identification.unobservable_parameters import spanned_directions, vector_words
+from forcetorque.payload.identification.loads_with_intervals import (
+    _untold,
+    solve,
+    spanned_directions,
+    vector_words,
+)
+from forcetorque.payload.identification.parameter_vector import Kind, Parameter
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
+
+if TYPE_CHECKING:
+    from forcetorque.payload.identification.robust_fit import Fit
 
 
 def _noise(count: int, seed: int) -> np.ndarray:
@@ -39,6 +50,23 @@ def test_one_pose_tells_mass_and_bias_only_together() -> None:
     bias = solution.sessions[0]
     assert None not in bias.bias[:2]
     assert bias.bias[2] is None
+
+
+@pytest.mark.parametrize("bias", [1.0, 50.0])
+@pytest.mark.parametrize(("share", "named"), [(0.9e-5, False), (1.1e-3, True)])
+def test_an_unknown_has_part_in_a_direction_by_its_share_of_the_largest(bias: float, share: float, named: bool) -> None:
+    """A mass and a bias trade off; the tilt that moves along is rounding, or not, whatever the unit of the bias is."""
+    kinds = (Kind.MASS, Kind.TILT, Kind.BIAS)
+    listed = [Parameter(kind=kind, owner=0, component=0, name=kind.value) for kind in kinds]
+    problem = SimpleNamespace(loads=[SimpleNamespace(name="tool")], sessions=["morning"])
+    fitted = SimpleNamespace(
+        guess=SimpleNamespace(parameters=listed),
+        problem=problem,
+        unobservable=np.array([[1.0], [share * bias], [bias]]),
+    )
+    (words,) = _untold(cast("Fit", fitted))
+    tilt = " and the tilt" if named else ""
+    assert words.split(":")[0] == f"the mass of 'tool'{tilt} and the bias along x are told only together"
 
 
 def test_poses_that_turn_leave_nothing_open() -> None:

@@ -15,7 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadSolution
-from forcetorque.payload.identification.solve import solve
+from forcetorque.payload.identification.loads_with_intervals import solve
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, poses, problem_of, slow, weight
 
 ROUNDING = 1e-12

@@ -16,9 +16,9 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import TableLayout, TableSignal
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem, LoadRows
+from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.parameter_vector import Kind
 from forcetorque.payload.identification.robust_fit import plain_fit
-from forcetorque.payload.identification.solve import solve
 from forcetorque.robot.dynamics import expected_wrenches
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion

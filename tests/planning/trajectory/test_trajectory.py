@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.formats.tabular.table import read_table
 from forcetorque.formats.tabular.table_layout import StampColumn, TableLayout, TableSignal
-from forcetorque.formats.yarp.plain_ports import read_state
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_state
 from forcetorque.planning.trajectory_files import (
     PORT,
     TIME_COLUMN,

@@ -33,7 +33,7 @@ from forcetorque.results.document.content import (
     small_png,
 )
 from forcetorque.results.document.pdf import MISSING_LETTERS, pdf_bytes
-from forcetorque.results.document.pdf_layout import lines_of, spelled
+from forcetorque.results.document.pdf_letters_and_layout import lines_of, spelled
 from forcetorque.results.figure_style import DOTS_PER_INCH, new_figure, png_bytes
 from forcetorque.results.number_text import with_joined_units
 from forcetorque.results.table import Table

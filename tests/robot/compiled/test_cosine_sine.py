@@ -7,7 +7,7 @@ import numpy as np
 from numba import njit
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.robot.compiled.recursion import cosine_sine
+from forcetorque.robot.compiled.recursion_and_vectors import cosine_sine
 
 LAST_PLACES = 3.0
 """Units in the last place of numbers from 0.5 to 1: one by the polynomials, one by the reduction of the angle, and

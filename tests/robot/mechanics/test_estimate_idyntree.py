@@ -15,7 +15,8 @@ from forcetorque.robot.contacts import Contact, Wrenches
 from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
 from forcetorque.robot.motion import RootMotion
-from forcetorque.robot.tree import BodyTree, build_tree, sub_models
+from forcetorque.robot.sub_models import sub_models
+from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.simulated import random_pose, random_root, to_root

@@ -15,7 +15,8 @@ from forcetorque.robot.mechanics.estimate import Evaluator, estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import build_tree, sub_models
+from forcetorque.robot.sub_models import sub_models
+from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from tests.cases import some_cases
 from tests.robot.kinematics import link_poses

@@ -14,7 +14,8 @@ from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints
 from forcetorque.robot.mechanics.wrench_derivatives import PartDerivatives, demand_derivatives, part_derivatives
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, SubModel, build_tree, sub_models
+from forcetorque.robot.sub_models import SubModel, sub_models
+from forcetorque.robot.tree import BodyTree, build_tree
 from tests.fuzzing import examples
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import random_root

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 from forcetorque.sensor.catalogue import sensor_catalogue
 from forcetorque.sensor.choice.choice import rank_sensors
-from forcetorque.sensor.choice.figures import choice_figure
 from forcetorque.sensor.choice.load_case import LoadCase
+from forcetorque.sensor.figures import choice_figure
 
 
 def draw_choice(rng: np.random.Generator) -> Figure:

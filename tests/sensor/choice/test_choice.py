@@ -11,9 +11,9 @@ import pytest
 from forcetorque.base.errors import FormatError, SensorError
 from forcetorque.sensor.catalogue import Axes, catalogue_with, sensor_catalogue
 from forcetorque.sensor.choice.choice import range_shares, rank_sensors
-from forcetorque.sensor.choice.commands import choose_sensor
 from forcetorque.sensor.choice.load_case import LoadCase, read_load_cases
 from forcetorque.sensor.choice.result import Holds
+from forcetorque.sensor.commands import choose_sensor
 from forcetorque.sensor.full_scale import RawLimits, reachable_full_scale
 from forcetorque.simulation.sensor_family import FAMILIES
 from tests.app.outcome import Run

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.base.errors import FormatError, MissingFileError, ShapeError, SkinError
-from forcetorque.skin.taxels.patch_calibration import (
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import (
     CalibratedTaxel,
     PatchCalibration,
     PatchProvenance,

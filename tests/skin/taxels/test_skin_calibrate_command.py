@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.recording.storage import read_recording, write_recording
-from forcetorque.skin.taxels.patch_calibration import read_patch_calibration
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import read_patch_calibration
 from tests.app.outcome import Run
 from tests.report.drawing import size_of
 from tests.scenes.chambers import BROKEN, TAXELS, write_chambers

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.skin.taxels.patch_calibration import read_patch_calibration
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import read_patch_calibration
 from tests.app.outcome import Outcome, Run
 from tests.cases import some_cases
 from tests.scenes.warmed import MASS_KG, WARM_UP, WarmShank, counts_of, with_counts, write_log, write_warmed

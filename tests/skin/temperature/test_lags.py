@@ -15,7 +15,7 @@ from forcetorque.base.errors import SkinError
 from forcetorque.skin.contact.contact_tracking import PatchFollower
 from forcetorque.skin.contact.pressure_frame import PatchReader
 from forcetorque.skin.simulation.temperature import Warmth
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.temperature.pad_lags import LAGS_S, PadFilter, _lag, _squares, lagged, pad_lags
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, WarmUp
 from forcetorque.skin.temperature.warm_up_calibration import _warnings, fit_warm_up

@@ -16,7 +16,7 @@ import pytest
 
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrector, CorrectorOptions
-from forcetorque.live.joint_gravity import JointPositions
+from forcetorque.live.gravity_and_tool_weight import JointPositions
 from forcetorque.live.loop import LiveLoop
 from forcetorque.live.option_values import HeldQuantity, OffsetSource
 from forcetorque.live.packets import Packet, PacketCounts

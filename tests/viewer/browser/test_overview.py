@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from forcetorque.viewer import overview
+from forcetorque.viewer import packing as overview
 from forcetorque.viewer.packing import packed
 from forcetorque.viewer.scene_builder import BuiltScene
 from tests.browser import Visit

@@ -37,7 +37,7 @@ from forcetorque.experiment.interval_samples import logged_content
 from forcetorque.experiment.long_recording import first_segment, segment_experiments
 from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.inspection.plausibility.checks import require_sense
+from forcetorque.inspection.plausibility.gate import require_sense
 from forcetorque.recording.recording import Use
 
 JOINT_FILE = "joint.json"

@@ -25,7 +25,8 @@ from forcetorque.robot.mechanics.sub_model_equations import (
 )
 from forcetorque.robot.mechanics.wrench_derivatives import demand_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, Connection, SubModel
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import BodyTree, Connection
 
 
 def error_terms(

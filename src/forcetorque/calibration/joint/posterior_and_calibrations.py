@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.calibration_file import (
 )
 from forcetorque.experiment.calibration.excitation import excitation_of
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
-from forcetorque.experiment.calibration.joint_posterior import (
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import (
     JointOffset,
     JointPosterior,
     JointSensor,

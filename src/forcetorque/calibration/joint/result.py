@@ -17,9 +17,8 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
 from forcetorque.calibration.joint.unknowns import JointFit
 from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
-from forcetorque.experiment.calibration.joint_posterior import JointPosterior
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import JointPosterior, place_in_urdf
 from forcetorque.experiment.calibration.posterior import Posterior
-from forcetorque.experiment.calibration.robot_correction import place_in_urdf
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 from forcetorque.results.number_text import with_error
 from forcetorque.results.table import Row, Shown, Table, optional_table, table_of

@@ -19,7 +19,7 @@ from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows, part_windows
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelTolerance
-from forcetorque.robot.tree import SubModel
+from forcetorque.robot.sub_models import SubModel
 
 _NEIGHBOURS = 2
 """Windows to either side that leave with it: a touch begins and ends gently."""

@@ -22,7 +22,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import (
     sensor_root,
     variable_sizes,
 )
-from forcetorque.experiment.calibration.joint_posterior import LENGTH_M
+from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import LENGTH_M
 from forcetorque.experiment.calibration.robot_model_error import ZERO, ErrorTerm
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 

@@ -31,7 +31,8 @@ from forcetorque.robot.mechanics.measured_and_expected_wrench import (
 )
 from forcetorque.robot.mechanics.root_motion import imu_frame, joints_to_support
 from forcetorque.robot.mechanics.sub_model_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
-from forcetorque.robot.tree import BodyTree, SubModel, build_tree
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import BodyTree, build_tree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -29,7 +29,7 @@ from forcetorque.robot.mechanics.sub_model_equations import (
     part_equations,
     weight_equations,
 )
-from forcetorque.robot.tree import SubModel
+from forcetorque.robot.sub_models import SubModel
 
 WINDOW_S: Final = 0.25
 """Length of a window; s."""

@@ -271,7 +271,7 @@ def thesis_calibration(
     Raises:
         FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit.
     """
-    from forcetorque.inspection.plausibility.checks import examine
+    from forcetorque.inspection.plausibility.gate import examine
 
     sensor, variables = campaign.sensor, campaign.sensor.variables if kind.with_variables else ()
     sensor.require_six_components(f"estimation type {kind.name}")

@@ -14,7 +14,7 @@ from forcetorque.experiment.calibration.estimation_type import Estimation, Offse
 from forcetorque.experiment.calibration.excitation import Excitation, excitation_of
 from forcetorque.experiment.calibration.moments import Moments, symmetric_pseudo_inverse
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
-from forcetorque.inspection.plausibility.sense_gain_and_unit_checks import require_moving_load
+from forcetorque.inspection.plausibility.gravity_sense_gain_and_unit_checks import require_moving_load
 
 _SINGULAR = 1e-14
 """Eigenvalues below this part of the largest are rounding: at lambda 0 the prior is kept along them."""

@@ -17,7 +17,8 @@ from forcetorque.base.wrench import wrench_matrix
 from forcetorque.estimation.uncertain.input_errors import Action, Actor
 from forcetorque.robot.mechanics.contact_wrenches_and_torques import RANK_TOLERANCE
 from forcetorque.robot.mechanics.estimated_quantities import Question
-from forcetorque.robot.tree import Connection, SubModel, outboard_bodies
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import Connection, outboard_bodies
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

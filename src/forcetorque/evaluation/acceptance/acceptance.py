@@ -36,7 +36,7 @@ _OF_ERRORS = {"evaluate", "improvement", "validate"}
 class Acceptance(DrawnResult):
     """Which criteria sensors meet, and everything that was measured of them without one."""
 
-    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.acceptance:acceptance_figure"
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.acceptance_and_contact_forces:acceptance_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.answers:acceptance_answers"
 

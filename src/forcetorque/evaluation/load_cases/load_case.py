@@ -18,10 +18,10 @@ from forcetorque.evaluation.section import LOAD_CASES, LoadCaseOffset, LoadCaseT
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from forcetorque.robot.dynamics import body_pose, joints_between, link_pose
+from forcetorque.robot.dynamics import body_pose, link_pose
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import BodyTree, build_tree, joint_range, outboard_bodies
+from forcetorque.robot.tree import BodyTree, build_tree, joint_range, joints_between, outboard_bodies
 
 ALLOWED_SHARE: Final = 0.05
 """Error that is allowed by default, as a share of the loads: root mean square over root mean square."""

@@ -34,7 +34,8 @@ from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import BodyTree, Connection, outboard_bodies, sub_models
+from forcetorque.robot.sub_models import sub_models
+from forcetorque.robot.tree import BodyTree, Connection, outboard_bodies
 
 
 def joints_of_sensor(

@@ -175,7 +175,7 @@ def _rows(campaign: Campaign, torques: TorqueErrorSamples) -> Iterator[JointTorq
 class Validation(DrawnResult):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
 
-    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.contact_forces:validation_figure"
+    drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.acceptance_and_contact_forces:validation_figure"
 
     answered_by: ClassVar[str | None] = "forcetorque.evaluation.validation.answers:validation_answers"
 

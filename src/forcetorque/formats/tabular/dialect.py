@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a text holds a table without a declared layout, and why a text cannot be read as one."""
+"""How a text holds a table: encoding, quotes, delimiter and decimal sign; and why a text cannot be read as a table."""
 
 from __future__ import annotations
 
+import codecs
+import contextlib
+import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import BinaryIO, cast
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.headings import headings_of, named_columns, repeated_heading_message
 from forcetorque.formats.tabular.numbers import is_date
-from forcetorque.formats.tabular.table_layout import cells_of, open_text
 
 LOOKED_AT = 1 << 20
 """Bytes from the beginning of a text that are looked at; lines are counted in all of it."""
@@ -370,3 +373,78 @@ def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: s
                 f"column {k}, whose comma may stand behind thousands; write its numbers with points"
             )
     return None
+
+
+QUOTE = '"'
+"""What may stand around a cell."""
+
+
+def cells_of(line: str, delimiter: str) -> list[str]:
+    """Take a line apart.
+
+    Args:
+        line: The line.
+        delimiter: Character between columns; a space stands for any run of blanks, and cells then have no quotes.
+
+    Returns:
+        Its cells, without blanks and quotes around them.
+    """
+    if delimiter == " ":
+        return line.split()
+    cells = line.split(delimiter)
+    if QUOTE in line:
+        with contextlib.suppress(csv.Error):  # of a cell of megabytes, which is no number either
+            (cells,) = csv.reader([line], delimiter=delimiter, quotechar=QUOTE)
+    return [cell.strip() for cell in cells]
+
+
+def has_open_quote(line: str, delimiter: str) -> bool:
+    """Check whether a cell of a line begins with a quote and does not end with one.
+
+    Args:
+        line: The line.
+        delimiter: As above.
+
+    Returns:
+        Whether one does.
+    """
+    if delimiter == " " or QUOTE not in line:
+        return False
+    try:
+        list(csv.reader([line], delimiter=delimiter, quotechar=QUOTE, strict=True))
+    except csv.Error:
+        return True
+    return False
+
+
+def quote_of(delimiter: str) -> str | bool:
+    """Give Arrow the quote of cells.
+
+    Args:
+        delimiter: Character between columns.
+
+    Returns:
+        The quote; False for none.
+    """
+    return False if delimiter == " " else QUOTE
+
+
+_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+def open_text(file: Path) -> BinaryIO:
+    """Open a text file.
+
+    Args:
+        file: The file; it exists.
+
+    Returns:
+        Its bytes, those of UTF-16 as UTF-8 where the file begins with a byte-order mark; what is no character becomes
+        one that no number has, so that the reader of the line refuses it.
+    """
+    stream = file.open("rb")
+    mark = stream.read(len(_MARKS[0]))
+    stream.seek(0)
+    if mark not in _MARKS:
+        return stream
+    return cast(BinaryIO, codecs.EncodedFile(stream, "utf-8", "utf-16", errors="replace"))

@@ -37,6 +37,8 @@ from forcetorque.formats.tabular.dialect import (
     MOST_COLUMNS,
     first_lines,
     named_form,
+    open_text,
+    quote_of,
     rejection_reason,
     table_form,
 )
@@ -49,15 +51,7 @@ from forcetorque.formats.tabular.row_readers import (
     text_batches,
 )
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
-from forcetorque.formats.tabular.table_layout import (
-    EvenRows,
-    StampColumn,
-    StampUnit,
-    TableLayout,
-    TableSignal,
-    open_text,
-    quote_of,
-)
+from forcetorque.formats.tabular.table_layout import EvenRows, StampColumn, StampUnit, TableLayout, TableSignal
 from forcetorque.recording.alignment import joined_stream
 from forcetorque.recording.recording import FileRows, Finding
 from forcetorque.recording.stream import Stream

@@ -18,18 +18,10 @@ from forcetorque.base.errors import ForceTorqueError, FormatError, known_names, 
 from forcetorque.base.input_file import READ_ERRORS, require_unpacked
 from forcetorque.formats.headings import named_columns, repeated_heading_message
 from forcetorque.formats.tabular.arrow_file import ArrowFile, is_arrow_file
+from forcetorque.formats.tabular.dialect import cells_of, has_open_quote, open_text, quote_of
 from forcetorque.formats.tabular.list_columns import FlatColumns
 from forcetorque.formats.tabular.numbers import ISO8601
-from forcetorque.formats.tabular.table_layout import (
-    Rows,
-    StampColumn,
-    TableLayout,
-    cells_of,
-    has_open_quote,
-    open_text,
-    quote_of,
-    wanted_columns,
-)
+from forcetorque.formats.tabular.table_layout import Rows, StampColumn, TableLayout, wanted_columns
 
 BLOCK_SIZE = 1 << 24
 """Bytes of the longest row; a quarter of it is read at a time, which is faster than all of it."""

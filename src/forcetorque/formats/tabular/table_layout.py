@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The declared layout of a table, and its rows as they come: encodings of text files, cells of a line with quotes."""
+"""The declared layout of a table, and its rows as they come."""
 
 from __future__ import annotations
 
-import codecs
-import contextlib
-import csv
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, BinaryIO, Literal, cast, get_args
+from typing import Any, Literal, get_args
 
 from forcetorque.base.errors import FormatError, known_names
 from forcetorque.recording.orientation import OrientationLayout
@@ -133,78 +129,3 @@ def wanted_columns(layout: TableLayout) -> list[str]:
     """
     stamp = [layout.stamp.column] if isinstance(layout.stamp, StampColumn) else []
     return list(dict.fromkeys([*stamp, *(column for signal in layout.signals for column in signal.columns)]))
-
-
-QUOTE = '"'
-"""What may stand around a cell."""
-
-
-def cells_of(line: str, delimiter: str) -> list[str]:
-    """Take a line apart.
-
-    Args:
-        line: The line.
-        delimiter: Character between columns; a space stands for any run of blanks, and cells then have no quotes.
-
-    Returns:
-        Its cells, without blanks and quotes around them.
-    """
-    if delimiter == " ":
-        return line.split()
-    cells = line.split(delimiter)
-    if QUOTE in line:
-        with contextlib.suppress(csv.Error):  # of a cell of megabytes, which is no number either
-            (cells,) = csv.reader([line], delimiter=delimiter, quotechar=QUOTE)
-    return [cell.strip() for cell in cells]
-
-
-def has_open_quote(line: str, delimiter: str) -> bool:
-    """Check whether a cell of a line begins with a quote and does not end with one.
-
-    Args:
-        line: The line.
-        delimiter: As above.
-
-    Returns:
-        Whether one does.
-    """
-    if delimiter == " " or QUOTE not in line:
-        return False
-    try:
-        list(csv.reader([line], delimiter=delimiter, quotechar=QUOTE, strict=True))
-    except csv.Error:
-        return True
-    return False
-
-
-def quote_of(delimiter: str) -> str | bool:
-    """Give Arrow the quote of cells.
-
-    Args:
-        delimiter: Character between columns.
-
-    Returns:
-        The quote; False for none.
-    """
-    return False if delimiter == " " else QUOTE
-
-
-_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-
-
-def open_text(file: Path) -> BinaryIO:
-    """Open a text file.
-
-    Args:
-        file: The file; it exists.
-
-    Returns:
-        Its bytes, those of UTF-16 as UTF-8 where the file begins with a byte-order mark; what is no character becomes
-        one that no number has, so that the reader of the line refuses it.
-    """
-    stream = file.open("rb")
-    mark = stream.read(len(_MARKS[0]))
-    stream.seek(0)
-    if mark not in _MARKS:
-        return stream
-    return cast(BinaryIO, codecs.EncodedFile(stream, "utf-8", "utf-16", errors="replace"))

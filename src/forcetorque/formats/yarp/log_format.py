@@ -23,9 +23,9 @@ from pydantic import Field
 from forcetorque.base.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading, LogTable, StreamReading
 from forcetorque.formats.specified_signals import SPECIFY_SENSE
+from forcetorque.formats.yarp.joint_and_sensor_ports import INERTIAL_COLUMNS, count_joints, read_inertial
 from forcetorque.formats.yarp.measures import READ_LISTS, MeasuresList, sensor_sizes
 from forcetorque.formats.yarp.message import Bottle, is_number
-from forcetorque.formats.yarp.plain_ports import INERTIAL_COLUMNS, read_inertial
 from forcetorque.formats.yarp.port_log import LOG_NAMES, find_port, read_first_message
 from forcetorque.formats.yarp.port_tables import (
     AnalogPort,
@@ -40,7 +40,6 @@ from forcetorque.formats.yarp.port_tables import (
     read_port,
 )
 from forcetorque.formats.yarp.skin_ports import SkinPart, holds_skin, holds_skin_events, skin_parts
-from forcetorque.formats.yarp.state_ext import count_joints
 from forcetorque.recording.orientation import ROLL_PITCH_YAW
 from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES

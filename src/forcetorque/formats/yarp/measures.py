@@ -24,8 +24,8 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, RecordingError, require_known
 from forcetorque.base.units import si_factor
 from forcetorque.formats.log_format import StreamReading
+from forcetorque.formats.yarp.joint_and_sensor_ports import ANGLES
 from forcetorque.formats.yarp.message import Bottle, BottleValue, is_number
-from forcetorque.formats.yarp.plain_ports import ANGLES
 from forcetorque.formats.yarp.port_log import PortLog, read_port_log
 from forcetorque.recording.orientation import ROLL_PITCH_YAW, OrientationLayout, orientation_signals
 from forcetorque.recording.recording import Finding

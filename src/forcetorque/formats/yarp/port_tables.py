@@ -13,10 +13,9 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import StreamReading
 from forcetorque.formats.specified_signals import SenseTable, WorldTable
+from forcetorque.formats.yarp.joint_and_sensor_ports import read_analog, read_inertial, read_state, read_state_ext
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor, read_measures
-from forcetorque.formats.yarp.plain_ports import read_analog, read_inertial, read_state
 from forcetorque.formats.yarp.skin_ports import SkinPart, read_skin, read_skin_events
-from forcetorque.formats.yarp.state_ext import read_state_ext
 from forcetorque.recording.orientation import ROLL_PITCH_YAW
 
 

@@ -18,8 +18,8 @@ from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FormatError, RecordingError
 from forcetorque.base.toml_file import Table, Text
 from forcetorque.formats.log_format import StreamReading
+from forcetorque.formats.yarp.joint_and_sensor_ports import expect_numbers
 from forcetorque.formats.yarp.message import Bottle, BottleValue, check_head, is_number, leaves, parse_bottle
-from forcetorque.formats.yarp.plain_ports import expect_numbers
 from forcetorque.formats.yarp.port_log import (
     CLOCK,
     LINE_LIMIT,

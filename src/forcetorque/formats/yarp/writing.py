@@ -15,9 +15,9 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import MissingFileError, RecordingError
 from forcetorque.base.output_file import real_path, temporary_beside
 from forcetorque.base.units import si_factor
+from forcetorque.formats.yarp.joint_and_sensor_ports import JOINT_UNITS, angles_of
 from forcetorque.formats.yarp.log_format import PortKind
 from forcetorque.formats.yarp.measures import MeasuresList, MeasuresSensor
-from forcetorque.formats.yarp.plain_ports import JOINT_UNITS, angles_of
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
 

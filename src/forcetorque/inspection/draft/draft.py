@@ -19,7 +19,6 @@ from forcetorque.formats.decoded_parts_cache import parts_kept
 from forcetorque.formats.log_format import LoggedRobot, LogSketch, not_read_message
 from forcetorque.inspection.draft.column_matches import is_estimated, is_measured
 from forcetorque.inspection.draft.drafted_streams import DraftedLog, DraftedStream
-from forcetorque.inspection.draft.first_look import read_drafted
 from forcetorque.inspection.draft.gravity_fit import GravityFit, contact_spans, fit_gravity
 from forcetorque.inspection.draft.intervals_and_clocks import (
     WHOLE_LOG,
@@ -39,7 +38,13 @@ from forcetorque.inspection.draft.logged_robot import (
     wrist_load_lines,
 )
 from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
-from forcetorque.inspection.draft.recording_table import ColumnNames, draft_log, recording_lines, without_streams
+from forcetorque.inspection.draft.recording_table import (
+    ColumnNames,
+    draft_log,
+    read_drafted,
+    recording_lines,
+    without_streams,
+)
 from forcetorque.inspection.draft.sensors_and_supports import (
     DraftedSensor,
     base_of_arm,

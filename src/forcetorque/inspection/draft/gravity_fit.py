@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, true_runs
 from forcetorque.base.inertia import Inertia
-from forcetorque.base.true_runs import true_runs
 from forcetorque.base.units import MAD_TO_DEVIATION, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.inspection.residual_findings import UNEXPLAINED, model_findings

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from forcetorque.formats.yarp.plain_ports import NO_JOINT
+from forcetorque.formats.yarp.joint_and_sensor_ports import NO_JOINT
 from forcetorque.inspection.draft.drafted_streams import DraftedLog
 from forcetorque.inspection.draft.gravity_fit import required_joints_of_sensor
 from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, sensor_joints

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The `[recording]` table of a log, and questions for what the log does not say."""
+"""The `[recording]` table of a log, questions for what the log does not say, and a first reading of the log by it."""
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from forcetorque.base.errors import FormatError, MissingFileError
+from pydantic import ValidationError
+
+from forcetorque.base.errors import ForceTorqueError, FormatError, MissingFileError
 from forcetorque.base.output_file import relative_path
-from forcetorque.base.toml_file import OPEN
+from forcetorque.base.toml_file import OPEN, expected_text, unanswered_keys
+from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.headings import read_heading
 from forcetorque.formats.log_format import LogDescription, LogFormat, LogSketch, SketchingFormat
 from forcetorque.formats.registry import format_name, format_named, not_a_log_reason, not_recognised, recognised_format
@@ -19,6 +23,7 @@ from forcetorque.formats.tabular.log_format import sketch_table
 from forcetorque.inspection.draft.column_matches import array_groups, column_matches, time_column
 from forcetorque.inspection.draft.drafted_streams import DraftedLog, DraftedStream
 from forcetorque.inspection.draft.joints import joints_question
+from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, draft_sensors
 from forcetorque.inspection.draft.tables_and_arrays import (
     array_lines,
     array_streams,
@@ -27,7 +32,8 @@ from forcetorque.inspection.draft.tables_and_arrays import (
     table_lines,
     table_streams,
 )
-from forcetorque.inspection.draft.toml_lines import line, question, toml_value
+from forcetorque.inspection.draft.toml_lines import Question, likeliest_text, line, question, toml_value
+from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import RobotModel
 
 ColumnNames: TypeAlias = Sequence[str] | Sequence[Sequence[str]]
@@ -267,3 +273,73 @@ def likely_quantities(sketch: LogSketch) -> dict[int, str]:
     likeness = {k: group.words or group.quantity for group in matches for k in group.columns}
     likeness |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in likeness}
     return likeness if time is None else {**likeness, time: "time"}
+
+
+def read_drafted(
+    text: str, folder: Path, sensors: Sequence[DraftedSensor], model: RobotModel | None
+) -> tuple[Recording | None, str]:
+    """Read a log by its drafted table.
+
+    Args:
+        text: The `[recording]` table.
+        folder: Folder of the experiment file, from which paths count.
+        sensors: Sensors of the log.
+        model: The robot; None for a wrist sensor without one.
+
+    Returns:
+        The recording, where the table has no question; else None, and the reason why it cannot be read.
+    """
+    if unanswered_keys(text):
+        return None, "the log is read once the questions of [recording] are answered"
+    try:
+        content = tomllib.loads(text)["recording"]
+        known = format_named(content["format"])
+        context = ExperimentContext(
+            experiment=folder / "experiment.toml",
+            inputs=Inputs(folder),
+            sensors={sensor.stream: sensor.name for sensor in sensors},
+            joint_units={} if model is None else {name: joint.type.unit for name, joint in model.joints.items()},
+        )
+        reading = known.read(known.table.model_validate(content), context)
+    except ValidationError as error:
+        return None, f"the log cannot be read yet: {expected_text(error.errors()[0])}"
+    except ForceTorqueError as error:
+        return None, f"the log cannot be read yet: {error}"
+    return Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings), ""
+
+
+MOST_ROWS = 3_600_000
+"""Rows of a table of a sensor by itself that is read at once: an hour of 1 kHz takes a gigabyte."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SensorLog:
+    """A table of a sensor by itself, as it was first read."""
+
+    recording: Recording
+    """Its stream."""
+    assumed: tuple[str, ...]
+    """Likely values that the file does not state, as lines of an experiment file."""
+
+
+def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None:
+    """Read a table of one sensor and hardly anything else.
+
+    Args:
+        path: The file.
+        log_format: Name of the format; it is recognised by what is there if None.
+
+    Returns:
+        The recording, and what was assumed; None for any other table, one of more rows than are read at once, or where
+        no value is likely.
+    """
+    log = draft_log([path], None, log_format)
+    if not all(stream.is_sensor_alone for stream in log.streams):
+        return None
+    if any(column.rows > MOST_ROWS for stream in log.streams if stream.table for column in stream.table.columns):
+        return None
+    sensors = draft_sensors(log.streams, None)[:1]
+    lines = recording_lines(log, Path(), None, {sensor.stream: sensor.name for sensor in sensors})
+    recording, _ = read_drafted(likeliest_text(lines), Path(), sensors, None)
+    assumed = tuple(text.likeliest for text in lines if isinstance(text, Question) and text.likeliest is not None)
+    return None if recording is None else SensorLog(recording=recording, assumed=assumed)

@@ -34,12 +34,12 @@ from forcetorque.locomotion.standing.support_phases import SupportPhases
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.contacts import Contact, ContactType
-from forcetorque.robot.dynamics import joints_between, link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimated_quantities import Question, required_joints_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import PaddedSamples, padded_samples
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.tree import BodyTree, build_tree, joints_between
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

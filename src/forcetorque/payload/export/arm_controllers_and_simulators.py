@@ -28,8 +28,7 @@ from forcetorque.base.pose import rotation_from_rpy, rpy_from_rotation
 from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
 from forcetorque.formats.arm_log import FLANGE
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.export.load_parameters import FlangeLoad
-from forcetorque.payload.export.yaml_parameters import number
+from forcetorque.payload.export.load_parameters import FlangeLoad, number
 from forcetorque.payload.identification.parameter_vector import six_of
 from forcetorque.results.number_text import amount
 

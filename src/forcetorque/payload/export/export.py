@@ -19,13 +19,14 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.formats.arm_log import FLANGE
 from forcetorque.payload.export.arm_controllers_and_simulators import ARMS, arm_text, not_held
 from forcetorque.payload.export.formats import LoadFormat
-from forcetorque.payload.export.hrpsys_and_mc_rtc import hrpsys_text, mc_rtc_text
 from forcetorque.payload.export.load_parameters import RobotLoad, flange_load
-from forcetorque.payload.export.ros2_control_and_ft_tools import (
+from forcetorque.payload.export.ros_hrpsys_and_mc_rtc import (
     broadcaster_text,
     force_torque_tools_text,
     ft_tools_text,
     gravity_filter_text,
+    hrpsys_text,
+    mc_rtc_text,
 )
 from forcetorque.payload.held_load import held_load
 from forcetorque.payload.identification.load_estimates import HypothesisRow

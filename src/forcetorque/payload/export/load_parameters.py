@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a robot has to know of a load and of the sensor that carries it, also in the frame of a flange."""
+"""What a robot has to know of a load and of the sensor that carries it, and its numbers as YAML has them."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -176,3 +178,30 @@ def require_rigid(inertia: FloatArray, where: str) -> None:
             f"{where}: expected an inertia of a rigid body, whose principal moments are above 0 and none larger than "
             f"the sum of the others, got {numbers} kg m2; leave inertia_kgm2 out, or record faster rotations"
         )
+
+
+def number(value: float) -> str:
+    """Write a number that YAML and ROS read as one with a fraction, and that reads back exactly.
+
+    Returns:
+        Its digits, without an exponent: YAML 1.1 takes 1e-05 for a word.
+    """
+    return np.format_float_positional(value + 0.0, unique=True, trim="0")  # + 0.0: no -0.0
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Write a list of numbers.
+
+    Returns:
+        The list.
+    """
+    return "[" + ", ".join(number(float(value)) for value in values) + "]"
+
+
+def word(text: str) -> str:
+    """Write a word, in quotes.
+
+    Returns:
+        The word as YAML and JSON read it.
+    """
+    return json.dumps(text)

@@ -319,8 +319,9 @@ def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothe
     guess, left = plain_fit(cut, drift=drift)
     mass = ", ".join(f"{value:.4g}" for value in masses(cut, guess))
     words = (
-        f"the bias jumps in {WRENCH_COMPONENTS[axis]} before {rows.names[row]!r}, as of a sensor that was "
-        f"zeroed or switched off: give what follows a session of its own (the mass is {mass} kg then)"
+        f"the bias jumps in {WRENCH_COMPONENTS[axis]} before {rows.names[row]!r}, as of a sensor that was zeroed, "
+        "switched off or touched from there on: give what follows a session of its own, or leave it out if there was "
+        f"contact (the mass is {mass} kg then)"
     )
     share = unexplained(rows, left) / stated
     if share < _LESS_FOR_JUMP:

@@ -23,7 +23,13 @@ from forcetorque.results.document.content import (
     Verdict,
     without_undrawn,
 )
-from forcetorque.results.document.pdf_layout import draw_table, first_rows_mm, lines_of, spelled_document, table_mm
+from forcetorque.results.document.pdf_letters_and_layout import (
+    draw_table,
+    first_rows_mm,
+    lines_of,
+    spelled_document,
+    table_mm,
+)
 from forcetorque.results.table import Table
 from forcetorque.results.visual_roles import SURFACES, TONES, rgb
 

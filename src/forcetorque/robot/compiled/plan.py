@@ -14,7 +14,8 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import split_pose
 from forcetorque.robot.contacts import Contact
 from forcetorque.robot.mechanics.estimated_quantities import QUESTIONS, Needs, Question, closed_form
-from forcetorque.robot.tree import Connection, Coordinate, SubModel, path_to_root
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import Connection, Coordinate, path_to_root
 
 
 class Bodies(NamedTuple):

@@ -20,7 +20,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.compiled_functions import announced, frozen, source_digest
 from forcetorque.robot.compiled import stages
 from forcetorque.robot.compiled.plan import plan_of
-from forcetorque.robot.compiled.recursion import DRIVER, LANES, STRIDE
+from forcetorque.robot.compiled.recursion_and_vectors import DRIVER, LANES, STRIDE
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimate_inputs import Inputs, refuse_infinite
 from forcetorque.robot.mechanics.estimated_quantities import Question

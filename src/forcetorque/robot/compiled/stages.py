@@ -16,7 +16,7 @@ import math
 
 from numba import njit
 
-from forcetorque.robot.compiled.recursion import (
+from forcetorque.robot.compiled.recursion_and_vectors import (
     FORMULA,
     LANES,
     PASS,

@@ -25,7 +25,8 @@ from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimate_inputs import activity_of, checked_inputs
 from forcetorque.robot.mechanics.estimated_quantities import Needs, Question
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import Connection, SubModel, path_to_root
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import Connection, path_to_root
 
 RANK_TOLERANCE = 1e-9
 """Singular values below this part of the largest are rounding: geometry comes from numbers of some 1e-16."""

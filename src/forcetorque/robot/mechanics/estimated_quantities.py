@@ -16,7 +16,8 @@ from forcetorque.base.arrays import BoolArray
 from forcetorque.base.errors import EstimationError, ForceTorqueError, RobotError, ShapeError, require_known
 from forcetorque.robot.contacts import Contact, ContactType
 from forcetorque.robot.mechanics.estimate_arrays import Layout
-from forcetorque.robot.tree import BodyTree, SubModel, cut_of, outboard_bodies, path_to_root, sub_models
+from forcetorque.robot.sub_models import SubModel, sub_models
+from forcetorque.robot.tree import BodyTree, cut_of, outboard_bodies, path_to_root
 
 
 class TorqueSum(StrEnum):

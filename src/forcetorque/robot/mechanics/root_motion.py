@@ -14,10 +14,10 @@ from forcetorque.recording.alignment import Interpolation, rows_of
 from forcetorque.recording.recording import NO_MOTION, MovingSupport, Recording, Support
 from forcetorque.recording.smoothing import FilteredColumns, SavitzkyGolay
 from forcetorque.recording.stream import Signal, Stream
-from forcetorque.robot.dynamics import joints_between, motion_of_link
+from forcetorque.robot.dynamics import motion_of_link
 from forcetorque.robot.model import JointType, RobotModel
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import build_tree
+from forcetorque.robot.tree import build_tree, joints_between
 
 IMU_QUANTITIES: Final = ("proper_acceleration", "angular_velocity", "angular_acceleration", "gravity")
 """What an IMU may tell."""

@@ -22,7 +22,8 @@ from forcetorque.base.pose import cross, make_pose
 from forcetorque.base.wrench import transform_wrench, wrench_matrix
 from forcetorque.robot.dynamics import BodyState, move_to, net_wrench, root_state, stacked_root
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import Body, BodyTree, Connection, SubModel, path_to_root, sub_models
+from forcetorque.robot.sub_models import SubModel, sub_models
+from forcetorque.robot.tree import Body, BodyTree, Connection, path_to_root
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -31,7 +31,8 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.robot.dynamics import stacked_root
 from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.motion import JointMotion, RootMotion
-from forcetorque.robot.tree import Body, BodyTree, Connection, SubModel, path_to_root
+from forcetorque.robot.sub_models import SubModel
+from forcetorque.robot.tree import Body, BodyTree, Connection, path_to_root
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

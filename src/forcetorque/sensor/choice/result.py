@@ -119,7 +119,7 @@ class SensorChoice(DrawnResult):
     """Sensors for stated loads."""
 
     answered_by: ClassVar[str | None] = "forcetorque.sensor.choice.answers:choice_answers"
-    drawn_by: ClassVar[str] = "forcetorque.sensor.choice.figures:choice_figure"
+    drawn_by: ClassVar[str] = "forcetorque.sensor.figures:choice_figure"
 
     schema_name: Literal["forcetorque/sensor/1"] = Field(default="forcetorque/sensor/1", alias="schema")
     """Form of the result."""

@@ -11,8 +11,9 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import RobotError, ShapeError, require_known
-from forcetorque.robot.dynamics import joints_between, link_pose
+from forcetorque.robot.dynamics import link_pose
 from forcetorque.robot.motion import JointMotion
+from forcetorque.robot.tree import joints_between
 from forcetorque.simulation.motions.foot_loads import FootLoads, Hook, internal_pushes
 from forcetorque.simulation.motions.held_robot import Stand
 from forcetorque.simulation.motions.joint_motions import balancing_postures

@@ -12,11 +12,18 @@ from forcetorque.base.arrays import ArrayRecord, FloatArray, check_arrays, mappi
 from forcetorque.base.errors import RobotError, ShapeError, require_known
 from forcetorque.base.pose import make_pose, skew
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.robot.dynamics import joints_between
 from forcetorque.robot.mechanics.sub_model_equations import joints_of_bodies
 from forcetorque.robot.model import RobotModel
 from forcetorque.robot.motion import JointMotion
-from forcetorque.robot.tree import BodyTree, build_tree, cut_of, joint_range, outboard_bodies, path_to_root
+from forcetorque.robot.tree import (
+    BodyTree,
+    build_tree,
+    cut_of,
+    joint_range,
+    joints_between,
+    outboard_bodies,
+    path_to_root,
+)
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
 from forcetorque.simulation.motions.trajectories import Waypoints
 

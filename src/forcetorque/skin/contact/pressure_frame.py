@@ -20,7 +20,7 @@ from forcetorque.base.arrays import (
 )
 from forcetorque.base.errors import SkinError
 from forcetorque.skin.layout.layout import SkinLayout
-from forcetorque.skin.taxels.patch_calibration import PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PressureTable
 from forcetorque.skin.temperature.taxel_temperature_drift import TaxelDrift
 
 

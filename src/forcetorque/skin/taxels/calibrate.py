@@ -18,7 +18,7 @@ from forcetorque.results.table import Table, optional_table, table_of
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.section import load_patches
 from forcetorque.skin.taxels.curve_comparison import FittedSamples, calibrated_taxel, compare_curves, fitted_samples
-from forcetorque.skin.taxels.patch_calibration import (
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import (
     CalibratedTaxel,
     PatchCalibration,
     PatchProvenance,

@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.skin.taxels.patch_calibration import ROWS, CalibratedTaxel
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import ROWS, CalibratedTaxel
 from forcetorque.skin.taxels.pressure_cycles import REST_SHARE, TOP_SHARE, PatchRecording
 from forcetorque.skin.taxels.result import CandidateRow, in_kPa, recording_name
 from forcetorque.skin.taxels.taxel_curve import CurveKind, TaxelCurve, fit_curve

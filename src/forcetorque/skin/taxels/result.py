@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array, names
 from forcetorque.results.table import Row, Shown
-from forcetorque.skin.taxels.patch_calibration import CalibratedTaxel
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import CalibratedTaxel
 from forcetorque.skin.taxels.pressure_cycles import PatchRecording
 from forcetorque.skin.taxels.taxel_curve import CurveKind, TaxelCurve
 from forcetorque.skin.taxels.taxel_faults import TaxelFault

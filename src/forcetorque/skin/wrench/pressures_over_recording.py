@@ -16,7 +16,7 @@ from forcetorque.skin.contact.contact_clusters import SkinContacts, find_contact
 from forcetorque.skin.contact.contact_tracking import ContactLife, ContactLives, PatchFollower, ReleaseRow
 from forcetorque.skin.contact.pressure_frame import PatchReader, PressureFrame
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
-from forcetorque.skin.taxels.patch_calibration import PatchCalibration, PressureTable
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PatchCalibration, PressureTable
 from forcetorque.skin.taxels.taxel_faults import FULL_COUNTS, TaxelFault, require_counts, taxel_faults
 from forcetorque.skin.temperature.taxel_temperature_drift import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench.patch_sensor import SkinPatch

@@ -27,7 +27,7 @@ from forcetorque.skin.layout.normals import patch_normals
 from forcetorque.skin.patches_of_experiment import ExperimentPatch, PatchExperiment
 from forcetorque.skin.section import load_patches
 from forcetorque.skin.surface import unrolled
-from forcetorque.skin.taxels.patch_calibration import PatchCalibration, read_patch_calibration
+from forcetorque.skin.taxels.patch_calibration_and_pressure_table import PatchCalibration, read_patch_calibration
 from forcetorque.skin.wrench.known_weight import KnownWeight, known_weight
 from forcetorque.skin.wrench.patch_sensor import SkinPatch
 from forcetorque.skin.wrench.pressure_to_wrench import WrenchMethod

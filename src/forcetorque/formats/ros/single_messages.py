@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A WrenchStamped in CDR, as drivers of ROS 2 publish it, written and read one at a time."""
+"""Single messages in CDR: a WrenchStamped, as drivers of ROS 2 publish it, and the positions of a JointState."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.moments import DataSet, Moments, pooled, symmetric_pseudo_inverse
 from forcetorque.experiment.calibration.sensor_model import is_invertible, measured_components
 from forcetorque.inspection.plausibility.compared_wrenches import ROBOT, Doubt, Movement, Setup
-from forcetorque.inspection.plausibility.sense_gain_and_unit_checks import (
+from forcetorque.inspection.plausibility.gravity_sense_gain_and_unit_checks import (
     axis_doubts,
     gains_of,
     require_moment_unit,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load parameters of ROS: ros2_control [1, 2], ft_tools_ros2 [3] and force_torque_tools of KTH [4].
+"""Load parameters of ROS: ros2_control [1, 2], ft_tools_ros2 [3], force_torque_tools of KTH [4]; of hrpsys and mc_rtc.
 
 ros2_control: the broadcaster publishes `(reading + offset) * multiplier`, axis by axis. The gravity filter subtracts
 `mass * gravity_field`, turned into the sensor's frame, and its moment about the origin.
@@ -9,11 +9,20 @@ its code has none: g is signed, [0, 0, -9.81] in the base of the robot.
 
 force_torque_tools: `reading = mass [a; c x a] + bias`, a what an IMU at rest reads: up.
 
+hrpsys [5]: a line per sensor with its name, offsets of force and moment, centre of mass, and mass. The program
+subtracts the offsets, and the weight along -z of the world.
+
+mc_rtc [6], `calib_data.<sensor>`: thirteen numbers, one on a line: mass, roll, pitch and yaw by which the sensor is
+turned against its model, centre of mass in the frame of the parent body, and the measurement without load in the order
+of SpaceVecAlg: couple, then force. The program subtracts that, with the weight along -z of the world.
+
 References:
 [1] ros2_controllers, force_torque_sensor_broadcaster.
 [2] control_toolbox, control_filters/GravityCompensationWrench.
 [3] T. Poignonec, ft_tools_ros2, ft_tools/src/ft_calibration.cpp and ft_estimation.cpp.
 [4] F. Vina, force_torque_tools, force_torque_sensor_calib/src/ft_calib.cpp and gravity_compensation.
+[5] hrpsys-base, rtc/RemoveForceSensorLinkOffset/RemoveForceSensorLinkOffset.cpp.
+[6] mc_rtc, mc_rbdyn/ForceSensor.cpp; mc_force_sensor_calibration_controller, RunCalibrationScript.cpp.
 """
 
 from __future__ import annotations
@@ -28,8 +37,7 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import read_text
 from forcetorque.base.units import DECIMAL_NUMBER, STANDARD_GRAVITY
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.payload.export.load_parameters import RobotLoad
-from forcetorque.payload.export.yaml_parameters import number, numbers, word
+from forcetorque.payload.export.load_parameters import RobotLoad, number, numbers, word
 
 CONTROLLER = "force_torque_sensor_broadcaster"
 """Name of the controller, as its examples have it; it is free."""
@@ -169,3 +177,54 @@ def force_torque_tools_text(load: RobotLoad) -> str:
         number(load.mass),
     )
     return "\n".join([*(f"{key}: {value}" for key, value in zip(_FORCE_TORQUE_TOOLS_KEYS, values, strict=True)), ""])
+
+
+HRPSYS_DIRECTION = MeasureDirection.CHILD_TO_PARENT
+"""Who acts on whom in its readings."""
+
+
+def hrpsys_text(load: RobotLoad) -> str:
+    """Write the line of a sensor.
+
+    Args:
+        load: The load; the name of its sensor has no blanks.
+
+    Returns:
+        The line.
+
+    Raises:
+        FormatError: If the name has blanks.
+    """
+    load.require_direction(HRPSYS_DIRECTION, where="hrpsys")
+    if len(load.sensor.split()) != 1:
+        raise FormatError(f"hrpsys: expected a name of a sensor without blanks, got {load.sensor!r}; rename it")
+    values = [*load.bias, *load.centre_of_mass, load.mass]
+    return " ".join([load.sensor, *(number(float(value)) for value in values)]) + "\n"
+
+
+MC_RTC_DIRECTION = MeasureDirection.CHILD_TO_PARENT
+"""Who acts on whom in its readings."""
+
+
+def mc_rtc_text(load: RobotLoad, *, body_H_sensor: FloatArray | None) -> str:
+    """Write the thirteen numbers.
+
+    Args:
+        load: The load.
+        body_H_sensor: Pose of the sensor in its parent body; shape (4, 4); m.
+
+    Returns:
+        The file; the last number ends in a newline too, or mc_rtc refuses it.
+
+    Raises:
+        FormatError: If no pose is given.
+    """
+    load.require_direction(MC_RTC_DIRECTION, where="mc-rtc")
+    if body_H_sensor is None:
+        raise FormatError(
+            "mc-rtc: expected --sensor-pose, that of the sensor in its parent body, since the file has the centre of "
+            "mass there, got none; 0 0 0 0 0 0 where they are one"
+        )
+    centre = body_H_sensor[:3, :3] @ load.centre_of_mass + body_H_sensor[:3, 3]
+    values = [load.mass, 0.0, 0.0, 0.0, *centre, *load.bias[3:], *load.bias[:3]]
+    return "".join(f"{number(float(value))}\n" for value in values)

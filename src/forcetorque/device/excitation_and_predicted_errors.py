@@ -26,13 +26,12 @@ from forcetorque.device.excitation_options import (
     sampled_poses,
     still_poses,
     swing_at_yaw_zero,
-    uncertain,
     workbench_loads,
 )
 from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.device.optimised_motion import Designer
-from forcetorque.device.tolerances import Tolerances
+from forcetorque.device.tolerances import Tolerances, joined_loads
 from forcetorque.results.table import FloatOrNull, Row, Shown, Table, optional_table, table_of
 from forcetorque.workbench.excitation import MatrixError, Span
 from forcetorque.workbench.position_means import Placement
@@ -229,7 +228,7 @@ def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: 
     rows: list[OptionRow] = []
     directions: list[DirectionRow] = []
     for name, option in possible.items():
-        loads = uncertain(option.sampled(SAMPLES), sensor, exact)
+        loads = joined_loads(option.sampled(SAMPLES), sensor, exact)
         error = loads.matrix_error(sample_noise())
         span = Span.of(np.concatenate([poses.wrench(sensor) for poses in heaviest[name].sampled(SAMPLES)]))
         force, moment = predicted_rms(error)
