@@ -25,10 +25,10 @@ from benchmarks.commands import command_cost, simulated_recordings
 from benchmarks.fleet_by_hand import with_dask, with_moments, with_pandas, write_tables
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.base.arrays import FloatArray
+from forcetorque.fleet.plan_file import PlannedRecording
 from forcetorque.fleet.process_pool import DaskPool, LocalPool, Pool
 from forcetorque.fleet.recording_source import RecordingSource
-from forcetorque.fleet.run import AddJob, run_add
-from forcetorque.fleet.sensor_record import AddOptions
+from forcetorque.fleet.run import run_add
 
 _DAYS, _HOURS, _ROBOTS, _CORE_HOUR_EUR = 365, 8, 1000, 0.05
 """On paper: days of a year, hours of logs a day, robots, and what a core costs for an hour."""
@@ -51,9 +51,9 @@ def _copies(file: Path, number: int, prefix: str) -> list[Path]:
 
 def _added_s(pool: Pool, files: list[Path], dataset: Path) -> tuple[float, float]:
     """Seconds of the clock, and those of the processors."""
-    jobs = [AddJob(source=RecordingSource(experiment=file), dataset=dataset, options=AddOptions()) for file in files]
+    jobs = [PlannedRecording(source=RecordingSource(experiment=file), robot=None) for file in files]
     start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
-    outcomes = list(pool.outcomes(run_add, jobs))
+    outcomes = list(pool.outcomes(partial(run_add, dataset=dataset), jobs))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     failed = [one.error for one in outcomes if one.error is not None]
     if failed:

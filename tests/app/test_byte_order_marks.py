@@ -33,7 +33,7 @@ def test_an_experiment_file_with_a_mark_is_the_same_experiment(arm: Path, run: R
     Path(PARQUET).write_bytes(codecs.BOM_UTF8 + Path(PARQUET).read_bytes())
     assert run("evaluate", PARQUET, "-c", "fitted.json", "--format", "json").result() == plain
     assert load_experiment(Path(PARQUET), Purpose.PLANNING).sensors[0].name == "arm_ft"
-    assert sort_sources([Path(PARQUET)]).experiments == (Path(PARQUET),)
+    assert sort_sources([Path(PARQUET)])[0] == [Path(PARQUET)]
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ import pytest
 from forcetorque.device.device_file import DeviceFile, read_device
 from forcetorque.device.simulated_recordings import (
     DeviceRecording,
-    DeviceSensors,
     _write_truth,
+    draw_sensors,
     known_intervals,
     matrix_file,
     simulate_device,
@@ -31,7 +31,7 @@ def _file(**changes: object) -> DeviceFile:
 
 
 def _recordings(file: DeviceFile) -> list[DeviceRecording]:
-    return list(simulate_device(file, DeviceSensors.draw(file)))
+    return list(simulate_device(file, draw_sensors(file)))
 
 
 @pytest.fixture(scope="module")
@@ -51,9 +51,9 @@ def test_the_hinge_is_logged_at_locks_alone(recordings: list[DeviceRecording]) -
     for recording in recordings:
         hinge = recording.recording.stream("joints").signals["position"].values[:, -1]
         assert set(np.rad2deg(hinge).round(9)) == {0.0, 90.0}
-        first, second = known_intervals(recording.trajectory)
-        assert first.end_s < second.start_s
-        assert (first.name, second.name) == ("hinge 0, 1", "hinge 90, 2")
+        (first_name, _, first_end_s), (second_name, second_start_s, _) = known_intervals(recording.trajectory)
+        assert first_end_s < second_start_s
+        assert (first_name, second_name) == ("hinge 0, 1", "hinge 90, 2")
 
 
 def test_the_hinge_is_logged_where_it_is_in_known_intervals(recordings: list[DeviceRecording]) -> None:
@@ -63,8 +63,8 @@ def test_the_hinge_is_logged_where_it_is_in_known_intervals(recordings: list[Dev
         seconds = seconds_since(stamps, EPOCH_NS)
         logged = recording.recording.stream("joints").signals["position"].values[:, -1]
         hinge = recording.trajectory(seconds).position[:, -1]
-        first, second = known_intervals(recording.trajectory)
-        swings = (seconds > first.end_s) & (seconds < second.start_s)
+        (_, _, first_end_s), (_, second_start_s, _) = known_intervals(recording.trajectory)
+        swings = (seconds > first_end_s) & (seconds < second_start_s)
         np.testing.assert_allclose(logged[~swings], hinge[~swings], atol=1e-9)
         assert not logged[swings].any()
         assert (np.abs(logged - hinge)[swings] > 1e-6).mean() > 0.9
@@ -77,7 +77,7 @@ def test_an_encoder_of_the_hinge_sees_the_swing() -> None:
     (recording,) = _recordings(file)
     hinge = recording.recording.stream("joints").signals["position"].values[:, -1]
     assert ((hinge > 0.1) & (hinge < 1.4)).sum() > RATE_HZ
-    assert [interval.name for interval in known_intervals(recording.trajectory)] == ["all"]
+    assert [name for name, _, _ in known_intervals(recording.trajectory)] == ["all"]
 
 
 def test_one_more_load_changes_no_other(recordings: list[DeviceRecording]) -> None:
@@ -91,25 +91,25 @@ def test_one_more_load_changes_no_other(recordings: list[DeviceRecording]) -> No
 
 def test_another_seed_is_another_sensor() -> None:
     """Negative control: matrices are drawn."""
-    first, second = (DeviceSensors.draw(_file(seed=seed)).mounted["ft_1"].matrix for seed in (1, 2))
+    first, second = (draw_sensors(_file(seed=seed))["ft_1"].sensor.matrix for seed in (1, 2))
     assert np.abs(first - second).max() > 0.0
 
 
 def test_sensors_keep_their_serial_numbers() -> None:
     """Three sensors in a stack are three different sensors."""
     file = _file().with_sensors(3)
-    sensors = DeviceSensors.draw(file)
-    assert [sensor.serial for sensor in sensors.sensors.values()] == [s.serial for s in file.sensor]
-    matrices = [sensor.matrix for sensor in sensors.mounted.values()]
+    sensors = draw_sensors(file)
+    assert [sensor.serial for sensor in sensors.values()] == [s.serial for s in file.sensor]
+    matrices = [sensor.sensor.matrix for sensor in sensors.values()]
     assert all(np.abs(matrices[k] - matrices[k - 1]).max() > 0.0 for k in range(3))
 
 
 def test_prior_matrices_are_written_where_they_are_named(tmp_path: Path) -> None:
     """They are those of the workbench within half a step of their code; without `prior` there is none."""
     file = _file(prior=True).with_sensors(2)
-    sensors = DeviceSensors.draw(file)
+    sensors = draw_sensors(file)
     _write_truth(tmp_path, file, sensors)
-    for sensor in sensors.sensors.values():
+    for sensor in sensors.values():
         written = read_matrix_file(tmp_path / matrix_file(sensor.serial))
         half_step = np.array(written.full_scale)[:, None] / 32767 / 2**16
         assert (np.abs(written.matrix - sensor.workbench) <= 1.001 * half_step).all()

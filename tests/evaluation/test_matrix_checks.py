@@ -56,7 +56,7 @@ def test_the_full_scale_is_the_reachable_one_of_both_directions() -> None:
     np.testing.assert_allclose(checks.full_scale.positive, [130.0, *[100.0] * 5], rtol=EXACT)
     np.testing.assert_allclose(checks.full_scale.negative, [-70.0, *[-100.0] * 5], rtol=EXACT)
     np.testing.assert_allclose(checks.stated_full_scale, np.full(6, 100.0), rtol=EXACT)
-    np.testing.assert_allclose(checks.resolution.rms, np.full(6, 0.1), rtol=EXACT)
+    np.testing.assert_allclose(checks.resolution_rms, np.full(6, 0.1), rtol=EXACT)
     mixed = matrix_checks(MOUNTED, OFFSET, limit_counts=LIMIT)
     limits = RawLimits(matrix=MOUNTED, offset=OFFSET, lowest=np.full(6, -LIMIT), highest=np.full(6, LIMIT))
     assert mixed.full_scale is not None

@@ -33,9 +33,9 @@ def verdicts(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[K
     experiment = load_experiment(copy)
     run = SensorRun(experiment, experiment.sensors[0])
     new = calibrate_sensor(run, code_version="test", created="test")
-    found = joint_torques(run, {"new": new})
-    assert found.left_out == ()
-    return {(verdict.calibration, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
+    found, left_out = joint_torques(run, {"new": new})
+    assert left_out == ()
+    return {(verdict.calibration, verdict.offset, verdict.joint): verdict for verdict in found}
 
 
 def test_joints_between_the_sensor_and_the_standing_foot_are_judged(verdicts: dict[Key, JointTorqueErrors]) -> None:

@@ -23,14 +23,14 @@ from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.fleet.added_and_failed_recordings import add_recording, add_recordings
-from forcetorque.fleet.analyses_of_dataset import COMMANDS, FROM_LOGS, DatasetLogs
+from forcetorque.fleet.analyses_of_dataset import COMMANDS, FROM_LOGS, dataset_logs
 from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.parquet_columns import columns_of, rows_of, schema_of, unit_of
 from forcetorque.fleet.parquet_dataset import Dataset, is_dataset
 from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.report import fleet_report_of
 from forcetorque.fleet.report_page import page
-from forcetorque.fleet.run import CalibrateJob, run_calibrate
+from forcetorque.fleet.run import run_calibrate
 from forcetorque.fleet.sensor_record import SCHEMA, AddOptions, SensorRecord, path_digest
 from forcetorque.fleet.table import fleet_table_of
 from tests.app.outcome import Run
@@ -433,8 +433,7 @@ def test_a_copy_of_a_recording_counts_once(added: Path, days: Path, tmp_path: Pa
     assert [row.samples for row in both.errors] == [row.samples for row in alone.errors]
     assert any("copy 1" in text and "it is left out" in text for text in both.warnings)
     folder = tmp_path / "calibrations"
-    job = CalibrateJob(serial=SERIAL, dataset=twice.folder, folder=folder, code_version="1", created="now")
-    calibrated = run_calibrate(job)
+    calibrated = run_calibrate(SERIAL, twice.folder, folder, code_version="1", created="now")
     assert [re.findall(r"copy \d", text) for text in calibrated.left_out] == [["copy 0"], ["copy 1"]]
     of_once, of_twice = (fleet_report_of(one.folder, [folder]) for one in (once, twice))
     assert of_once.warnings == ()
@@ -484,16 +483,16 @@ def test_commands_that_need_samples_read_the_recordings(added: Path, recorded: P
 def test_recordings_are_read_where_they_were_added_from(added: Path, recorded: Path) -> None:
     """Those of the chosen sensors in the order of time, by the names that these have there."""
     dataset = Dataset.opened(added)
-    logs = DatasetLogs.of(dataset, "plan", [SERIAL])
-    assert {file.name for file in logs.files} == set(FILES)
-    rows = [row for file in logs.files for row in dataset.rows(dataset.of_path(path_digest(file)), ["start_ns"])]
+    files, sensors = logs = dataset_logs(dataset, "plan", [SERIAL])
+    assert {file.name for file in files} == set(FILES)
+    rows = [row for file in files for row in dataset.rows(dataset.of_path(path_digest(file)), ["start_ns"])]
     starts = [row["start_ns"] for row in rows]
     assert starts == sorted(starts)
-    assert logs.sensors == (dataset.identity(SERIAL).name,)
+    assert sensors == (dataset.identity(SERIAL).name,)
     given = {"experiments": [added], "sensor": SERIAL}
     replaced = _in_place_of(added, logs, given, ["experiments"])
-    assert replaced == {"experiments": list(logs.files), "sensor": logs.sensors[0]}
-    assert _in_place_of(added, logs, {"log": added}, ["log"]) == {"log": logs.files[-1]}
+    assert replaced == {"experiments": list(files), "sensor": sensors[0]}
+    assert _in_place_of(added, logs, {"log": added}, ["log"]) == {"log": files[-1]}
 
 
 def test_recordings_that_are_not_there_are_named(days: Path, tmp_path: Path) -> None:
@@ -504,7 +503,7 @@ def test_recordings_that_are_not_there_are_named(days: Path, tmp_path: Path) -> 
     dataset = Dataset.opened(tmp_path / "fleet")
     file.rename(tmp_path / "moved" / file.name)
     with pytest.raises(MissingFileError, match=f"view needs samples, .* added from, .*{file.name}, which is not there"):
-        DatasetLogs.of(dataset, "view", ())
+        dataset_logs(dataset, "view", ())
 
 
 def test_the_page_says_what_every_command_does_with_a_dataset() -> None:

@@ -23,7 +23,7 @@ from forcetorque.fleet.evaluate import evaluate_dataset
 from forcetorque.fleet.parquet_dataset import Dataset
 from forcetorque.fleet.report import FleetReport, _next
 from forcetorque.fleet.report_page import page
-from forcetorque.fleet.run import CalibrateJob, run_calibrate, run_plan
+from forcetorque.fleet.run import run_calibrate, run_plan
 from forcetorque.fleet.sensor_evaluation import SensorEvaluation
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.results.answer import MOST_LINES, answer_text
@@ -119,8 +119,8 @@ def test_every_verdict_has_the_last_recording(base: Path, tmp_path: Path, monkey
     made = SimpleNamespace(save=lambda: None, calibrations=[SimpleNamespace(calibration=read_calibration(file))])
     monkeypatch.setattr("forcetorque.fleet.run.calibrate_for_file", lambda *_, **__: made)
     monkeypatch.setattr("forcetorque.fleet.run.Dataset.moments", lambda *_: ([], ()))
-    job = CalibrateJob(serial=serials[1], dataset=dataset.folder, folder=tmp_path, code_version="1", created="2020")
-    assert run_calibrate(job).decision == reported[serials[1]][0]
+    calibrated = run_calibrate(serials[1], dataset.folder, tmp_path, code_version="1", created="2020")
+    assert calibrated.decision == reported[serials[1]][0]
 
 
 def test_any_recording_without_a_date_may_be_the_last(base: Path, tmp_path: Path) -> None:

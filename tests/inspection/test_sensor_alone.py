@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from forcetorque.base.arrays import FloatArray
-from forcetorque.inspection.draft.recording_table import SensorLog
 from forcetorque.inspection.inspect import Inspection, inspect_log
 from forcetorque.inspection.sensor_alone import SensorAlone, sensor_alone
 from forcetorque.recording.recording import Recording
@@ -120,7 +119,7 @@ def test_white_noise_has_a_drift_in_one_of_twenty_logs_at_most() -> None:
             stamp_ns=stamps,
             signals={"wrench": Signal.of_fixed("wrench", values, frame="ft")},
         )
-        summary = sensor_alone(SensorLog(recording=Recording(streams={"ft": stream}), assumed=()))
+        summary = sensor_alone(Recording(streams={"ft": stream}), ())
         assert summary is not None
         drift, half_width = summary[0].drift_per_hour, summary[0].drift_half_width_95_per_hour
         assert drift is not None

@@ -6,8 +6,23 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.live.figures import live_figure
-from forcetorque.live.result import KeptSamples, LivePackets, LiveRun, LiveSensor
+from forcetorque.live.result import LivePackets, LiveRun, LiveSensor, Samples
+
+
+def kept_samples(time_s: FloatArray, came: BoolArray, wrench: FloatArray, half_width: FloatArray) -> Samples:
+    """Samples of a run without joints, from its first on."""
+    return Samples(
+        first=0,
+        time_s=time_s,
+        stamp_ns=np.rint(1e9 * time_s).astype(np.int64),
+        came=came,
+        wrench=wrench,
+        half_width=half_width,
+        reading=np.full_like(wrench, np.nan),
+        positions=np.zeros((len(time_s), 0)),
+    )
 
 
 def run_of(rng: np.random.Generator) -> LiveRun:
@@ -59,7 +74,7 @@ def run_of(rng: np.random.Generator) -> LiveRun:
             unsent=0,
         ),
         slowest_s=0.001,
-        kept=KeptSamples(time_s=time, came=np.full(wrench.shape[:2], True), wrench=wrench, half_width=half_width),
+        kept=kept_samples(time, np.full(wrench.shape[:2], True), wrench, half_width),
     )
 
 

@@ -22,11 +22,10 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats.ros.bag import opened_bag
 from forcetorque.formats.ros.single_messages import read_wrench
 from forcetorque.live.figures import live_figure
-from forcetorque.live.result import KeptSamples
 from forcetorque.results.terminal.command_output import drawn_to
 from tests.app.outcome import Run, heed_interrupts
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_text
-from tests.live.drawn_figures import run_of
+from tests.live.drawn_figures import kept_samples, run_of
 from tests.scenes.calibrations import make_calibration
 from tests.scenes.experiments import PARQUET, edit
 
@@ -94,7 +93,7 @@ def test_lines_of_streams_that_come_in_turn_are_whole() -> None:
     wrench = np.broadcast_to(np.sin(time)[:, None, None], (900, 4, 6)).copy()
     wrench[:, 3] = np.nan
     came = np.tile(np.eye(3, 4, dtype=np.bool_), (300, 1))
-    kept = KeptSamples(time_s=time, came=came, wrench=wrench, half_width=0.1 * np.ones_like(wrench))
+    kept = kept_samples(time, came, wrench, 0.1 * np.ones_like(wrench))
     figure = live_figure(run_of(np.random.default_rng(1)).model_copy(update={"kept": kept}))
     breaks = [int(np.isnan(panel.lines[0].get_ydata()).sum()) for panel in figure.axes[:6]]
     assert breaks == [1] * 6  # behind the last

@@ -12,7 +12,8 @@ import pytest
 from forcetorque.live.corrector import Corrector, CorrectorOptions
 from forcetorque.live.option_values import FaultPolicy, HeldQuantity
 from forcetorque.live.packets import Packet
-from forcetorque.live.recent_samples import RecentSamples, Samples
+from forcetorque.live.recent_samples import RecentSamples
+from forcetorque.live.result import Samples
 from forcetorque.live.sample_status import Status
 from tests.scenes.calibrations import FACTORY, make_calibration
 

@@ -21,8 +21,8 @@ TOOL = Tool()
 
 def _weighed(log: Path, **specified: object) -> WeighedLoad:
     stated = {"moment_about": "flange"} | specified
-    alone = experiment_of_description(log, described_log(log, stated), stated, Path())
-    return weigh_load(SensorRun(alone.experiment, alone.experiment.sensors[0]))
+    experiment, _, _ = experiment_of_description(log, described_log(log, stated), stated, Path())
+    return weigh_load(SensorRun(experiment, experiment.sensors[0]))
 
 
 def _log(folder: Path, *, samples: int = 125, lost: int = 0) -> Path:

@@ -39,7 +39,7 @@ def _weighed(folder: Path, recording: Recording) -> WeighedLoad:
 
 
 def _load_of(log: Path, specified: dict[str, object]) -> WeighedLoad:
-    experiment = experiment_of_description(log, described_log(log, specified), specified, log.parent).experiment
+    experiment, _, _ = experiment_of_description(log, described_log(log, specified), specified, log.parent)
     return weigh_load([SensorRun(experiment, experiment.sensors[0])])
 
 
@@ -85,9 +85,9 @@ def test_mistakes_are_named(tmp_path: Path, mistake: Callable[[Recording], Recor
                 tmp_path / "log.csv", mistake(simulated(seed, declared_shares=(0.0,))).columns, delimiter=","
             )
             specified: dict[str, object] = {"moment_about": "flange"}
-            alone = experiment_of_description(log, described_log(log, specified), specified, tmp_path)
-            weighed = weigh_load([SensorRun(alone.experiment, alone.experiment.sensors[0])])
-            names = (*(row.name for row in weighed.hypotheses), *alone.arm.contradictions)
+            experiment, _, arm = experiment_of_description(log, described_log(log, specified), specified, tmp_path)
+            weighed = weigh_load([SensorRun(experiment, experiment.sensors[0])])
+            names = (*(row.name for row in weighed.hypotheses), *arm.contradictions)
             named += any(name.startswith(words) for name in names)
         except (FitError, FormatError) as error:
             named += words in str(error)

@@ -68,7 +68,6 @@ from forcetorque.skin.taxels.result import TaxelPicture
 from forcetorque.skin.wrench.result import SkinEventPicture, SkinWrenchPicture
 from forcetorque.study.figures import lambda_force_figure
 from forcetorque.workbench.figures import bench_figure
-from forcetorque.workbench.result import BenchPicture
 from tests.locomotion.torque_control.test_causes import cause_row, causes_of
 from tests.scenes.patches import cylinder_patch
 from tests.skin.layout.skins import cylinder
@@ -599,11 +598,10 @@ def _bench(rng: np.random.Generator) -> Figure:
     directions = rng.standard_normal((24, 3))
     forces = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     return bench_figure(
-        BenchPicture(
-            loads=("5.2 kg", "25.2 kg"),
-            on_sphere=(forces[:16], 1.01 * forces[16:]),
-            errors=(rng.standard_normal((16, 6)), 3.0 * rng.standard_normal((8, 6))),
-        )
+        {
+            "5.2 kg": (forces[:16], rng.standard_normal((16, 6))),
+            "25.2 kg": (1.01 * forces[16:], 3.0 * rng.standard_normal((8, 6))),
+        }
     )
 
 

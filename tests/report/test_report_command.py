@@ -347,8 +347,8 @@ def test_a_folder_stands_for_the_calibrations_in_it(arm: Path) -> None:
     """As `calibrate` and `run` write it for several sensors."""
     (arm / "folder").mkdir()
     shutil.copy(arm / "fitted.json", arm / "folder/arm.json")
-    sources = sort_sources([arm / PARQUET, arm / "folder"])
-    assert list(sources.calibrations) == [str(arm / "folder/arm.json")]
+    _, calibrations, _, _ = sort_sources([arm / PARQUET, arm / "folder"])
+    assert list(calibrations) == [str(arm / "folder/arm.json")]
 
 
 REFUSED = {

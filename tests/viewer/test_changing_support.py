@@ -39,7 +39,7 @@ def _poses(experiment: Experiment) -> tuple[FloatArray, FloatArray]:
     """Instants in s, and where the root link is drawn."""
     recording, model = experiment.recording, experiment.model
     posture = posture_at(recording, model, shown_stream(experiment, list(experiment.sensors)))
-    values = root_poses(recording, model, posture, recording.intervals, experiment.processing).values
+    values, _ = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     rotation = Rotation.from_quat(values[:, [4, 5, 6, 3]]).as_matrix()
     return seconds_since(posture.stamp_ns, recording.start_ns), make_pose(rotation, values[:, :3])
 

@@ -63,15 +63,16 @@ def _in_place_of(
     dataset: Path, logs: DatasetLogs, given: Mapping[str, Any], arguments: Sequence[str]
 ) -> dict[str, Any]:
     """What is typed, with the experiment files of a dataset in its place: all, or the last where there can be one."""
-    values: dict[str, Any] = {"sensor": logs.sensors} if "sensor" in given and logs.sensors else {}
+    files, sensors = logs
+    values: dict[str, Any] = {"sensor": sensors} if "sensor" in given and sensors else {}
     for argument in arguments:
         value = given[argument]
         if isinstance(value, list | tuple) and dataset in value:
-            values[argument] = type(value)(logs.files)
+            values[argument] = type(value)(files)
         elif value == dataset:
-            values[argument] = logs.files[-1]
+            values[argument] = files[-1]
     if "sensor" in values and not isinstance(given["sensor"], list | tuple):
-        (values["sensor"],) = logs.sensors
+        (values["sensor"],) = sensors
     return values
 
 

@@ -9,12 +9,11 @@ from typing import Final, Literal
 
 import numpy as np
 
-from forcetorque.base.arrays import IntArray
+from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.collisions.contact_free_model import FreeChanges, matrix_errors
 from forcetorque.collisions.detection import (
     Contact,
-    Detected,
     Threshold,
     detect,
     noticed_square,
@@ -54,7 +53,13 @@ class _Looked:
     signals: Signals
     model: FreeChanges
     """What changes of the residual are without a contact, under the load of the interval."""
-    detected: Detected
+    contacts: tuple[Contact, ...]
+    """Contacts in the order of time."""
+    excess: FloatArray
+    """What the sensor reads too much in every window, the level held during contacts; NaN while there is no level;
+    shape (w, 6); N, N m."""
+    covariances: FloatArray
+    """Its covariance without a contact, of the k windows with a level; shape (k, 6, 6)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -75,7 +80,7 @@ class _Search:
         rows = [
             _row(self.run, one, contact, self.threshold)
             for one in self.looked
-            for contact in one.detected.contacts
+            for contact in one.contacts
             if contact.windows
         ]
         return sorted(rows, key=lambda row: row.start_s)
@@ -155,8 +160,8 @@ def _searched(
     signals = {label: one.with_terms(names) for label, one in signals.items()}
     model, threshold = _learnt(run, correction, [signals[one.label] for one in learnt], alarms_per_hour)
     every = [_looked(one, signals[one.label], model, threshold) for one in watched]
-    looked = [one for one in every if len(one.detected.covariances)]
-    short = [one.interval.label for one in every if not len(one.detected.covariances)]
+    looked = [one for one in every if len(one.covariances)]
+    short = [one.interval.label for one in every if not len(one.covariances)]
     if not looked:
         lengths = ", ".join(f"{one.label!r} of {1e-9 * (one.end_ns - one.start_ns):.2g} s" for one in watched)
         raise ExperimentError(
@@ -170,8 +175,10 @@ def _searched(
 
 def _looked(interval: Interval, signals: Signals, model: FreeChanges, threshold: Threshold) -> _Looked:
     loaded = model.under_load(signals.unmodelled)
-    detected = detect(signals, loaded, threshold.value)
-    return _Looked(interval=interval, signals=signals, model=loaded, detected=detected)
+    contacts, excess, covariances = detect(signals, loaded, threshold.value)
+    return _Looked(
+        interval=interval, signals=signals, model=loaded, contacts=contacts, excess=excess, covariances=covariances
+    )
 
 
 def _require_rate(run: SensorRun) -> None:
@@ -274,7 +281,7 @@ def _kind(contact: Contact, duration_s: float) -> Literal["collision", "contact"
 
 
 def _sensitivity(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) -> SensitivityRow:
-    covariances = [one.detected.covariances for one in looked]
+    covariances = [one.covariances for one in looked]
     return SensitivityRow(
         sensor=run.sensor.name,
         smallest_force_N=max(smallest_force(one, threshold.value) for one in covariances),
@@ -290,10 +297,10 @@ def _by_link(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) ->
     square = noticed_square(threshold.value)
     forces: dict[str, float] = {}
     for one in looked:
-        every = max(len(one.detected.covariances) // _POSTURES, 1)
-        at_s = one.signals.time_s[np.isfinite(one.detected.excess[:, 0])][::every]
+        every = max(len(one.covariances) // _POSTURES, 1)
+        at_s = one.signals.time_s[np.isfinite(one.excess[:, 0])][::every]
         at_ns: IntArray = run.experiment.recording.start_ns + np.round(at_s * 1e9).astype(np.int64)
-        covariances = one.detected.covariances[::every]
+        covariances = one.covariances[::every]
         for link, values in noticed_on_links(run, one.interval, at_ns, covariances, square).items():
             forces[link] = max(float(np.median(values)), forces.get(link, 0.0))
     for link, force in forces.items():
@@ -301,7 +308,7 @@ def _by_link(run: SensorRun, looked: Sequence[_Looked], threshold: Threshold) ->
 
 
 def _curve(run: SensorRun, looked: Sequence[_Looked]) -> CollisionCurve:
-    rows = [np.column_stack([one.signals.time_s, np.linalg.norm(one.detected.excess[:, :3], axis=1)]) for one in looked]
+    rows = [np.column_stack([one.signals.time_s, np.linalg.norm(one.excess[:, :3], axis=1)]) for one in looked]
     time_and_force = np.concatenate([*rows, np.zeros((0, 2))])
     known = time_and_force[np.isfinite(time_and_force[:, 1])]
     return CollisionCurve(sensor=run.sensor.name, time_s=known[:, 0], force_N=known[:, 1])

@@ -131,20 +131,9 @@ class Contact:
         return int(np.argmax([np.linalg.norm(wrench[:3]) for wrench in self.wrenches]))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Detected:
-    """What is found in the windows of a sensor."""
-
-    contacts: tuple[Contact, ...]
-    """Contacts in the order of time."""
-    excess: FloatArray
-    """What the sensor reads too much in every window, the level held during contacts; NaN while there is no level;
-    shape (w, 6); N, N m."""
-    covariances: FloatArray
-    """Its covariance without a contact, of the k windows with a level; shape (k, 6, 6)."""
-
-
-def detect(signals: Signals, model: FreeChanges, threshold: float) -> Detected:
+def detect(
+    signals: Signals, model: FreeChanges, threshold: float
+) -> tuple[tuple[Contact, ...], FloatArray, FloatArray]:
     """Look for contacts.
 
     Args:
@@ -153,7 +142,9 @@ def detect(signals: Signals, model: FreeChanges, threshold: float) -> Detected:
         threshold: Threshold of the statistic.
 
     Returns:
-        Contacts.
+        Contacts in the order of time; what the sensor reads too much in every window, the level held during contacts,
+        NaN while there is no level, shape (w, 6), N, N m; its covariance without a contact, of the k windows with a
+        level, shape (k, 6, 6).
     """
     level, excess = Level(signals), np.full((len(signals), LOADS), np.nan)
     covariances: list[FloatArray] = []
@@ -198,9 +189,7 @@ def detect(signals: Signals, model: FreeChanges, threshold: float) -> Detected:
             level.restart()
     if current is not None:
         close(current, stays=True)
-    return Detected(
-        contacts=tuple(contacts), excess=excess, covariances=np.concatenate([*covariances, np.zeros((0, LOADS, LOADS))])
-    )
+    return tuple(contacts), excess, np.concatenate([*covariances, np.zeros((0, LOADS, LOADS))])
 
 
 def _compared(

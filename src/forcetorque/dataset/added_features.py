@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -38,26 +37,6 @@ EpisodeValues = Mapping[int, npt.NDArray[np.float32]]
 """Values of all added features by the number of the episode, frame by frame; shape (n, sum of widths)."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AddedFeature:
-    """A feature of float32 that is added."""
-
-    name: str
-    """Its name, which the dataset does not have."""
-    names: tuple[str, ...]
-    """Names of its elements."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Added:
-    """What was added."""
-
-    resumed_files: int
-    """Files of frames that an earlier run had written."""
-    statistics: tuple[Mapping[str, list[float] | list[int]], ...]
-    """Statistics of each feature over the dataset."""
-
-
 def refuse_known_features(dataset: LeRobotDataset, names: Sequence[str]) -> None:
     """Refuse features that a dataset has already.
 
@@ -80,21 +59,21 @@ def refuse_known_features(dataset: LeRobotDataset, names: Sequence[str]) -> None
 def add_features(
     dataset: LeRobotDataset,
     folder: ResumableFolder,
-    features: Sequence[AddedFeature],
+    features: Mapping[str, Sequence[str]],
     values_of: Callable[[Path, tuple[Episode, ...]], EpisodeValues],
     progress: Progress,
-) -> Added:
+) -> tuple[int, tuple[Mapping[str, list[float] | list[int]], ...]]:
     """Copy a dataset and add features.
 
     Args:
         dataset: The dataset, of which nothing is changed.
         folder: The copy.
-        features: What is added.
+        features: Names of the elements of the features of float32 that are added, by the name of the feature.
         values_of: Gives the values of the episodes of a file.
         progress: Called with lines for people.
 
     Returns:
-        Statistics of what was added.
+        Number of files of frames that an earlier run had written, and statistics of each feature over the dataset.
 
     Raises:
         FormatError: If a file is damaged.
@@ -121,7 +100,7 @@ def add_features(
         pooled_statistics([statistics[number][k] for number in sorted(statistics)]) for k in range(len(features))
     )
     _write_descriptions(dataset, folder.folder, features, statistics, pooled)
-    return Added(resumed_files=resumed, statistics=pooled)
+    return resumed, pooled
 
 
 def _changed_files(dataset: LeRobotDataset) -> set[str]:
@@ -152,18 +131,18 @@ def _copy_others(dataset: LeRobotDataset, target: Path, changed: set[str], progr
         left.at(number)
 
 
-def _statistics(rows: npt.NDArray[np.float32], features: Sequence[AddedFeature]) -> list[dict[str, Any]]:
+def _statistics(rows: npt.NDArray[np.float32], features: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
     return [episode_statistics(part.astype(np.float64)) for part in _parts(rows, features)]
 
 
-def _parts(rows: npt.NDArray[np.float32], features: Sequence[AddedFeature]) -> Iterator[npt.NDArray[np.float32]]:
+def _parts(rows: npt.NDArray[np.float32], features: Mapping[str, Sequence[str]]) -> Iterator[npt.NDArray[np.float32]]:
     start = 0
-    for feature in features:
-        yield rows[:, start : start + len(feature.names)]
-        start += len(feature.names)
+    for names in features.values():
+        yield rows[:, start : start + len(names)]
+        start += len(names)
 
 
-def _write_frames(source: Path, target: Path, features: Sequence[AddedFeature], values: EpisodeValues) -> None:
+def _write_frames(source: Path, target: Path, features: Mapping[str, Sequence[str]], values: EpisodeValues) -> None:
     """Write a file of frames with the columns, whose rows are those of each episode in their order."""
     target.parent.mkdir(parents=True, exist_ok=True)
     fresh = target.with_name(f"{target.name}.part")
@@ -175,10 +154,10 @@ def _write_frames(source: Path, target: Path, features: Sequence[AddedFeature], 
                 for group in range(file.num_row_groups):
                     table = file.read_row_group(group)
                     rows = _rows_of(whole_numbers(table.column("episode_index").combine_chunks()), values, done)
-                    for part, feature in zip(_parts(rows, features), features, strict=True):
+                    for part, (feature, names) in zip(_parts(rows, features), features.items(), strict=True):
                         flat = pa.array(np.ascontiguousarray(part).reshape(-1), pa.float32())
-                        column = pa.FixedSizeListArray.from_arrays(flat, len(feature.names))
-                        table = table.append_column(schema.field(feature.name), column)
+                        column = pa.FixedSizeListArray.from_arrays(flat, len(names))
+                        table = table.append_column(schema.field(feature), column)
                     writer.write_table(table.cast(schema), row_group_size=max(1, len(table)))
     except _ARROW_ERRORS as error:
         if isinstance(error, FormatError):
@@ -200,21 +179,21 @@ def _rows_of(numbers: npt.NDArray[np.int64], values: EpisodeValues, done: dict[i
     return rows
 
 
-def _schema(schema: Any, features: Sequence[AddedFeature]) -> Any:
+def _schema(schema: Any, features: Mapping[str, Sequence[str]]) -> Any:
     """The schema with the features, and with their types in the metadata by which `datasets` reads."""
-    for feature in features:
-        if feature.name in schema.names:
-            raise FormatError(f"expected no column {feature.name!r}, which {INFO} lacks, got one")
-        schema = schema.append(pa.field(feature.name, pa.list_(pa.field("element", pa.float32()), len(feature.names))))
+    for feature, names in features.items():
+        if feature in schema.names:
+            raise FormatError(f"expected no column {feature!r}, which {INFO} lacks, got one")
+        schema = schema.append(pa.field(feature, pa.list_(pa.field("element", pa.float32()), len(names))))
     metadata = dict(schema.metadata or {})
     try:
         described = json.loads(metadata[b"huggingface"])
         known = described["info"]["features"]
         vectors = [one for one in known.values() if isinstance(one, dict) and one.get("_type") in ("List", "Sequence")]
         kind = vectors[0]["_type"] if vectors else "Sequence"  # which `datasets` of all versions knows, unlike List
-        for feature in features:
+        for feature, names in features.items():
             value = {"dtype": "float32", "_type": "Value"}
-            known[feature.name] = {"feature": value, "length": len(feature.names), "_type": kind}
+            known[feature] = {"feature": value, "length": len(names), "_type": kind}
         metadata[b"huggingface"] = json.dumps(described).encode()
     except (KeyError, ValueError, TypeError, AttributeError):  # absent or another program's; loaders then go by columns
         metadata.pop(b"huggingface", None)
@@ -224,7 +203,7 @@ def _schema(schema: Any, features: Sequence[AddedFeature]) -> Any:
 def _write_descriptions(
     dataset: LeRobotDataset,
     target: Path,
-    features: Sequence[AddedFeature],
+    features: Mapping[str, Sequence[str]],
     statistics: Mapping[int, Sequence[Mapping[str, Any]]],
     pooled: Sequence[Mapping[str, Any]],
 ) -> None:
@@ -237,14 +216,14 @@ def _write_descriptions(
     content = json.loads(json.dumps(dataset.info))
     # the converter to v3.0 gives every feature its rate
     rate = {"fps": content["fps"]} if any("fps" in one for one in content["features"].values()) else {}
-    for feature in features:
-        described = {"dtype": "float32", "shape": [len(feature.names)], "names": list(feature.names)}
-        content["features"][feature.name] = described | rate
+    for feature, names in features.items():
+        described = {"dtype": "float32", "shape": [len(names)], "names": list(names)}
+        content["features"][feature] = described | rate
     write_bytes_atomically(target / INFO, json.dumps(content, indent=4, ensure_ascii=False).encode())
 
 
 def _write_statistics(
-    dataset: LeRobotDataset, target: Path, features: Sequence[AddedFeature], pooled: Sequence[Mapping[str, Any]]
+    dataset: LeRobotDataset, target: Path, features: Mapping[str, Sequence[str]], pooled: Sequence[Mapping[str, Any]]
 ) -> None:
     file = dataset.root / STATISTICS
     known: Any = {}
@@ -257,7 +236,7 @@ def _write_statistics(
         raise FormatError(f"{file}: expected a JSON object with the statistics of features")
     keys = _keys_of([own for own in known.values() if isinstance(own, dict)])
     for feature, own in zip(features, pooled, strict=True):
-        known[feature.name] = {key: own[key] for key in keys}
+        known[feature] = {key: own[key] for key in keys}
     write_bytes_atomically(target / STATISTICS, json.dumps(known, indent=4, ensure_ascii=False).encode())
 
 
@@ -270,7 +249,7 @@ def _keys_of(known: Sequence[Mapping[str, Any]]) -> list[str]:
 def _write_episode_table(
     source: Path,
     target: Path,
-    features: Sequence[AddedFeature],
+    features: Mapping[str, Sequence[str]],
     statistics: Mapping[int, Sequence[Mapping[str, Any]]],
 ) -> None:
     """Append `stats/<feature>/<statistic>` to a file of episodes of v3.0."""
@@ -283,7 +262,7 @@ def _write_episode_table(
             for key in _keys_of([of_others] if of_others else []):
                 own = [statistics[number][k][key] if number in statistics else None for number in numbers]
                 kind = pa.list_(pa.field("element", pa.int64() if key == "count" else pa.float64()))
-                table = table.append_column(f"stats/{feature.name}/{key}", pa.array(own, kind))
+                table = table.append_column(f"stats/{feature}/{key}", pa.array(own, kind))
         target.parent.mkdir(parents=True, exist_ok=True)
         sink = pa.BufferOutputStream()
         pq.write_table(table, sink)
@@ -296,7 +275,7 @@ def _write_episode_table(
 def _write_episode_lines(
     dataset: LeRobotDataset,
     target: Path,
-    features: Sequence[AddedFeature],
+    features: Mapping[str, Sequence[str]],
     statistics: Mapping[int, Sequence[Mapping[str, Any]]],
 ) -> None:
     """Add to each line of the statistics of episodes of v2.1."""
@@ -313,7 +292,7 @@ def _write_episode_lines(
             keys = _keys_of([one for one in own.values() if isinstance(one, dict)] or [dict.fromkeys(PLAIN)])
             if index in statistics:
                 for feature, values in zip(features, statistics[index], strict=True):
-                    own[feature.name] = {key: values[key] for key in keys}
+                    own[feature] = {key: values[key] for key in keys}
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise FormatError(f"{file}:{number}: expected episode_index and stats of an episode as JSON") from error
         written.append(json.dumps(content, ensure_ascii=False))

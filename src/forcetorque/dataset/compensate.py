@@ -18,7 +18,7 @@ from forcetorque.base.output_file import real_path, refuse_existing
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.base.units import NORMAL_95, si_factor
 from forcetorque.base.wrench import WRENCH_COMPONENTS, MeasureDirection, wrench_matrix
-from forcetorque.dataset.added_features import Added, AddedFeature, add_features, refuse_known_features
+from forcetorque.dataset.added_features import add_features, refuse_known_features
 from forcetorque.dataset.episode_checks import equal_runs
 from forcetorque.dataset.episode_frames import episode_frames, file_frames
 from forcetorque.dataset.force_fields import ForceField, OrientationField
@@ -138,12 +138,12 @@ class Request:
     """Feature to add."""
 
     @property
-    def features(self) -> tuple[AddedFeature, ...]:
-        """What is added: the wrench and its standard deviation."""
-        return (
-            AddedFeature(name=self.name, names=WRENCH_COMPONENTS),
-            AddedFeature(name=f"{self.name}_std", names=tuple(f"{one}_std" for one in WRENCH_COMPONENTS)),
-        )
+    def features(self) -> dict[str, tuple[str, ...]]:
+        """What is added: names of the elements of the wrench and of its standard deviation, by name of the feature."""
+        return {
+            self.name: WRENCH_COMPONENTS,
+            f"{self.name}_std": tuple(f"{one}_std" for one in WRENCH_COMPONENTS),
+        }
 
 
 def compensated(
@@ -168,20 +168,20 @@ def compensated(
     """
     _refuse_inside(dataset.root, output)
     refuse_existing(output)
-    refuse_known_features(dataset, [feature.name for feature in request.features])
+    refuse_known_features(dataset, list(request.features))
     accept_input(dataset.root)
     tool, left_out = _identified(dataset, request, progress)
     errors = np.zeros(6)
     with resumable_folder(output, _plan(dataset, options)) as folder:
-        added = add_features(
+        resumed, statistics = add_features(
             dataset,
             folder,
             request.features,
             lambda file, episodes: _values(dataset, request, tool, file, episodes),
             progress,
         )
-        errors = np.array(added.statistics[1]["mean"], dtype=np.float64)
-    return _result(dataset, output, request, tool, left_out, added, errors)
+        errors = np.array(statistics[1]["mean"], dtype=np.float64)
+    return _result(dataset, output, request, tool, left_out, resumed, errors)
 
 
 def _refuse_inside(root: Path, output: Path) -> None:
@@ -289,7 +289,7 @@ def _result(
     request: Request,
     tool: Tool,
     left_out: int,
-    added: Added,
+    resumed_files: int,
     deviation: FloatArray,
 ) -> CompensatedDataset:
     solution = tool.solution
@@ -304,6 +304,7 @@ def _result(
         warnings.append(f"biases of episodes differ by up to {largest:.2g} N: --bias episode takes one of each off")
     share = float(np.mean(solution.weight < 0.5))
     mount = rotation_vector(solution.mount) if request.mount else None
+    feature, standard_deviation_feature = request.features
     return CompensatedDataset(
         source=str(dataset.root),
         output=str(output),
@@ -312,8 +313,8 @@ def _result(
         frames=sum(episode.frames for episode in dataset.episodes),
         measured=request.measurement.field.name,
         orientation=request.measurement.orientation.name,
-        feature=request.features[0].name,
-        standard_deviation_feature=request.features[1].name,
+        feature=feature,
+        standard_deviation_feature=standard_deviation_feature,
         frame="pose" if request.frame_H_sensor is not None else request.frame,
         measure_direction=request.direction.value,
         calibrated_by=None if request.measurement.calibration is None else request.measurement.serial,
@@ -329,6 +330,6 @@ def _result(
         noise=tool.noise,
         mean_standard_deviation=deviation,
         contradicted=any(row.severity == "contradiction" for row in solution.hypotheses),
-        resumed_files=added.resumed_files,
+        resumed_files=resumed_files,
         warnings=tuple(warnings),
     )

@@ -36,7 +36,7 @@ def design_device(
     Python: `app.design_device("device.toml")`
 
     Returns:
-        Excitation, demands and errors; its `picture` has the motion.
+        Excitation, demands and errors; its `trajectories` are the motions.
     """
     from forcetorque.device.design import design_device
     from forcetorque.device.device_file import DEFAULT_DEVICE, DeviceFile, read_device

@@ -4,13 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import FloatArray
 from forcetorque.device.components import AttachedLoad, Device, device_load
 from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceFile
@@ -19,7 +17,6 @@ from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
-from forcetorque.robot.motion import JointMotion
 
 if TYPE_CHECKING:
     pass
@@ -116,20 +113,6 @@ _SWAPPED = "axes swapped"
 """Suffix of the name of a motion with the first two axes swapped (figure 6.6)."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DevicePicture:
-    """Content of the figures of a device."""
-
-    time_s: FloatArray
-    """Instants; shape (n,); s."""
-    motion: JointMotion
-    """Motion of the joints at these instants."""
-    response: DeviceResponse
-    """Wrenches and torques with the heaviest load."""
-    clouds: dict[str, FloatArray]
-    """Wrenches of the innermost sensor by the names of the motions; shapes (n, 6); N, N m."""
-
-
 class DeviceDesign(DrawnResult):
     """A calibration device, checked by computation."""
 
@@ -160,8 +143,6 @@ class DeviceDesign(DrawnResult):
     """The device."""
     trajectories: dict[str, DeviceTrajectory] = Field(exclude=True, repr=False)
     """Motions by name: those of `motions`, then those of `span`."""
-    picture: DevicePicture = Field(exclude=True, repr=False)
-    """Content of the figures."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
@@ -191,30 +172,18 @@ def design_device(file: DeviceFile) -> DeviceDesign:
     """
     trajectory, trajectories = _trajectory(file), _trajectories(file)
     loads = [device_load(file, load_kg) for load_kg in file.loads_kg]
-    time, motion = trajectory.sampled(PICTURE_HZ)
+    _, motion = trajectory.sampled(PICTURE_HZ)
     span = device_span(file)
-    responses = [device_response(file, load, motion) for load in loads]
     return DeviceDesign(
         device=file.name,
         sensors=file.sensor_names,
-        loads=tuple(_load_row(file, load, response) for load, response in zip(loads, responses, strict=True)),
+        loads=tuple(_load_row(file, load, device_response(file, load, motion)) for load in loads),
         motions=tuple(_motion_row(name, other) for name, other in trajectories.items()),
         span=span,
         demands=device_demands(file),
         file=file,
         trajectories=trajectories | span.trajectories,
-        picture=DevicePicture(
-            time_s=time,
-            motion=motion,
-            response=responses[-1],
-            clouds={name: _wrenches(other, file.sensor_names[0]) for name, other in trajectories.items()},
-        ),
     )
-
-
-def _wrenches(trajectory: DeviceTrajectory, sensor: str) -> FloatArray:
-    _, motion = trajectory.sampled(PICTURE_HZ)
-    return device_response(trajectory.device, trajectory.load, motion).wrenches.of_name(sensor)
 
 
 def _trajectories(file: DeviceFile) -> dict[str, DeviceTrajectory]:

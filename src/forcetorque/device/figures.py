@@ -14,9 +14,10 @@ from forcetorque.base.errors import ShapeError
 from forcetorque.base.output_file import new_folder
 from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.calibration.figures.excitation import space_figure
-from forcetorque.device.design import DeviceDesign
+from forcetorque.device.design import PICTURE_HZ, DeviceDesign
 from forcetorque.device.error_budget import FORCE_LIMIT_N, MOMENT_LIMIT_NM
 from forcetorque.device.excitation_and_predicted_errors import DirectionRow
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.motors_hinge_and_envelope import VIEWS, EnvelopeRow
 from forcetorque.device.requirements import GradeRow, RequirementRow, Verdict
 from forcetorque.results.figure_style import (
@@ -303,6 +304,24 @@ def _least_worst(rows: Sequence[DirectionRow]) -> str:
     return f"{shown_name(best)}: least {error} error of the worst axis, {worst[best]:.2g} {unit}"
 
 
+def innermost_wrenches(design: DeviceDesign) -> dict[str, FloatArray]:
+    """Compute the wrenches of the innermost sensor in the motions.
+
+    Args:
+        design: The device.
+
+    Returns:
+        By the names of the motions; shapes (n, 6); N, N m.
+    """
+    wrenches = {}
+    for row in design.motions:
+        trajectory = design.trajectories[row.motion]
+        _, motion = trajectory.sampled(PICTURE_HZ)
+        response = device_response(trajectory.device, trajectory.load, motion)
+        wrenches[row.motion] = response.wrenches.of_name(design.sensors[0])
+    return wrenches
+
+
 def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
     """Draw a device, all or nothing.
 
@@ -314,11 +333,13 @@ def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
     Returns:
         The result with the names of the files.
     """
-    picture, demands = design.picture, design.demands
-    torques = {joint: picture.response.torque(joint) for joint in picture.response.joints}
+    demands, trajectory = design.demands, design.trajectories[design.motions[0].motion]
+    time_s, motion = trajectory.sampled(PICTURE_HZ)
+    response = device_response(trajectory.device, trajectory.load, motion)
+    torques = {joint: response.torque(joint) for joint in response.joints}
     figures = {
-        "motion.png": device_figure(picture.time_s, picture.motion, torques),
-        "space.png": space_figure(picture.clouds),
+        "motion.png": device_figure(time_s, motion, torques),
+        "space.png": space_figure(innermost_wrenches(design)),
         "options.png": predicted_error_figure(design.span.directions),
         "envelope.png": envelope_figure(demands.envelope),
         "errors.png": reference_error_figure(demands.grades),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -30,23 +30,10 @@ from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.recordings import TRUTH_FILE, TRUTH_SCHEMA
 from forcetorque.simulation.scenario.scenario import INTERVAL_MARGIN_S, draw_imu
 from forcetorque.simulation.sensor_family import Specimen, draw_specimen
-from forcetorque.simulation.simulated_sensor import SimulatedSensor
 from forcetorque.simulation.trace import EPOCH_NS, IMU_STREAM, record
 
 _SENSORS, _POWER_UP, _NOISE, _IMU = 1, 2, 6, 8
 """Keys of streams of random numbers: one more load changes no other."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class KnownInterval:
-    """An interval of a recording in which the position of the hinge is known."""
-
-    name: str
-    """Name, such as `hinge 90, 1`."""
-    start_s: float
-    """Start; s."""
-    end_s: float
-    """End; s."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,40 +52,24 @@ class DeviceRecording:
     """Calibration or validation."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DeviceSensors:
-    """The simulated sensors in the stack, with their true values."""
+def draw_sensors(file: DeviceFile) -> dict[str, Specimen]:
+    """Draw the sensors of a device and switch them on; the device is not switched off between loads.
 
-    sensors: dict[str, Specimen]
-    """Sensors by name."""
-    mounted: dict[str, SimulatedSensor]
-    """The sensors with their offsets; the device is not switched off between loads."""
+    Args:
+        file: The device, with the description of its sensors.
 
-    @classmethod
-    def draw(cls, file: DeviceFile) -> DeviceSensors:
-        """Draw the sensors of a device.
-
-        Args:
-            file: The device, with the description of its sensors.
-
-        Returns:
-            The sensors.
-        """
-        seed, described = file.simulation.seed, file.simulation.sensors
-        sensors = {
-            sensor.name: replace(
-                draw_specimen(described, k, np.random.default_rng([seed, _SENSORS, k])), serial=sensor.serial
-            )
-            for k, sensor in enumerate(file.sensor)
-        }
-        mounted = {
-            name: sensor.powered_up(np.random.default_rng([seed, _POWER_UP, sensor.number]))
-            for name, sensor in sensors.items()
-        }
-        return cls(sensors=sensors, mounted=mounted)
+    Returns:
+        The sensors by name, with their true values.
+    """
+    seed, sensors = file.simulation.seed, {}
+    for k, sensor in enumerate(file.sensor):
+        drawn = draw_specimen(file.simulation.sensors, k, np.random.default_rng([seed, _SENSORS, k]))
+        powered = drawn.powered_up(np.random.default_rng([seed, _POWER_UP, drawn.number]))
+        sensors[sensor.name] = replace(drawn, serial=sensor.serial, sensor=powered)
+    return sensors
 
 
-def simulate_device(file: DeviceFile, sensors: DeviceSensors) -> Iterator[DeviceRecording]:
+def simulate_device(file: DeviceFile, sensors: Mapping[str, Specimen]) -> Iterator[DeviceRecording]:
     """Simulate a recording of the motion of a device with every load of its file.
 
     Args:
@@ -120,7 +91,7 @@ def simulate_device(file: DeviceFile, sensors: DeviceSensors) -> Iterator[Device
             imu = draw_imu(simulation.imu, model, np.random.default_rng([simulation.seed, _IMU]), where=file.name)
         recording = record(
             _movement(trajectory, model),
-            sensors.mounted,
+            {name: sensor.sensor for name, sensor in sensors.items()},
             rate_hz=simulation.rate_hz,
             rng=np.random.default_rng([simulation.seed, _NOISE, number]),
             imu=imu,
@@ -129,26 +100,27 @@ def simulate_device(file: DeviceFile, sensors: DeviceSensors) -> Iterator[Device
         yield DeviceRecording(load=load, model=model, trajectory=trajectory, recording=logged, use=use)
 
 
-def known_intervals(trajectory: DeviceTrajectory) -> tuple[KnownInterval, ...]:
+def known_intervals(trajectory: DeviceTrajectory) -> list[tuple[str, float, float]]:
     """Find the intervals in which the position of the hinge is known.
 
     Args:
         trajectory: Motion of the device.
 
     Returns:
-        The whole trajectory with an encoder, else the intervals in which the hinge stays locked.
+        Name, such as `hinge 90, 1`, start and end in s: of the whole trajectory with an encoder, else of the intervals
+        in which the hinge stays locked.
     """
     sequence, ways = trajectory.sequence, trajectory.ways
     if trajectory.device.hinge.encoder:
-        return (KnownInterval(name="all", start_s=0.0, end_s=trajectory.duration_s),)
+        return [("all", 0.0, trajectory.duration_s)]
     swings = np.flatnonzero(sequence.unlocked)
     starts = [0.0, *(ways.departures_s + ways.durations_s)[swings].tolist()]
     ends = [*ways.departures_s[swings].tolist(), trajectory.duration_s]
     locks = np.rint(np.rad2deg(sequence.postures[[0, *(swings + 1)], -1])).astype(int)
-    return tuple(
-        KnownInterval(name=f"hinge {lock}, {number}", start_s=start, end_s=end)
+    return [
+        (f"hinge {lock}, {number}", start, end)
         for number, (lock, start, end) in enumerate(zip(locks, starts, ends, strict=True), start=1)
-    )
+    ]
 
 
 def _with_logged_hinge(recording: Recording, trajectory: DeviceTrajectory) -> Recording:
@@ -190,9 +162,9 @@ def device_experiment_text(device: DeviceFile, simulated: DeviceRecording, *, ur
         The file, TOML, with the intervals in which the position of the hinge is known.
     """
     simulation = device.simulation
-    name = json.dumps(f"{device.name}, {simulated.load.name}")
+    title = json.dumps(f"{device.name}, {simulated.load.name}")
     text = [
-        f'schema = "forcetorque/experiment/1"\nname = {name}\n',
+        f'schema = "forcetorque/experiment/1"\nname = {title}\n',
         f'\n[robot]\nurdf = {json.dumps(urdf)}\ngravity = {device.gravity!r}\ntolerance = "exact"\n',
         f'\n[recording]\nformat = "parquet"\npath = {json.dumps(recording)}\n',
         *(_sensor_text(device, number) for number in range(len(device.sensor))),
@@ -201,10 +173,10 @@ def device_experiment_text(device: DeviceFile, simulated: DeviceRecording, *, ur
         f'\n[[support]]\nframe = "{BASE}"\n{_gravity(device)}\n',
     ]
     text += [
-        f"\n[[interval]]\nlabel = {json.dumps(f'{simulated.load.name}, {interval.name}')}\n"
-        f"start_s = {interval.start_s + INTERVAL_MARGIN_S:.3f}\nend_s = {interval.end_s - INTERVAL_MARGIN_S:.3f}\n"
+        f"\n[[interval]]\nlabel = {json.dumps(f'{simulated.load.name}, {name}')}\n"
+        f"start_s = {start_s + INTERVAL_MARGIN_S:.3f}\nend_s = {end_s - INTERVAL_MARGIN_S:.3f}\n"
         f'use = "{simulated.use.value}"\nsupport = "{BASE}"\n'
-        for interval in known_intervals(simulated.trajectory)
+        for name, start_s, end_s in known_intervals(simulated.trajectory)
     ]
     return "".join(text)
 
@@ -254,7 +226,7 @@ def write_device(
         The result with its recordings and the name of the folder.
     """
     file, rows = design.file, []
-    sensors = DeviceSensors.draw(file)
+    sensors = draw_sensors(file)
     with new_folder(Path(output)) as folder:
         for name, trajectory in design.trajectories.items():
             motors = trajectory.device.joint_names[:-1]
@@ -301,17 +273,17 @@ def _write_recording(folder: Path, file: DeviceFile, simulated: DeviceRecording)
     )
 
 
-def _write_truth(folder: Path, file: DeviceFile, drawn: DeviceSensors) -> None:
+def _write_truth(folder: Path, file: DeviceFile, drawn: Mapping[str, Specimen]) -> None:
     """Write true values of the sensors, and their prior matrices where experiment files name them."""
     sensors = {}
-    for name, sensor in drawn.sensors.items():
+    for name, sensor in drawn.items():
         if file.simulation.prior:
             write_matrix_file(folder / matrix_file(sensor.serial), encode_matrix(sensor.workbench))
         sensors[name] = {
             "serial": sensor.serial,
             "matrix": sensor.sensor.matrix.tolist(),
             "workbench_matrix": sensor.workbench.tolist(),
-            "offset": drawn.mounted[name].offset.tolist(),
+            "offset": sensor.sensor.offset.tolist(),
             "noise_counts": sensor.sensor.noise_counts,
         }
     truth = {"schema": TRUTH_SCHEMA, "scenario": file.name, "seed": file.simulation.seed, "sensors": sensors}

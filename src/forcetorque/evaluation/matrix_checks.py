@@ -19,7 +19,7 @@ from forcetorque.sensor.full_scale import (
     axis_resolution as largest_step,
     reachable_full_scale,
 )
-from forcetorque.sensor.gains.amplifier_gains import AxisResolution, axis_resolution
+from forcetorque.sensor.gains.amplifier_gains import axis_resolution
 
 LEAST_TEMPERATURE_SPAN = 1.0
 """Recordings closer in temperature than this tell no change per degree: their other differences would be divided by
@@ -30,8 +30,10 @@ next to nothing; degC."""
 class MatrixChecks(ArrayRecord):
     """Full scale, resolution and condition of a calibration matrix."""
 
-    resolution: AxisResolution
-    """What one count is worth along each axis."""
+    resolution_worst: FloatArray = field(metadata=array(6))
+    """What one count is worth along each axis, with the worst signs of all channels; shape (6,); N, N m."""
+    resolution_rms: FloatArray = field(metadata=array(6))
+    """The same as a standard deviation, of channels that err independently; shape (6,); N, N m."""
     condition: float
     """See `matrix_condition`."""
     stated_full_scale: FloatArray = field(metadata=array(6))
@@ -70,8 +72,10 @@ def matrix_checks(matrix: FloatArray, offset: FloatArray, *, limit_counts: float
             )
         except SensorError as error:
             reason = str(error)
+    worst, rms = axis_resolution(matrix)
     return MatrixChecks(
-        resolution=axis_resolution(matrix),
+        resolution_worst=worst,
+        resolution_rms=rms,
         condition=matrix_condition(matrix),
         stated_full_scale=limit_counts * largest_step(matrix),
         full_scale=full_scale,

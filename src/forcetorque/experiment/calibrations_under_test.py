@@ -18,7 +18,7 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.table import Row, Shown
+from forcetorque.results.table import RowOfSensor, Shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -175,13 +175,9 @@ class CalibrationUnderTest:
         }.get(offset, self.correction.source)
 
 
-class EvaluatedRow(Row):
+class EvaluatedRow(RowOfSensor):
     """What identifies a row about a calibration under test: sensor, candidate and offset."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: Annotated[str, Shown("calibration", file=True)]
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Annotated[Offset, Shown("offset")]

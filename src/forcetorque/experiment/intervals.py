@@ -259,21 +259,21 @@ def _of_files(
     if parsed.clock:
         raise ExperimentError(f"{where}: files: expected no [[clock]] beside it; state start_s and end_s of each file")
     files, stamps = recording.files[stream], recording.stream(stream).stamp_ns
-    stems = [PurePosixPath(one.name).stem for one in files]
+    stems = [PurePosixPath(name).stem for name, _ in files]
     same = [stem for stem, count in Counter(stems).items() if count > 1]
     if same:
         raise ExperimentError(f"{where}: files: expected names that differ, got {same[0]!r} in several folders")
     first = 0
-    for stem, one in zip(stems, files, strict=True):
-        own = stamps[first : first + one.rows]
-        first += one.rows
+    for stem, (name, rows) in zip(stems, files, strict=True):
+        own = stamps[first : first + rows]
+        first += rows
         if not len(own):
-            raise ExperimentError(f"{where}: files: {one.name} has no sample; take it away")
+            raise ExperimentError(f"{where}: files: {name} has no sample; take it away")
         start_s, last_s = (1e-9 * (int(stamp) - recording.start_ns) for stamp in (own[0], own[-1]))
         end_s = last_s + _AFTER_S if span.end_s is None else start_s + span.end_s
         if not span.start_s + start_s <= last_s or end_s > last_s + 2.0 * _AFTER_S:
             raise ExperimentError(
-                f"{where}: {one.name} has samples of {last_s - start_s:.6g} s, expected as many as from start_s = "
+                f"{where}: {name} has samples of {last_s - start_s:.6g} s, expected as many as from start_s = "
                 f"{span.start_s:g} to end_s = {'its end' if span.end_s is None else format(span.end_s, 'g')}"
             )
         yield span.model_copy(

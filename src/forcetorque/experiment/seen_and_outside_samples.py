@@ -22,7 +22,7 @@ from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction, Readings
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
-from forcetorque.results.table import Row
+from forcetorque.results.table import Row, RowOfSensor
 
 
 class VariableOutside(Row):
@@ -50,13 +50,9 @@ class VariableOutside(Row):
         )
 
 
-class SamplesOutside(Row):
+class SamplesOutside(RowOfSensor):
     """How far readings lie outside what a calibration was fitted on."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: str
     """The calibration file."""
     samples: int

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from types import MappingProxyType
@@ -175,47 +174,38 @@ def _files_in_time(dataset: Dataset, sensors: Sequence[str]) -> list[str]:
     return [row["file"] for row in rows]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DatasetLogs:
-    """Recordings of a dataset, for what needs samples."""
+DatasetLogs = tuple[tuple[Path, ...], tuple[str, ...]]
+"""Experiment files of a dataset in the order of time, and the names in them of the sensors that were chosen."""
 
-    files: tuple[Path, ...]
-    """Experiment files in the order of time."""
-    sensors: tuple[str, ...]
-    """Names that the sensors have in them, of those that were chosen; none where none was."""
 
-    @classmethod
-    def of(cls, dataset: Dataset, command: str, sensors: Sequence[str]) -> DatasetLogs:
-        """Find the experiment files of recordings.
+def dataset_logs(dataset: Dataset, command: str, sensors: Sequence[str]) -> DatasetLogs:
+    """Find the experiment files of recordings, for what needs samples.
 
-        Args:
-            dataset: The dataset.
-            command: Name of the command, for messages.
-            sensors: Serial numbers or names; none for all.
+    Args:
+        dataset: The dataset.
+        command: Name of the command, for messages.
+        sensors: Serial numbers or names; none for all.
 
-        Returns:
-            The files.
+    Returns:
+        The files.
 
-        Raises:
-            ExperimentError: If a recording is a log to which an experiment file was applied.
-            MissingFileError: If a file is not there any more.
-        """
-        files = tuple(dict.fromkeys(_files_in_time(dataset, sensors)))
-        why = f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected"
-        for file in files:
-            if not file.lower().endswith(".toml"):
-                raise ExperimentError(
-                    f"{why} recordings with an experiment file each, got the log {file}; name an experiment file of it"
-                )
-            if not Path(file).exists():
-                raise MissingFileError(
-                    f"{why} the recording where it was added from, {file}, which is not there; name experiment files "
-                    "instead"
-                )
-        return cls(
-            files=tuple(map(Path, files)),
-            sensors=tuple(dict.fromkeys(dataset.identity(sensor).name for sensor in sensors)),
-        )
+    Raises:
+        ExperimentError: If a recording is a log to which an experiment file was applied.
+        MissingFileError: If a file is not there any more.
+    """
+    files = tuple(dict.fromkeys(_files_in_time(dataset, sensors)))
+    why = f"{dataset.folder}: {command} needs samples, which a dataset does not keep; expected"
+    for file in files:
+        if not file.lower().endswith(".toml"):
+            raise ExperimentError(
+                f"{why} recordings with an experiment file each, got the log {file}; name an experiment file of it"
+            )
+        if not Path(file).exists():
+            raise MissingFileError(
+                f"{why} the recording where it was added from, {file}, which is not there; name experiment files "
+                "instead"
+            )
+    return tuple(map(Path, files)), tuple(dict.fromkeys(dataset.identity(sensor).name for sensor in sensors))
 
 
 def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> DatasetLogs | None:
@@ -239,8 +229,8 @@ def run_from_dataset(command: str, folder: Path, given: Mapping[str, Any]) -> Da
     sensors = given.get("sensor") or ()
     if command not in FROM_LOGS:
         raise ExperimentError(f"{folder}: {command} {needs_samples(dataset, sensors)}")
-    logs = DatasetLogs.of(dataset, command, [sensors] if isinstance(sensors, str) else list(sensors))
-    listed = ", ".join(map(str, logs.files[-_MOST_LOGS:][::-1]))
-    more = f" and {len(logs.files) - _MOST_LOGS} more" if len(logs.files) > _MOST_LOGS else ""
+    files, names = dataset_logs(dataset, command, [sensors] if isinstance(sensors, str) else list(sensors))
+    listed = ", ".join(map(str, files[-_MOST_LOGS:][::-1]))
+    more = f" and {len(files) - _MOST_LOGS} more" if len(files) > _MOST_LOGS else ""
     start_logging().info("%s needs samples: reading the recordings of %s: %s%s", command, folder, listed, more)
-    return logs
+    return files, names

@@ -160,31 +160,20 @@ def evaluation_of(record: SensorRecord) -> StoredEvaluation:
     return record.evaluation
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ErrorInterval:
-    """Root mean square of the norm of an error, in means over seconds."""
+def error_interval(means: Sequence[SecondMeans], axes: slice, *, tared: bool) -> tuple[float, float, float]:
+    """Compute the root mean square of the norm of an error, in means over seconds.
 
-    size: float
-    """The root mean square; N or N m."""
-    at_least: float
-    """Lower end of its 95 % interval."""
-    at_most: float
-    """Upper end; infinite where too few data determine it."""
+    Args:
+        means: Errors of one calibration in every session of all recordings.
+        axes: Components, of force or of moment.
+        tared: Whether the mean error of every session is taken off.
 
-    @classmethod
-    def of(cls, means: Sequence[SecondMeans], axes: slice, *, tared: bool) -> Self:
-        """Compute it.
-
-        Args:
-            means: Errors of one calibration in every session of all recordings.
-            axes: Components, of force or of moment.
-            tared: Whether the mean error of every session is taken off.
-
-        Returns:
-            The size and its interval.
-        """
-        errors = [one.error[:, axes] - (one.error[:, axes].mean(axis=0) if tared else 0.0) for one in means]
-        square = np.concatenate([(error**2).sum(axis=1) for error in errors])
-        width = float(mean_error(square[:, None], joined_times([one.time_s for one in means])).half_width[0])
-        mean, width = float(square.mean()), width if np.isfinite(width) else np.inf
-        return cls(size=mean**0.5, at_least=max(mean - width, 0.0) ** 0.5, at_most=(mean + width) ** 0.5)
+    Returns:
+        The root mean square and the ends of its 95 % interval, the upper infinite where too few data determine it; N or
+        N m.
+    """
+    errors = [one.error[:, axes] - (one.error[:, axes].mean(axis=0) if tared else 0.0) for one in means]
+    square = np.concatenate([(error**2).sum(axis=1) for error in errors])
+    width = float(mean_error(square[:, None], joined_times([one.time_s for one in means])).half_width[0])
+    mean, width = float(square.mean()), width if np.isfinite(width) else np.inf
+    return mean**0.5, max(mean - width, 0.0) ** 0.5, (mean + width) ** 0.5

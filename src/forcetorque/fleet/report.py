@@ -294,7 +294,7 @@ def _row(sensor: FleetSensor, evaluation: SensorEvaluation, verdict: LoadCaseVer
     specified = {case.name: case.load_case.states_requirement for one in evaluation.stored for case in one.load_cases}
     limits = {row.quantity: row.allowed for row in verdict.errors}
     worst = evaluation.last_error(verdict)
-    error, allowed = worst.interval, worst.allowed
+    allowed = worst.allowed
     return RankedSensor(
         rank=1,
         robot=sensor.robot,
@@ -306,14 +306,14 @@ def _row(sensor: FleetSensor, evaluation: SensorEvaluation, verdict: LoadCaseVer
         loads=verdict.loads,
         quantity=worst.quantity,
         unit=worst.unit,
-        error=error.size,
-        error_at_least=error.at_least,
-        error_at_most=finite_or_none(error.at_most),
+        error=worst.size,
+        error_at_least=worst.at_least,
+        error_at_most=finite_or_none(worst.at_most),
         allowed=allowed,
         allowed_N=limits.get("force"),
         allowed_Nm=limits.get("moment"),
         allowed_is_specified=specified.get(verdict.load_case, False),
-        times_allowed=error.size / allowed if allowed else None,
+        times_allowed=worst.size / allowed if allowed else None,
         last_date=worst.record.date,
         last_file=worst.record.file,
         recordings=len(evaluation.evaluated),

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -23,39 +24,10 @@ from forcetorque.fleet.evaluate import evaluate_records
 from forcetorque.fleet.parquet_dataset import Dataset, is_dataset, require_folder
 from forcetorque.fleet.plan_file import PlannedRecording, planned_recordings, read_plan
 from forcetorque.fleet.process_pool import Pool
-from forcetorque.fleet.recording_source import RecordingSource
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult, created_now
 from forcetorque.results.table import Row, Shown, Table, optional_table
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AddJob:
-    """A recording to add."""
-
-    source: RecordingSource
-    """Where it comes from."""
-    dataset: Path
-    """Folder of the dataset."""
-    options: AddOptions
-    """What is kept of it."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CalibrateJob:
-    """A sensor to calibrate."""
-
-    serial: str
-    """Serial number."""
-    dataset: Path
-    """Folder of the dataset."""
-    folder: Path
-    """Folder of the calibrations."""
-    code_version: str
-    """Version of this library, for the record."""
-    created: str
-    """Date and time, ISO 8601, for the record."""
 
 
 class CalibratedSensor(Row):
@@ -84,37 +56,44 @@ class CalibratedSensor(Row):
     """A message for every recording that has readings of a longer one, and therefore does not count."""
 
 
-def run_add(job: AddJob) -> list[AddedSensor]:
+def run_add(planned: PlannedRecording, dataset: Path) -> list[AddedSensor]:
     """Add a recording.
 
     Args:
-        job: The recording.
+        planned: The recording.
+        dataset: Folder of the dataset.
 
     Returns:
         A row per sensor.
     """
-    return add_recording(job.source, job.dataset, job.options)
+    return add_recording(planned.source, dataset, AddOptions(robot=planned.robot))
 
 
-def run_calibrate(job: CalibrateJob) -> CalibratedSensor:
+def run_calibrate(
+    serial: str, dataset_folder: Path, output_folder: Path, *, code_version: str, created: str
+) -> CalibratedSensor:
     """Calibrate a sensor, write its calibration, and evaluate it where there are validation data.
 
     Args:
-        job: The sensor.
+        serial: Serial number.
+        dataset_folder: Folder of the dataset.
+        output_folder: Folder of the calibrations.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
 
     Returns:
         The row of the sensor.
     """
-    dataset = Dataset.opened(job.dataset)
-    records = dataset.records(dataset.of_sensor(job.serial))
+    dataset = Dataset.opened(dataset_folder)
+    records = dataset.records(dataset.of_sensor(serial))
     moments, left_out = dataset.moments(records)
     identity = records[-1].identity
-    file = job.folder / calibration_file(identity.name, identity.serial)
-    made = calibrate_for_file(None, file, code_version=job.code_version, created=job.created, moments=moments)
+    file = output_folder / calibration_file(identity.name, identity.serial)
+    made = calibrate_for_file(None, file, code_version=code_version, created=created, moments=moments)
     made.save()
     decision, calibrated, prior = None, None, None
     if any(record.evaluation is not None for record in records):
-        result = evaluate_records(dataset.folder, job.serial, records, {str(file): made.calibrations[0].calibration})
+        result = evaluate_records(dataset.folder, serial, records, {str(file): made.calibrations[0].calibration})
         worst = max(result.load_cases, key=lambda use: CONCERN[use.decision], default=None)
         decision = None if worst is None else worst.decision
         left_out = tuple(dict.fromkeys((*left_out, *result.left_out)))
@@ -244,7 +223,7 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
     failures: list[FailedJob] = []
     waiting = []
     for one in planned:
-        kept = Failures(dataset=dataset, options=_options(one), code_version=code_version)
+        kept = Failures(dataset=dataset, options=AddOptions(robot=one.robot), code_version=code_version)
         earlier = None if retry_failed else kept.of(one.source)
         if earlier is None:
             waiting.append((one, kept))
@@ -252,10 +231,8 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
             failures.append(FailedJob(job="add", subject=earlier.file, error=earlier.error, earlier=True))
     added = present = 0
     left = TimeLeft(progress, f"{len(waiting)} recordings", len(waiting))
-    jobs = [
-        AddJob(source=one.source.absolute(), dataset=real_path(dataset), options=_options(one)) for one, _ in waiting
-    ]
-    for done, outcome in enumerate(pool.outcomes(run_add, jobs), start=1):
+    jobs = [replace(one, source=one.source.absolute()) for one, _ in waiting]
+    for done, outcome in enumerate(pool.outcomes(partial(run_add, dataset=real_path(dataset)), jobs), start=1):
         one, kept = waiting[outcome.index]
         left.at(done)
         if outcome.value is None:
@@ -284,24 +261,17 @@ def run_plan(file: Path, pool: Pool, *, retry_failed: bool = False, progress: Pr
     )
 
 
-def _options(planned: PlannedRecording) -> AddOptions:
-    return AddOptions(robot=planned.robot)
-
-
 def _calibrated(dataset: Path, folder: Path, pool: Pool, progress: Progress) -> Iterator[CalibratedSensor | FailedJob]:
     serials = sorted(Dataset.opened(dataset).serials)
-    jobs = [
-        CalibrateJob(
-            serial=serial,
-            dataset=real_path(dataset),
-            folder=real_path(folder),
-            code_version=version("forcetorque"),
-            created=created_now(),
-        )
-        for serial in serials
-    ]
-    left = TimeLeft(progress, f"{len(jobs)} sensors", len(jobs))
-    for done, outcome in enumerate(pool.outcomes(run_calibrate, jobs), start=1):
+    calibrate = partial(
+        run_calibrate,
+        dataset_folder=real_path(dataset),
+        output_folder=real_path(folder),
+        code_version=version("forcetorque"),
+        created=created_now(),
+    )
+    left = TimeLeft(progress, f"{len(serials)} sensors", len(serials))
+    for done, outcome in enumerate(pool.outcomes(calibrate, serials), start=1):
         left.at(done)
         if outcome.value is not None:
             yield outcome.value

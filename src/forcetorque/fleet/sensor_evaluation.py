@@ -39,8 +39,8 @@ from forcetorque.experiment.validation_offset import Offset
 from forcetorque.fleet.block_errors import (
     BlockErrors,
     BlockPair,
-    ErrorInterval,
     LargerError,
+    error_interval,
     evaluation_of,
     second_means,
 )
@@ -116,8 +116,12 @@ class LastError:
     """What the error is of."""
     unit: Literal["N", "N m"]
     """Its unit."""
-    interval: ErrorInterval
-    """Its size with its 95 % interval."""
+    size: float
+    """Its root mean square; N or N m."""
+    at_least: float
+    """Lower end of the 95 % interval of it."""
+    at_most: float
+    """Upper end; infinite where too few data determine it."""
     allowed: float | None
     """What is allowed at the load case; None where no limit exists."""
 
@@ -133,13 +137,13 @@ class LastError:
         Returns:
             The reason; None where the error is within the limit, or there is none.
         """
-        if self.allowed is None or self.interval.size <= self.allowed:
+        if self.allowed is None or self.size <= self.allowed:
             return None
         text = (
-            f"in {self._recording} its {self.quantity} error is {amount(self.interval.size, self.unit)}, "
+            f"in {self._recording} its {self.quantity} error is {amount(self.size, self.unit)}, "
             f"{amount(self.allowed, self.unit)} allowed"
         )
-        against: Literal["use", "data"] = "use" if self.interval.at_least > self.allowed else "data"
+        against: Literal["use", "data"] = "use" if self.at_least > self.allowed else "data"
         return Reason(against=against, text=text, remedy=LOOK_FOR_CAUSE)
 
 
@@ -277,13 +281,16 @@ class SensorEvaluation:
                 record=record,
                 quantity=quantity,
                 unit=unit,
-                interval=ErrorInterval.of(own, axes, tared=verdict.offset == "tared"),
+                size=size,
+                at_least=at_least,
+                at_most=at_most,
                 allowed=limits.get(quantity),
             )
             for record, own in last
             for axes, (quantity, unit) in zip(FORCE_AND_MOMENT, quantities, strict=True)
+            for size, at_least, at_most in [error_interval(own, axes, tared=verdict.offset == "tared")]
         ]
-        return max(errors, key=lambda one: one.interval.size / one.allowed if one.allowed else 0.0)
+        return max(errors, key=lambda one: one.size / one.allowed if one.allowed else 0.0)
 
     def over_time(self, name: str) -> tuple[RecordingError, ...]:
         """Give the error of a calibration in every recording.

@@ -165,8 +165,8 @@ def sensor_records(
     runs = _runs(experiment)
     if len(segments) == 1:
         reduced = [_of_whole(run, options) for run in runs]
-        found = _joined([own.findings for own in reduced])
-        yield from (_record(run, found, own, code_version) for run, own in zip(runs, reduced, strict=True))
+        found = _joined([_findings(run) for run in runs])
+        yield from (_record(run, found, code_version, *own) for run, own in zip(runs, reduced, strict=True))
         return
     sensors = [_Segmented(run, options) for run in runs]
     findings: list[Sequence[Finding]] = []
@@ -185,7 +185,7 @@ def sensor_records(
     found_in_all = joined_findings(segments, findings)
     for run in runs:
         whole = sensors.pop(0).reduced(segments)  # what is kept of a sensor is let go with its record
-        yield _record(run, found_in_all, whole, code_version)
+        yield _record(run, found_in_all, code_version, *whole)
 
 
 def _runs(experiment: Experiment) -> list[SensorRun]:
@@ -194,14 +194,8 @@ def _runs(experiment: Experiment) -> list[SensorRun]:
     return [SensorRun(experiment, sensor, shared=shared) for sensor in experiment.sensors]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Reduced:
-    """What was computed of one sensor in a recording."""
-
-    moments: RecordingMoments | None
-    evaluation: StoredEvaluation | None
-    findings: Sequence[Finding]
-    warnings: tuple[str, ...]
+_Reduced = tuple[RecordingMoments | None, StoredEvaluation | None, tuple[str, ...]]
+"""Moments, evaluation and warnings of one sensor in a recording."""
 
 
 class _Segmented:
@@ -225,20 +219,14 @@ class _Segmented:
     def reduced(self, segments: Sequence[Segment]) -> _Reduced:
         """Put together what was computed."""
         evaluated = self._evaluation.joined()
-        return _Reduced(
-            moments=self._moments.moments(),
-            evaluation=StoredEvaluation.of(self._run, evaluated) if evaluated else None,
-            warnings=self._doubts.warnings(segments) if self._fits else (),
-            findings=(),
-        )
+        evaluation = StoredEvaluation.of(self._run, evaluated) if evaluated else None
+        return self._moments.moments(), evaluation, self._doubts.warnings(segments) if self._fits else ()
 
 
 def _of_whole(run: SensorRun, options: AddOptions) -> _Reduced:
     moments = recording_moments(run, block_s=options.block_s)[0] if run.has(Use.CALIBRATION) else None
     evaluation = StoredEvaluation.of(run) if run.has(Use.VALIDATION) else None
-    findings = _findings(run)
-    warnings = () if moments is None else tuple(data_doubts(run))
-    return _Reduced(moments=moments, evaluation=evaluation, findings=findings, warnings=warnings)
+    return moments, evaluation, () if moments is None else tuple(data_doubts(run))
 
 
 def _findings(run: SensorRun) -> list[Finding]:
@@ -254,7 +242,14 @@ def _joined(findings: Sequence[Iterable[Finding]]) -> list[Finding]:
     return sorted(together, key=lambda finding: finding.start_ns or 0)
 
 
-def _record(run: SensorRun, findings: Sequence[Finding], reduced: _Reduced, code_version: str) -> SensorRecord:
+def _record(
+    run: SensorRun,
+    findings: Sequence[Finding],
+    code_version: str,
+    moments: RecordingMoments | None,
+    evaluation: StoredEvaluation | None,
+    warnings: tuple[str, ...],
+) -> SensorRecord:
     experiment = run.experiment
     start_ns, end_ns = experiment.recording.span_ns
     others = {sensor.stream for sensor in experiment.sensors} - {run.sensor.stream}
@@ -269,10 +264,10 @@ def _record(run: SensorRun, findings: Sequence[Finding], reduced: _Reduced, code
         end_ns=end_ns,
         sensors=len(experiment.sensors),
         findings=finding_rows(start_ns, [finding for finding in findings if finding.stream not in others]),
-        warnings=reduced.warnings,
-        prior_error=_prior_error(run, reduced.moments, reduced.evaluation),
-        moments=reduced.moments,
-        evaluation=reduced.evaluation,
+        warnings=warnings,
+        prior_error=_prior_error(run, moments, evaluation),
+        moments=moments,
+        evaluation=evaluation,
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.toml_file import Table
 from forcetorque.formats.arm_log import LoggedTorques, LoggedWrist
-from forcetorque.recording.recording import FileRows, Finding
+from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
 
 
@@ -48,8 +48,8 @@ class LogReading:
     """What was found while reading them."""
     origin: Mapping[str, str] | None = None
     """What the log itself specifies about its origin; None if nothing."""
-    files: Mapping[str, tuple[FileRows, ...]] = field(default_factory=dict)
-    """Files that streams were put together of, by the name of the stream."""
+    files: Mapping[str, tuple[tuple[str, int], ...]] = field(default_factory=dict)
+    """Files that streams were put together of, by the name of the stream: path in the folder and number of samples."""
 
     @classmethod
     def of(
@@ -58,7 +58,7 @@ class LogReading:
         *,
         unread: Iterable[Finding] = (),
         origin: Mapping[str, str] | None = None,
-        files: Mapping[str, tuple[FileRows, ...]] | None = None,
+        files: Mapping[str, tuple[tuple[str, int], ...]] | None = None,
     ) -> Self:
         """Collect the streams of a log.
 

@@ -338,8 +338,8 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
     sketch = known.sketch(source)
     unread = column_rows(sketch, likely_quantities(sketch))
     log = first_look_at_sensor(source, name)
-    found = None if log is None else sensor_alone(log)
-    recording = Recording(streams={}) if log is None or found is None else log.recording
+    found = None if log is None else sensor_alone(*log)
+    recording = Recording(streams={}) if log is None or found is None else log[0]
     start, end = recording.span_ns if recording.streams else (0, 0)
     return Inspection(
         source=str(source),

@@ -10,10 +10,9 @@ from scipy.special import stdtrit
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray, true_runs
 from forcetorque.base.wrench import FORCE
-from forcetorque.inspection.draft.recording_table import SensorLog
 from forcetorque.recording.alignment import usable_samples
 from forcetorque.recording.frozen_and_saturated_samples import flat_tops, ranges_of, white_variance
-from forcetorque.recording.recording import Finding
+from forcetorque.recording.recording import Finding, Recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.recording.stream_faults import stream_findings
 from forcetorque.results.table import Row
@@ -78,13 +77,17 @@ class SensorAlone(Row):
     """What was assumed, because the file does not state it, as lines of an experiment file."""
 
 
-def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | None:
+def sensor_alone(recording: Recording, assumed: tuple[str, ...]) -> tuple[SensorAlone, tuple[Finding, ...]] | None:
     """Examine a sensor by its own log.
+
+    Args:
+        recording: Its stream alone.
+        assumed: Likely values that the file does not state, as lines of an experiment file.
 
     Returns:
         The summary, and findings in time; None for a log with fewer samples than a rate takes.
     """
-    (stream,) = log.recording.streams.values()
+    (stream,) = recording.streams.values()
     signal = stream.signals.get("wrench") or stream.signal("raw")
     kept = usable_samples(stream.stamp_ns)
     if len(kept) < 2 * _STRIDE:
@@ -122,11 +125,11 @@ def sensor_alone(log: SensorLog) -> tuple[SensorAlone, tuple[Finding, ...]] | No
         clipped_samples=int(np.count_nonzero(clipped.any(axis=1))),
         columns=signal.columns,
         units=signal.units,
-        assumed=log.assumed,
+        assumed=assumed,
     )
     found += [_tare_finding(stream, signal, instant, jump) for instant, jump in tares]
     found += _clipping(stream, signal, stamps, values, clipped)
-    return summary, (*log.recording.findings, *sorted(found, key=lambda finding: finding.start_ns or 0))
+    return summary, (*recording.findings, *sorted(found, key=lambda finding: finding.start_ns or 0))
 
 
 def _clipped(values: FloatArray) -> BoolArray:

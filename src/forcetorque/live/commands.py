@@ -227,7 +227,6 @@ def live(
     )
     from forcetorque.live.program_check import program_checks
     from forcetorque.live.recent_samples import KEPT, RecentSamples
-    from forcetorque.live.result import KeptSamples
     from forcetorque.live.ros_topics import RosOutput
     from forcetorque.live.run_from_settings import make_run, ros_topics
     from forcetorque.live.settings import by_sensor, read_settings
@@ -317,9 +316,7 @@ def live(
         update={"replayed": replay is not None, "output_file": None if output is None else str(output)}
     )
     if figure is not None and recent is not None:
-        last = recent.since(0, KEPT)
-        kept = KeptSamples(time_s=last.time_s, came=last.came, wrench=last.wrench, half_width=last.half_width)
-        result = drawn_to(result.model_copy(update={"kept": kept}), figure)
+        result = drawn_to(result.model_copy(update={"kept": recent.since(0, KEPT)}), figure)
     with redirect_stdout(sys.stderr):  # standard output is for lines
         show(result, output_format, details=details)
     if ended_by == "closed output":

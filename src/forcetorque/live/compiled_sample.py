@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -32,21 +31,14 @@ POLICIES = {FaultPolicy.FLAG: _FLAG, FaultPolicy.HOLD: _HOLD, FaultPolicy.REFUSE
 """Numbers of policies in compiled code."""
 
 
-class CompiledSample(NamedTuple):
-    """Compiled functions of s sensors, c channels, v variables and d = 7 + v terms of the error."""
-
-    read: Callable[..., bool]
-    """Finds faults and writes status and wrenches; gives whether any sensor has a fault."""
-    finish: Callable[..., None]
-    """Takes bias and weight off the wrenches, writes intervals, and does with faults what the policy says."""
-
-
 @cache
-def compiled_sample() -> CompiledSample:
+def compiled_sample() -> tuple[Callable[..., bool], Callable[..., None]]:
     """Give the functions; the first machine to call it compiles them.
 
     Returns:
-        The functions, compiled.
+        Functions of s sensors, c channels, v variables and d = 7 + v terms of the error, compiled. The first finds
+        faults, writes status and wrenches, and gives whether any sensor has a fault. The second takes bias and weight
+        off the wrenches, writes intervals, and does with faults what the policy says.
     """
     source = source_digest(Path(__file__), Path(sample_status.__file__))
 
@@ -137,4 +129,4 @@ def compiled_sample() -> CompiledSample:
                 elif policy == _HOLD:
                     held[0, k, i], held[1, k, i] = load[k, i], half_width[k, i]
 
-    return CompiledSample(read=read, finish=finish)
+    return read, finish

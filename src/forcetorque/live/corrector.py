@@ -194,7 +194,7 @@ class Corrector:
         ]
         self._prepare(self._terms)
         with announced("compiling the correction of live samples for this machine, once; it takes some seconds"):
-            self._compiled = compiled_sample()
+            self._read, self._finish = compiled_sample()
         self._is_plain = not own_offset and not self.options.take_tool_off
         self._result = Corrected(wrench=self._wrench, half_width=self._half_width, status=self._status)
         tool = self.options.tool
@@ -343,7 +343,7 @@ class Corrector:
             self._clock_ns[NOW] = NEVER if stamp_ns is None else stamp_ns
         except OverflowError:
             raise RecordingError(f"stamp_ns: expected nanoseconds of 64 bits, got {stamp_ns}") from None
-        faulty = self._compiled.read(*self._read_arguments)
+        faulty = self._read(*self._read_arguments)
         if faults is not None and any(faults):
             self._status |= faults
             faulty = True
@@ -351,7 +351,7 @@ class Corrector:
             self._wrench[k] = quadratic.corrected(self._wrench[k])
         if not self._is_plain:
             self._offsets(stamp_ns, gravity, faulty)
-        self._compiled.finish(*self._finish_arguments)
+        self._finish(*self._finish_arguments)
         return self._result
 
     def _expected(self, samples: Any, variables: Any) -> str:

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.base.arrays import FloatArray
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.live.corrector import Corrected, Corrector
 from forcetorque.live.option_values import FaultPolicy, HeldQuantity
 from forcetorque.live.packets import Packet
+from forcetorque.live.result import Samples
 from forcetorque.live.sample_status import FAULTS, Status
 
 KEPT: Final = 60_000
@@ -23,33 +23,6 @@ _SECOND_NS: Final = 10**9
 """A gap in time from which on lines are broken, and a step back from which on the sender began again; ns."""
 _HELD_NS: Final = _SECOND_NS // 2
 """Age at which the last sample of another stream is no longer shown beside new ones; ns."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Samples:
-    """Samples k of s sensors, copied out of a run."""
-
-    first: int
-    """Number of the first, from 0 at the begin of the run."""
-    time_s: FloatArray
-    """Time since the first sample, by the stamps of the senders, never decreasing; shape (k,); s."""
-    stamp_ns: IntArray
-    """Stamps; shape (k,); ns."""
-    came: BoolArray
-    """Whether the sample is of the sensor; else that of another stream stands beside its last; shape (k, s)."""
-    wrench: FloatArray
-    """Corrected wrenches; NaN where there is none; shape (k, s, 6); N, N m."""
-    half_width: FloatArray
-    """Half-widths of their 95 % intervals; shape (k, s, 6)."""
-    reading: FloatArray
-    """Wrenches by the prior matrix, as they were before the correction; NaN without one; shape (k, s, 6); N, N m."""
-    positions: FloatArray
-    """Positions of joints as they came; NaN before; shape (k, d); rad or m."""
-
-    @property
-    def next(self) -> int:
-        """Number of the sample after the last."""
-        return self.first + len(self.time_s)
 
 
 class RecentSamples:

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from forcetorque.base.arrays import BoolArray, FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.results.answer import Answer, Concern
 from forcetorque.results.number_text import counted
 from forcetorque.results.result import DrawnResult
@@ -121,17 +121,30 @@ class LiveCheck(Row):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class KeptSamples:
-    """The last samples k of all sensors s, for the figure."""
+class Samples:
+    """Samples k of s sensors, copied out of a run."""
 
+    first: int
+    """Number of the first, from 0 at the begin of the run."""
     time_s: FloatArray
-    """Time since the first sample of the run; shape (k,); s."""
+    """Time since the first sample, by the stamps of the senders, never decreasing; shape (k,); s."""
+    stamp_ns: IntArray
+    """Stamps; shape (k,); ns."""
     came: BoolArray
     """Whether the sample is of the sensor; else that of another stream stands beside its last; shape (k, s)."""
     wrench: FloatArray
-    """Corrected wrenches; shape (k, s, 6); N, N m; NaN where there is none."""
+    """Corrected wrenches; NaN where there is none; shape (k, s, 6); N, N m."""
     half_width: FloatArray
-    """Half-widths of their 95 % intervals; shape (k, s, 6); NaN without a posterior."""
+    """Half-widths of their 95 % intervals; shape (k, s, 6)."""
+    reading: FloatArray
+    """Wrenches by the prior matrix, as they were before the correction; NaN without one; shape (k, s, 6); N, N m."""
+    positions: FloatArray
+    """Positions of joints as they came; NaN before; shape (k, d); rad or m."""
+
+    @property
+    def next(self) -> int:
+        """Number of the sample after the last."""
+        return self.first + len(self.time_s)
 
 
 class LiveRun(DrawnResult):
@@ -158,7 +171,7 @@ class LiveRun(DrawnResult):
     """Longest time from a packet to its lines; s; null without a packet."""
     replayed: bool = Field(default=False, exclude=True, repr=False)
     """Whether the samples are of a recording."""
-    kept: KeptSamples | None = Field(default=None, exclude=True, repr=False)
+    kept: Samples | None = Field(default=None, exclude=True, repr=False)
     """The last samples; None where none were kept."""
     output_file: str | None = None
     """Parquet file or bag; null where none was written."""

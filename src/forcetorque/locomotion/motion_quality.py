@@ -252,7 +252,7 @@ def _oscillation_rows(
         damping=None,
         damping_half_width_95=None,
         phase_kept_s=None,
-        seen_amplitude=float(search.sensitivity.amplitude.max()),
+        seen_amplitude=float(search.sensitivity[1].max()),
         seen_amplitude_middle=search.seen_amplitude(math.sqrt(search.lowest_hz * search.highest_hz)),
         lowest_hz=search.lowest_hz,
         highest_hz=search.highest_hz,

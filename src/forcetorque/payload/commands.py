@@ -191,11 +191,11 @@ def payload(
                 if description.torques is not None:
                     torques[path] = description.torques
                     continue
-                alone = experiment_of_description(path, description, specified, at)
-            arms.append(alone.arm)
-            content = keep_experiment(path, alone.experiment)
+                made, text, arm = experiment_of_description(path, description, specified, at)
+            arms.append(arm)
+            content = keep_experiment(path, made)
             if save_experiment is not None:
-                write_bytes_atomically(save_experiment, alone.content.encode())
+                write_bytes_atomically(save_experiment, text.encode())
         else:
             content = load_experiment(path)
         runs.append(SensorRun(content, weighing_sensor(content)))

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -30,18 +29,6 @@ SERIAL = "not stated"
 """Serial number of a sensor that is part of the arm, in an experiment file of its log."""
 _MOST_MOVING = 0.95
 """Share of a log in which an arm moves, from which on too little is left to weigh at rest (heuristic)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LogAlone:
-    """An experiment that was made of a log."""
-
-    experiment: Experiment
-    """The experiment."""
-    content: str
-    """Its file, as TOML."""
-    arm: ArmLog
-    """What the log is of, and what was assumed."""
 
 
 def is_experiment_file(path: Path) -> bool:
@@ -133,7 +120,7 @@ def _format_of(path: Path) -> LogFormat[Any]:
 
 def experiment_of_description(
     path: Path, description: LogDescription, specified: Mapping[str, object], folder: Path
-) -> LogAlone:
+) -> tuple[Experiment, str, ArmLog]:
     """Make the experiment of a log that was read.
 
     Args:
@@ -143,7 +130,7 @@ def experiment_of_description(
         folder: Folder of the experiment file, from which its paths count.
 
     Returns:
-        The experiment, with one sensor.
+        The experiment, with one sensor; its file, as TOML; what the log is of, and what was assumed.
 
     Raises:
         ExperimentError: If the log has no wrench.
@@ -159,7 +146,7 @@ def experiment_of_description(
         assumed=tuple(_assumed(path, wrist, experiment)),
         contradictions=wrist.contradictions,
     )
-    return LogAlone(experiment=experiment, content=content, arm=arm)
+    return experiment, content, arm
 
 
 def load_of_torque_logs(logs: Mapping[Path, LoggedTorques], specified: Mapping[str, object]) -> TorqueLoad:

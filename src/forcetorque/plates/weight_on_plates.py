@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -29,14 +28,6 @@ _TARED_N = 1.0
 """Force that a free plate may measure; N."""
 _SIDEWAYS = 0.03
 """Share of the weight that the mean force along the surface of who stands still does not reach; 1.7 degrees."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Means:
-    """Forces down into all plates over an interval."""
-
-    mass_kg: float
-    half_width_kg: float
 
 
 def weigh(
@@ -79,7 +70,7 @@ def weigh(
             f"{path}: --start-s, --end-s: expected an interval with a load above {LOADED_N:g} N, got "
             f"{_total(down[within]).mean() if within.any() else 0.0:.1f} N"
         )
-    total = _mass(time[within], _total(down[within]), gravity)
+    mass_kg, half_width_kg = _mass(time[within], _total(down[within]), gravity)
     rows = tuple(_row(plates, plate, within, down, k, gravity) for k, plate in enumerate(plates.plates))
     bearing = [(row, plate) for row, plate in zip(rows, plates.plates, strict=True) if row.force_N > LOADED_N]
     return PlateWeight(
@@ -87,8 +78,8 @@ def weigh(
         start_s=float(time[within][0]),
         end_s=float(time[within][-1]),
         gravity=gravity,
-        mass_kg=total.mass_kg,
-        half_width_95_kg=total.half_width_kg,
+        mass_kg=mass_kg,
+        half_width_95_kg=half_width_kg,
         plates=rows,
         contradictions=(
             *_signs(rows),
@@ -128,9 +119,10 @@ def _longest_rest(time: FloatArray, total: FloatArray, allowed: BoolArray) -> Bo
     return (window >= best[0]) & (window <= best[1])
 
 
-def _mass(time: FloatArray, force: FloatArray, gravity: float) -> _Means:
+def _mass(time: FloatArray, force: FloatArray, gravity: float) -> tuple[float, float]:
+    """Mass by the force down, and half of its 95 % interval; kg."""
     half_width = float(mean_error(force[:, None], time).half_width[0])
-    return _Means(mass_kg=abs(float(force.mean())) / gravity, half_width_kg=half_width / gravity)
+    return abs(float(force.mean())) / gravity, half_width / gravity
 
 
 def _row(plates: PlateFile, plate: ForcePlate, within: BoolArray, down: FloatArray, k: int, gravity: float) -> PlateRow:
@@ -143,11 +135,12 @@ def _row(plates: PlateFile, plate: ForcePlate, within: BoolArray, down: FloatArr
         left = plate.wrench[within][:, [4, 3]] + plate.wrench[within][:, 2:3] * (1e-3 * centre * (1.0, -1.0))
         sway = float(1e3 * np.sqrt((left**2).sum(axis=1).mean()) / abs(force))
     others = np.delete(down, k, axis=1)
-    alone = None
+    alone_kg = alone_half_width_kg = None
     if len(plates.plates) > 1:
         is_alone = np.asarray((np.abs(others) < LOADED_N).all(axis=1), dtype=np.bool_)
         rest = _longest_rest(time, down[:, k], is_alone)
-        alone = None if rest is None else _mass(time[rest], down[rest, k], gravity)
+        if rest is not None:
+            alone_kg, alone_half_width_kg = _mass(time[rest], down[rest, k], gravity)
     edges = plate.half_edges_m
     return PlateRow(
         plate=plate.number,
@@ -158,8 +151,8 @@ def _row(plates: PlateFile, plate: ForcePlate, within: BoolArray, down: FloatArr
         y_mm=None if centre is None else float(centre[1]),
         sway_mm=sway,
         half_edges_mm=None if edges is None else 1e3 * edges,
-        alone_kg=None if alone is None else alone.mass_kg,
-        alone_half_width_95_kg=None if alone is None else alone.half_width_kg,
+        alone_kg=alone_kg,
+        alone_half_width_95_kg=alone_half_width_kg,
     )
 
 

@@ -223,16 +223,6 @@ class Finding:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FileRows:
-    """One of the files that a stream was put together of."""
-
-    name: str
-    """Path in the folder of the log."""
-    rows: int
-    """Number of its samples."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Recording(ArrayRecord):
     """Everything that was measured in one session, and which part of it is for what."""
@@ -247,8 +237,9 @@ class Recording(ArrayRecord):
     """Where it comes from, as free text by key: format, path, robot."""
     clocks: tuple[ClockShift, ...] = field(default=(), metadata=names())
     """How stamps were brought to one clock when it was read; not stored, for what is stored has that clock."""
-    files: Mapping[str, tuple[FileRows, ...]] = field(default_factory=dict, metadata=mapping())
-    """Files that streams were put together of, in their order, by the name of the stream; not stored."""
+    files: Mapping[str, tuple[tuple[str, int], ...]] = field(default_factory=dict, metadata=mapping())
+    """Files that streams were put together of, in their order, by the name of the stream: path in the folder of the log
+    and number of samples; not stored."""
     of_span_ns: tuple[int, int] | None = None
     """Earliest and latest stamp of the recording that it is a segment of; None for a whole one, which alone is stored.
     """

@@ -73,13 +73,13 @@ def report(
     require_writable(output)
     files = [*output, output[0].with_suffix(".numbers.json")]
     declare_outputs(*files, force=force)
-    sources = sort_sources([*results, *(calibration or ())])
-    demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
-    experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in sources.experiments]
+    paths, calibrations, acceptance, contents = sort_sources([*results, *(calibration or ())])
+    demands = Demands(acceptance=acceptance, population=read_population(population) if population else None)
+    experiments = [(str(path), read_experiment(path, log, Purpose.DISPLAY)) for path in paths]
     if viewer:
         for file, experiment in experiments:
             require_few_samples(f"--viewer of {file}", _shown_samples(experiment))
-    groups = assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
+    groups = assign_calibrations([experiment for _, experiment in experiments], calibrations)
     if sensor:
         groups = [
             _of_sensors(file, experiment, group, sensor)
@@ -89,7 +89,7 @@ def report(
     def section(place: int) -> Section:
         log.info("building the viewer")
         own = {file: calibration for group in groups[place].values() for file, calibration in group.items()}
-        return viewer_section(sources.experiments[place], experiments[place][1], own)
+        return viewer_section(paths[place], experiments[place][1], own)
 
     written = report(
         experiments,
@@ -98,7 +98,7 @@ def report(
         code_version=version("forcetorque"),
         title=title,
         demands=demands,
-        results=sources.results,
+        results=contents,
         viewer=section if viewer else None,
         progress=log.info,
     )
@@ -106,7 +106,7 @@ def report(
     for failure in written.save(*files):
         log.warning("%s", failure)
     written = written.model_copy(update={"files": tuple(map(str, files))})
-    show(written, output_format, details=details, experiments=sources.experiments)
+    show(written, output_format, details=details, experiments=paths)
 
 
 def _shown_samples(experiment: Experiment) -> int:

@@ -20,19 +20,15 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning.planning import plan_sentence
 from forcetorque.planning.section import PLAN
 from forcetorque.report.sensor_assessment import Demands
-from forcetorque.results.table import Row, short_names
+from forcetorque.results.table import RowOfSensor, short_names
 
 SensorKey = tuple[str, str]
 """Name of a sensor, and its serial number: robots share names."""
 
 
-class Undecided(Row):
+class Undecided(RowOfSensor):
     """Why there is no verdict on a calibration."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: str | None
     """The calibration file; None where the sensor has none."""
     reason: str
@@ -165,13 +161,9 @@ def texts_with_names(sentences: Iterable[tuple[str, str]], everyone: Collection[
     ]
 
 
-class NextSteps(Row):
+class NextSteps(RowOfSensor):
     """What to do next about a sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     steps: tuple[str, ...]
     """Sentences, the first is done first."""
 

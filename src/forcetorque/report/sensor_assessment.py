@@ -45,7 +45,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.recording.recording import Recording
 from forcetorque.results.number_text import with_error
-from forcetorque.results.table import Row, Shown, short_names
+from forcetorque.results.table import Row, RowOfSensor, Shown, short_names
 
 _FEW_INDEPENDENT = 20.0
 """Independent samples below which a standard error from ten blocks is itself uncertain."""
@@ -63,13 +63,9 @@ class VerdictLine(Row):
 _Outcome = TypeVar("_Outcome")
 
 
-class Assessment(Row):
+class Assessment(RowOfSensor):
     """Everything about one sensor; what could not be evaluated is empty and named in `not_evaluated`."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     verdict: tuple[VerdictLine, ...] = ()
     """What the rest comes to."""
     evaluation: tuple[CalibrationErrors, ...]
@@ -183,7 +179,7 @@ def assess(
         independence=counts or (),
         contact_forces=contacts.verdicts if contacts else (),
         best=contacts.best if contacts else (),
-        joint_torques=torques.verdicts if torques else (),
+        joint_torques=torques[0] if torques else (),
         spheres=clouds.rows if clouds else (),
         static=static,
         criteria=criteria,
@@ -200,9 +196,7 @@ def assess(
             *_warnings(run, unseen, names, tried),
         ),
         not_evaluated=tried.reasons,
-        left_out=tuple(
-            dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])
-        ),
+        left_out=tuple(dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques[1] if torques else ())])),
         evaluated=judged,
         clouds=clouds.analyses if clouds else (),
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -25,28 +24,17 @@ _NOT_DRAWN = {"report", "view"}
 """Results that a report does not show: itself, and the page of the viewer."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ReportSources:
-    """What a report is made from."""
-
-    experiments: tuple[Path, ...]
-    """Experiment files, at least one."""
-    calibrations: dict[str, Calibration]
-    """Calibrations by name of their file."""
-    acceptance: AcceptanceFile | None
-    """Limits, if there are any."""
-    results: dict[str, dict[str, Any]]
-    """Results of other commands by name of their file."""
-
-
-def sort_sources(paths: Sequence[Path]) -> ReportSources:
+def sort_sources(
+    paths: Sequence[Path],
+) -> tuple[list[Path], dict[str, Calibration], AcceptanceFile | None, dict[str, dict[str, Any]]]:
     """Sort files by the schema that they state.
 
     Args:
         paths: The files, and folders of calibrations.
 
     Returns:
-        Them by kind.
+        Experiment files, at least one; calibrations by name of their file; limits, if there are any; results of other
+        commands by name of their file.
 
     Raises:
         MissingFileError: If one does not exist.
@@ -78,12 +66,7 @@ def sort_sources(paths: Sequence[Path]) -> ReportSources:
         raise FormatError(f"report: expected an experiment file among the files, its samples are drawn; got none{got}")
     if len(acceptance) > 1:
         raise FormatError(f"report: expected one acceptance file, got {len(acceptance)}")
-    return ReportSources(
-        experiments=tuple(experiments),
-        calibrations=calibrations,
-        acceptance=acceptance[0] if acceptance else None,
-        results=results,
-    )
+    return experiments, calibrations, acceptance[0] if acceptance else None, results
 
 
 def assign_calibrations(

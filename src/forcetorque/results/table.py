@@ -62,6 +62,15 @@ class Row(ArrayModel):
         return dict(_flat(self.model_dump(mode="json", by_alias=True)))
 
 
+class RowOfSensor(Row):
+    """A row about one sensor."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+
+
 class _Brief:
     """Writes a value in at most a few words."""
 

@@ -13,7 +13,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS
 from forcetorque.experiment.validation_offset import KNOWN_BEFORE, Offset
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import COMPONENTS, Row, Shown, Table, WrenchValues, table_of
+from forcetorque.results.table import COMPONENTS, Row, RowOfSensor, Shown, Table, WrenchValues, table_of
 from forcetorque.study import thesis_tables as tables
 from forcetorque.study.candidate_errors import LEVER_M, PUSH_N, PushError, push_error
 from forcetorque.study.candidate_fits import WORKBENCH, Study
@@ -213,13 +213,9 @@ def _words(push: PushError) -> str:
     return f"{push.force_N:.3g} N and {push.moment_Nm:.3g} N m"
 
 
-class StudiedSensor(Row):
+class StudiedSensor(RowOfSensor):
     """The study of one sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     folder: str | None
     """Folder of its files, where they were written."""
     candidates: int

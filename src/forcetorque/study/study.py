@@ -255,7 +255,9 @@ def study_sensor(
     drawing = data.sphere if sphere is None else tuple(sphere)
     named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)
     say = progress or (lambda _: None)
-    generative = generative_fits(data, named, code_version=code_version, created=created, progress=say)
+    candidates, generative, not_generative = generative_fits(
+        data, named, code_version=code_version, created=created, progress=say
+    )
     study = run_study(
         [interval.data_set for interval in data.calibration],
         named,
@@ -265,14 +267,14 @@ def study_sensor(
         kinds=chosen_kinds,
         lambdas=lambdas,
         sphere=drawing,
-        generative=generative.candidates,
+        generative=candidates,
         truth=data.truth,
         progress=progress,
     )
     maker = CalibrationMaker(
         data=data,
         study=study,
-        generative=generative.calibrations,
+        generative=generative,
         sphere=drawing,
         code_version=code_version,
         created=created,
@@ -281,7 +283,7 @@ def study_sensor(
     for offset in KNOWN_BEFORE:
         calibrations[f"best_offset_{offset.replace('-', '_')}"] = maker.by_magnitude(offset)
         calibrations[f"best_by_axis_offset_{offset.replace('-', '_')}"] = maker.by_axis(offset)
-    left_out = (*study.fits.left_out, *generative.left_out)
+    left_out = (*study.fits.left_out, *not_generative)
     return SensorStudy(data=data, study=study, calibrations=calibrations, left_out=left_out)
 
 

@@ -159,18 +159,6 @@ def _refuse_judging_what_was_fitted(
                 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class GenerativeFits:
-    """What the generative model makes of the combinations."""
-
-    candidates: tuple[GenerativeCandidate, ...]
-    """Fits to be evaluated."""
-    calibrations: Mapping[str, Calibration]
-    """The same as artefacts, by combination."""
-    left_out: tuple[str, ...]
-    """Combinations that it cannot be fitted to, with the reason."""
-
-
 def generative_fits(
     data: StudyData,
     combinations: Mapping[str, Collection[str]],
@@ -178,7 +166,7 @@ def generative_fits(
     code_version: str,
     created: str,
     progress: Progress = lambda _: None,
-) -> GenerativeFits:
+) -> tuple[list[GenerativeCandidate], dict[str, Calibration], list[str]]:
     """Fit every combination by the generative model, as `calibrate` does.
 
     Args:
@@ -189,8 +177,8 @@ def generative_fits(
         progress: Called with a line for people as work goes on.
 
     Returns:
-        The fits. A combination without a load, with readings that do not follow it, or without a prior and with too few
-        loads, is left out.
+        The fits to be evaluated; the same as artefacts, by combination; and the reasons why others are left out: they
+        have no load, readings that do not follow it, or no prior and too few loads.
     """
     text = f"fitting {len(combinations)} combinations of data sets by the generative model"
     progress(text)
@@ -209,7 +197,7 @@ def generative_fits(
             continue
         calibrations[name] = calibration
         candidates.append(_candidate(name, calibration, [kept[interval.label] for interval in intervals]))
-    return GenerativeFits(candidates=tuple(candidates), calibrations=calibrations, left_out=tuple(left_out))
+    return candidates, calibrations, left_out
 
 
 def _kept(data: StudyData) -> tuple[dict[str, IntervalMoments], dict[str, list[str]]]:

@@ -7,7 +7,7 @@ import json
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -23,7 +23,8 @@ from forcetorque.live.corrector import Corrector
 from forcetorque.live.lines_from_settings import message_frames
 from forcetorque.live.loop import LiveLoop
 from forcetorque.live.option_values import HeldQuantity
-from forcetorque.live.recent_samples import RecentSamples, Samples
+from forcetorque.live.recent_samples import RecentSamples
+from forcetorque.live.result import Samples
 from forcetorque.live.ros_topics import RosSource
 from forcetorque.live.sample_status import status_text
 from forcetorque.live.settings import Settings
@@ -47,7 +48,7 @@ from forcetorque.viewer.scene import (
 )
 from forcetorque.viewer.scene_arrays import Block
 from forcetorque.viewer.scene_builder import BuiltScene, drawn_robot
-from forcetorque.viewer.sensor_wrenches import SensorPlace, sensor_place
+from forcetorque.viewer.sensor_wrenches import unread_sensor
 
 MOST_ROWS: Final = 10_000
 """Rows of one answer."""
@@ -69,8 +70,8 @@ class ShownRobot:
     """What is drawn."""
     coordinates: tuple[str, ...]
     """Joints whose positions are known."""
-    places: Sequence[SensorPlace]
-    """Places of the sensors."""
+    sensors: Sequence[Sensor]
+    """The sensors, without wrenches."""
     postures: Postures
     """How it stands at samples."""
     notes: tuple[str, ...]
@@ -104,7 +105,7 @@ def shown_robot(
         return ShownRobot(
             robot=robot,
             coordinates=names,
-            places=[_place(one, frames[one.sensor.name]) for one in calibrations],
+            sensors=[_beside(one, frames[one.sensor.name]) for one in calibrations],
             postures=lambda samples: (samples.positions, np.tile(_UPRIGHT, (len(samples.time_s), 1))),
             notes=("the root link is drawn upright: where it is in the world is not in the stream", *notes),
         )
@@ -124,7 +125,7 @@ def _recorded_robot(
     recording, model = experiment.recording, experiment.model
     stream = recording.stream(experiment.sensor(calibrations[0].sensor.name).stream)
     posture = posture_at(recording, model, stream)
-    root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
+    root, assumed = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     stated = parse_experiment(path).robot
     urdf = None if stated is None else urdf_file(stated.urdf, path.parent)
     robot, notes = drawn_robot(model, posture.names, urdf, block, mesh_folders)
@@ -132,21 +133,29 @@ def _recorded_robot(
     def postures(samples: Samples) -> tuple[FloatArray, FloatArray]:
         at = np.searchsorted(posture.stamp_ns, samples.stamp_ns, side="right") - 1
         at = np.clip(at, 0, len(posture.stamp_ns) - 1)
-        return posture.position[at], root.values[at]
+        return posture.position[at], root[at]
 
     return ShownRobot(
         robot=robot,
         coordinates=posture.names,
-        places=[sensor_place(model, one.sensor.name) for one in calibrations],
+        sensors=[unread_sensor(model, one.sensor.name, one.sensor.serial) for one in calibrations],
         postures=postures,
-        notes=(*posture.notes, *root.notes, *notes),
+        notes=(*posture.notes, *assumed, *notes),
     )
 
 
-def _place(calibration: Calibration, link: str) -> SensorPlace:
+def _beside(calibration: Calibration, link: str) -> Sensor:
     ends = ("the child link", "the parent link")
     acting, acted_on = ends if calibration.sensor.measure_direction is MeasureDirection.CHILD_TO_PARENT else ends[::-1]
-    return SensorPlace(link=link, link_H_sensor=flat(np.eye(4)), acting=acting, acted_on=acted_on)
+    return Sensor(
+        name=calibration.sensor.name,
+        serial=calibration.sensor.serial,
+        link=link,
+        link_H_sensor=flat(np.eye(4)),
+        acting=acting,
+        acted_on=acted_on,
+        wrenches=(),
+    )
 
 
 def _sensors_alone(calibrations: Sequence[Calibration]) -> ShownRobot:
@@ -178,7 +187,7 @@ def _sensors_alone(calibrations: Sequence[Calibration]) -> ShownRobot:
             meshes=(),
         ),
         coordinates=(),
-        places=[_place(one, one.sensor.name) for one in calibrations],
+        sensors=[_beside(one, one.sensor.name) for one in calibrations],
         postures=lambda samples: (samples.positions[:, :0], np.tile(_UPRIGHT, (len(samples.time_s), 1))),
         notes=("no robot in the stream: sensors are drawn side by side, not where they truly are",),
     )
@@ -216,11 +225,11 @@ def live_scene(
     positions, root = empty(max(1, len(shown.coordinates))), empty(7)
     sensors = []
     of_sensors = ((one, corrector) for corrector in correctors for one in corrector.calibrations)
-    for (one, corrector), place in zip(of_sensors, shown.places, strict=True):
+    for (one, corrector), sensor in zip(of_sensors, shown.sensors, strict=True):
         both = [series("corrected", corrected=True)]
         if corrector.options.quantity is HeldQuantity.WRENCH or one.prior is not None:
             both.append(series("by the prior matrix", corrected=False))
-        sensors.append(Sensor(name=one.sensor.name, serial=one.sensor.serial, wrenches=tuple(both), **place))
+        sensors.append(replace(sensor, wrenches=tuple(both)))
     scene = Scene(
         title="live: " + ", ".join(sensor.name for sensor in sensors),
         provenance=(),

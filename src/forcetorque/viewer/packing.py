@@ -24,7 +24,7 @@ from __future__ import annotations
 import struct
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -213,8 +213,9 @@ def packed(built: BuiltScene, progress: Progress = lambda _: None) -> BuiltScene
             base = bases.get(reference.offset)
             rest = None if base is None else _rest(values, read_array(built.block, base))
             if base is not None and rest is not None:
-                data = pack(rest.values, rest.step)
-                moved_to = replace(reference, base=moved(base), matrix=tuple(rest.matrix.ravel().tolist()))
+                matrix, left, step = rest
+                data = pack(left, step)
+                moved_to = replace(reference, base=moved(base), matrix=tuple(matrix.ravel().tolist()))
             else:
                 data = pack(values, steps.get(reference.offset))
             moved_to = replace(moved_to, offset=size, packed_bytes=len(data))
@@ -267,17 +268,8 @@ def _bases(scene: Scene) -> dict[int, ArrayRef]:
     return bases
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Rest:
-    """What a linear map leaves of a series."""
-
-    matrix: FloatArray
-    values: FloatArray
-    step: FloatArray
-
-
-def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
-    """What a linear map of other wrenches leaves; None where it leaves more than constants."""
+def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Linear map of other wrenches, what it leaves, and steps of that; None where it leaves more than constants."""
     table, other = _columns(values), _columns(base)
     known: BoolArray = np.asarray(np.isfinite(other).all(axis=0))
     both: BoolArray = np.asarray(known & np.isfinite(table).all(axis=0))
@@ -295,7 +287,7 @@ def _rest(values: npt.NDArray[Any], base: npt.NDArray[Any]) -> _Rest | None:
     held = (np.abs(np.diff(rest)[:, changes]) < _LINEAR * step[:, None]).all(axis=0)
     if held.mean() < _ALMOST_ALL or (np.abs(matrix) @ base_step > _AMPLIFIED * step).any():
         return None
-    return _Rest(matrix=matrix, values=rest.T, step=step / _FINER)  # half a step of a constant would be a bias
+    return matrix, rest.T, step / _FINER  # half a step of a constant would be a bias
 
 
 def _linear_map(before: FloatArray, after: FloatArray) -> FloatArray:

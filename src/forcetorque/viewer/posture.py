@@ -205,19 +205,9 @@ _BLOCK = 65_536
 """Samples whose poses are computed at once: 8 MB."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RootPoses:
-    """Poses of the root link."""
-
-    values: FloatArray
-    """x, y, z in m, then qw, qx, qy, qz; shape (n, 7)."""
-    notes: tuple[str, ...]
-    """What was assumed."""
-
-
 def root_poses(
     recording: Recording, model: RobotModel, posture: Posture, intervals: Sequence[Interval], processing: Processing
-) -> RootPoses:
+) -> tuple[FloatArray, tuple[str, ...]]:
     """Stand the robot on its supports.
 
     The support frame of the first interval stands still at the origin, and gravity points to -z. Outside intervals the
@@ -232,13 +222,13 @@ def root_poses(
         processing: Filters and gravity.
 
     Returns:
-        Poses at the instants.
+        Poses at the instants, x, y, z in m, then qw, qx, qy, qz, shape (n, 7); and what was assumed.
     """
     n = len(posture.stamp_ns)
     values = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (n, 1))
     supported = [interval for interval in intervals if interval.support is not None]
     if not supported:
-        return RootPoses(values=values, notes=("no interval states a support: the root link is drawn upright",))
+        return values, ("no interval states a support: the root link is drawn upright",)
     nearest, inside = _nearest(posture.stamp_ns, supported)
     notes = [] if inside.all() else ["outside intervals the robot stands on the support of the nearest one"]
     groups: dict[int, list[int]] = {}
@@ -260,7 +250,7 @@ def root_poses(
                 notes.append(f"support {support.frame!r} moves: it is kept in its place, and upright by its IMU")
         values[chosen] = _standing(model, posture, support.frame, world_R_support, chosen)
         turn[chosen] = number
-    return RootPoses(values=_without_jumps(values, turn), notes=tuple(dict.fromkeys(notes)))
+    return _without_jumps(values, turn), tuple(dict.fromkeys(notes))
 
 
 def upright(gravity_direction: FloatArray) -> FloatArray:

@@ -117,11 +117,11 @@ def build_scene(
     )
     posture = posture_at(recording, model, clock)
     accept(len(posture.stamp_ns))
-    root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
+    root, assumed = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     computed = differentiated(usable)
     priors = Priors(computed, shown)
     expected, lacking = expected_readings(computed, tuple(names), posture)
-    draft.notes.extend([_BESIDE] if skin_alone else [*posture.notes, *root.notes, *lacking])
+    draft.notes.extend([_BESIDE] if skin_alone else [*posture.notes, *assumed, *lacking])
     if experiment.processing.smoothing is not None:
         draft.sources.append("the smoothing of the experiment file is not applied to what is shown")
     series = []
@@ -151,7 +151,7 @@ def build_scene(
         time_s=draft.block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
         positions=draft.block.add(posture.position, "float32"),
         coordinates=posture.names,
-        root=draft.block.add(root.values, "float32"),
+        root=draft.block.add(root, "float32"),
         robot=robot,
         sensors=(*series, *parts),
         contacts=contacts,

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypedDict
 
 import numpy as np
 
@@ -87,38 +86,32 @@ def scene_sensor(
         fits = _ellipsoids(by_candidate.get(reading.candidate), offset)
         deviation = _deviation(experiment, reading.correction, expected, posture)
         series.append(_series(reading.name, draft.block, values, reading, deviation, force=fits[0], moment=fits[1]))
-    place = sensor_place(experiment.model, sensor.name)
-    return Sensor(name=sensor.name, serial=sensor.serial, wrenches=tuple(series), **place)
+    return replace(unread_sensor(experiment.model, sensor.name, sensor.serial), wrenches=tuple(series))
 
 
-class SensorPlace(TypedDict):
-    """Where a sensor is in a robot, as the fields of `Sensor`."""
-
-    link: str
-    link_H_sensor: tuple[float, ...]
-    acting: str | None
-    acted_on: str
-
-
-def sensor_place(model: RobotModel, name: str) -> SensorPlace:
+def unread_sensor(model: RobotModel, name: str, serial: str) -> Sensor:
     """Find where a sensor is.
 
     Args:
         model: The robot.
         name: One of its sensors.
+        serial: Its serial number.
 
     Returns:
-        Its frame, and who acts on whom.
+        The sensor with its frame, and who acts on whom, without wrenches.
     """
     tag = model.sensor(name)
     joint = model.joints[tag.joint]
     ends = (joint.child, joint.parent)
     acting, acted_on = ends if tag.direction is MeasureDirection.CHILD_TO_PARENT else ends[::-1]
-    return SensorPlace(
+    return Sensor(
+        name=name,
+        serial=serial,
         link=joint.parent if tag.frame is SensorFrame.PARENT else joint.child,
         link_H_sensor=flat(tag.child_H_sensor if tag.frame is SensorFrame.SENSOR else np.eye(4)),
         acting=acting,
         acted_on=acted_on,
+        wrenches=(),
     )
 
 

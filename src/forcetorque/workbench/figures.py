@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.figure_style import (
     REFERENCE_COLOUR,
@@ -19,7 +21,6 @@ from forcetorque.results.figure_style import (
     shown_name,
     two_digits,
 )
-from forcetorque.workbench.result import BenchPicture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,11 +33,12 @@ _BINS = 30
 
 
 @in_figure_style
-def bench_figure(picture: BenchPicture | None) -> Figure:
+def bench_figure(picture: Mapping[str, tuple[FloatArray, FloatArray]] | None) -> Figure:
     """Draw positions of a workbench, grouped by load [1].
 
     Args:
-        picture: Forces over the weight of the load, and errors, of one sensor or of many; None where there are none.
+        picture: Of every load forces over its weight, shape (k, 3), and errors, shape (k, 6), N, N m, of one sensor or
+            of many; None where there are none.
 
     Returns:
         The figure: forces seen along each axis, against the circle on which they should lie, and below a histogram of
@@ -58,18 +60,18 @@ def bench_figure(picture: BenchPicture | None) -> Figure:
         _project(panel, picture, first, second)
     for panel, axis in zip(below, range(3), strict=True):
         _histogram(panel, picture, axis)
-    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(picture.loads)])
-    largest = [np.linalg.norm(errors[:, :3], axis=1).max(initial=0.0) for errors in picture.errors]
+    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(picture)])
+    largest = [np.linalg.norm(errors[:, :3], axis=1).max(initial=0.0) for _, errors in picture.values()]
     worst = int(np.argmax(largest))
     message = f"Largest error of the force at a position: {two_digits(largest[worst])} N"
-    headline(figure, f"{message} ({shown_name(picture.loads[worst])})")
+    headline(figure, f"{message} ({shown_name(list(picture)[worst])})")
     return figure
 
 
-def _project(panel: Axes, picture: BenchPicture, first: int, second: int) -> None:
+def _project(panel: Axes, picture: Mapping[str, tuple[FloatArray, FloatArray]], first: int, second: int) -> None:
     angle = np.linspace(0.0, 2.0 * np.pi, 181)
     panel.plot(np.cos(angle), np.sin(angle), color=REFERENCE_COLOUR, linewidth=0.8)
-    for k, forces in enumerate(picture.on_sphere):
+    for k, (forces, _) in enumerate(picture.values()):
         kind = look(k)
         panel.plot(
             forces[:, first],
@@ -84,11 +86,11 @@ def _project(panel: Axes, picture: BenchPicture, first: int, second: int) -> Non
     panel.set(title="force over the weight", xlabel=f"f{_AXES[first]}", ylabel=f"f{_AXES[second]}")
 
 
-def _histogram(panel: Axes, picture: BenchPicture, axis: int) -> None:
-    all_errors = np.concatenate([errors[:, axis] for errors in picture.errors])
+def _histogram(panel: Axes, picture: Mapping[str, tuple[FloatArray, FloatArray]], axis: int) -> None:
+    all_errors = np.concatenate([errors[:, axis] for _, errors in picture.values()])
     largest = max(float(np.abs(all_errors).max()), 1e-9)
     edges = np.linspace(-largest, largest, _BINS + 1).tolist()
-    for k, errors in enumerate(picture.errors):
+    for k, (_, errors) in enumerate(picture.values()):
         kind = look(k)
         panel.hist(errors[:, axis], bins=edges, histtype="step", color=kind.colour, linestyle=kind.dashes)
     panel.set(title=f"error of f{_AXES[axis]}", xlabel="measured less known, N", ylabel="positions")

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal, Self
 
@@ -159,18 +158,6 @@ class UnusualRow(Row):
     """Distance of the feature from the median of the others."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BenchPicture:
-    """Forces of all sensors by load, for the figure."""
-
-    loads: tuple[str, ...]
-    """Name of every group."""
-    on_sphere: tuple[FloatArray, ...]
-    """Forces over the weight; shape (k, 3) each."""
-    errors: tuple[FloatArray, ...]
-    """Measured less known wrenches; shape (k, 6) each; N, N m."""
-
-
 def block_rows(recording: BenchRecording) -> tuple[BlockRow, ...]:
     """Check the blocks of a sensor.
 
@@ -256,14 +243,15 @@ def sphere_rows(searches: Sequence[FaultSearch]) -> tuple[SphereRow, ...]:
     return tuple(rows)
 
 
-def picture_of(searches: Sequence[FaultSearch]) -> BenchPicture:
+def picture_of(searches: Sequence[FaultSearch]) -> dict[str, tuple[FloatArray, FloatArray]]:
     """Collect forces and errors by load.
 
     Args:
         searches: The sensors.
 
     Returns:
-        The content of the figure.
+        Of every group of loads the forces over the weight, shape (k, 3), and measured less known wrenches, shape
+        (k, 6), N, N m.
     """
     groups: dict[str, list[tuple[FloatArray, FloatArray]]] = {}
     for search in searches:
@@ -278,11 +266,10 @@ def picture_of(searches: Sequence[FaultSearch]) -> BenchPicture:
             loaded = (labels == label) & (force > 1e-3 * force.max())
             scaled = search.measured[loaded, :3] / force[loaded, None]
             groups.setdefault(label, []).append((scaled, search.error[labels == label]))
-    return BenchPicture(
-        loads=tuple(groups),
-        on_sphere=tuple(np.concatenate([scaled for scaled, _ in group]) for group in groups.values()),
-        errors=tuple(np.concatenate([errors for _, errors in group]) for group in groups.values()),
-    )
+    return {
+        load: (np.concatenate([scaled for scaled, _ in group]), np.concatenate([errors for _, errors in group]))
+        for load, group in groups.items()
+    }
 
 
 _NEVER = 1e-6
@@ -320,7 +307,7 @@ class Workbench(DrawnResult):
     """File of the calibration; None where none was written."""
     calibrations: tuple[Calibration, ...] = Field(default=(), exclude=True, repr=False)
     """Calibrations of the sensors that have a matrix, in the order of the files."""
-    picture: BenchPicture | None = Field(default=None, exclude=True, repr=False)
+    picture: dict[str, tuple[FloatArray, FloatArray]] | None = Field(default=None, exclude=True, repr=False)
     """Content of the figure; None where nothing was measured."""
 
     @property

@@ -172,9 +172,9 @@ def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path)
     assert alone.force_mean_N > 2.0 * verdict.force_mean_N
     torques = {
         (v.calibration, v.offset, v.joint): v
-        for v in joint_torques(SensorRun(experiment, sensor), {"new": calibration}).verdicts
+        for v in joint_torques(SensorRun(experiment, sensor), {"new": calibration})[0]
     }
-    in_whole = {(v.calibration, v.offset, v.joint): v for v in joint_torques(SensorRun(whole, sensor), {}).verdicts}
+    in_whole = {(v.calibration, v.offset, v.joint): v for v in joint_torques(SensorRun(whole, sensor), {})[0]}
     assert len(in_whole) == 6
     for key, torque in in_whole.items():  # that file's own intervals are those that were fitted
         assert torques[key].rmse == pytest.approx(torque.rmse, abs=EXACT)
@@ -192,7 +192,7 @@ def test_priors_are_called_as_evaluate_calls_them(arm: Path) -> None:
         assert [
             (v.calibration, v.prior) for v in contact_forces(SensorRun(experiment, sensor), given).verdicts
         ] == names
-        torques = joint_torques(SensorRun(experiment, sensor), given).verdicts
+        torques, _ = joint_torques(SensorRun(experiment, sensor), given)
         assert list(dict.fromkeys((v.calibration, v.prior) for v in torques)) == list(dict.fromkeys(names))
 
 
@@ -205,7 +205,7 @@ def test_an_interval_that_ends_within_its_first_second_is_named(arm: Path) -> No
     both = load_experiment(add(arm / PARQUET, short))
     found = contact_forces(SensorRun(both, both.sensors[0]), {})
     assert found.left_out == ("interval 'blink': it ends within its first 1 s, after which it would be evaluated",)
-    assert joint_torques(SensorRun(both, both.sensors[0]), {}).left_out == found.left_out
+    assert joint_torques(SensorRun(both, both.sensors[0]), {})[1] == found.left_out
     assert len(found.verdicts) == 2
     for one, other in zip(found.verdicts, expected.verdicts, strict=True):
         assert one.samples == other.samples
@@ -228,10 +228,10 @@ def test_an_interval_whose_first_second_is_a_gap_is_named(arm: Path) -> None:
     assert found.left_out == (words.format("contact force"),)
     count = {verdict.offset: verdict.samples for verdict in found.verdicts}
     assert count[Offset.FITTED] > count[Offset.FIRST_SECOND] + 200
-    torques = joint_torques(SensorRun(gap, gap.sensors[0]), {})
+    torques, not_estimated = joint_torques(SensorRun(gap, gap.sensors[0]), {})
     joints = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
-    assert set(torques.left_out) == {words.format(f"torque of {joint}") for joint in joints}
-    assert {v.samples for v in torques.verdicts if v.offset is Offset.FITTED} == {count[Offset.FITTED]}
+    assert set(not_estimated) == {words.format(f"torque of {joint}") for joint in joints}
+    assert {v.samples for v in torques if v.offset is Offset.FITTED} == {count[Offset.FITTED]}
     blind = replace(experiment, recording=holed(experiment.recording, "arm_ft", 17.1, 23.6))
     assert contact_forces(SensorRun(blind, blind.sensors[0]), {}).left_out == (
         "contact force by prior over 'rest': every evaluated sample has a gap",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.evaluation.validation.joint_torque_errors import torque_error_samples
-from forcetorque.evaluation.validation.validation import JointTorqueErrors, JointTorques, joint_torques
+from forcetorque.evaluation.validation.validation import JointTorqueErrors, joint_torques
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import WrenchModel
 from forcetorque.experiment.experiment import Experiment
@@ -62,8 +63,8 @@ def _fitted(experiment: Experiment, index: int = 0) -> Calibration:
     return calibrate_sensor(SensorRun(experiment, experiment.sensors[index]), code_version="test", created="test")
 
 
-def _by_key(found: JointTorques) -> dict[Key, JointTorqueErrors]:
-    return {(verdict.calibration, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
+def _by_key(found: tuple[Sequence[JointTorqueErrors], Sequence[str]]) -> dict[Key, JointTorqueErrors]:
+    return {(verdict.calibration, verdict.offset, verdict.joint): verdict for verdict in found[0]}
 
 
 def _model_torques(experiment: Experiment, at_ns: IntArray) -> dict[str, FloatArray]:
@@ -148,7 +149,7 @@ def test_the_new_calibration_makes_every_torque_better(arm: Path) -> None:
     found = joint_torques(SensorRun(experiment, experiment.sensors[0]), {"new": _fitted(experiment)})
     verdicts = _by_key(found)
     assert len(verdicts) == 2 * 2 * len(INBOARD)
-    assert found.left_out == ()
+    assert found[1] == ()
     for source in KNOWN_BEFORE:
         for joint in INBOARD:
             new, prior = verdicts["new", source, joint], verdicts["prior", source, joint]
@@ -189,13 +190,13 @@ def test_torques_that_the_log_does_not_allow_are_named(arm: Path) -> None:
     experiment = _with_branch(arm, "revolute")
     sensor = experiment.sensors[0]
     by_model = joint_torques(SensorRun(experiment, sensor), {})
-    assert by_model.left_out == ()
-    assert {verdict.joint for verdict in by_model.verdicts} == set(INBOARD)
+    assert by_model[1] == ()
+    assert {verdict.joint for verdict in by_model[0]} == set(INBOARD)
     as_measured = joint_torques(SensorRun(experiment, sensor), {}, SubModelChoice(other_sensors=OtherSensors.MEASURED))
-    (words,) = as_measured.left_out
+    (words,) = as_measured[1]
     assert words.startswith("torque of shoulder_yaw, from what is expected of arm_ft, tool_ft: ")
     assert "flap_joint" in words
-    assert {verdict.joint for verdict in as_measured.verdicts} == set(INBOARD[1:])
+    assert {verdict.joint for verdict in as_measured[0]} == set(INBOARD[1:])
 
 
 def test_logged_torques_are_compared_too(arm: Path) -> None:
@@ -211,8 +212,8 @@ def test_logged_torques_are_compared_too(arm: Path) -> None:
     stream = Stream(name="torques", clock=source.clock, stamp_ns=source.stamp_ns, signals={"torque": signal})
     streams = {**recording.streams, "torques": stream}
     with_log = replace(experiment, recording=replace(recording, streams=streams))
-    found = joint_torques(SensorRun(with_log, sensor), {}).verdicts
-    without = joint_torques(SensorRun(experiment, sensor), {}).verdicts
+    found = joint_torques(SensorRun(with_log, sensor), {})[0]
+    without = joint_torques(SensorRun(experiment, sensor), {})[0]
     logged_fields = ("logged_samples", "logged_rmse", "logged_rmse_error", "logged_rmse_half_width_95")
     assert [v.model_copy(update=dict.fromkeys(logged_fields)) for v in found] == list(without)
     compared = [v for v in found if v.logged_rmse is not None]
@@ -245,7 +246,7 @@ def test_logged_torques_that_are_all_gaps_are_not_compared(arm: Path) -> None:
     stream = Stream(name="torques", clock=source.clock, stamp_ns=source.stamp_ns, signals={"torque": signal})
     streams = {**recording.streams, "torques": stream}
     with_log = replace(experiment, recording=replace(recording, streams=streams))
-    found = joint_torques(SensorRun(with_log, sensor), {}).verdicts
+    found, _ = joint_torques(SensorRun(with_log, sensor), {})
     assert len(found) == 2 * len(INBOARD)
     assert all(verdict.logged_rmse is None for verdict in found)
 
@@ -259,6 +260,8 @@ def test_a_sensor_without_a_judged_sample_is_named(arm: Path) -> None:
     raw[(stream.stamp_ns > interval.start_ns) & (stream.stamp_ns < interval.end_ns)] = np.nan
     broken = replace(stream, signals={"raw": replace(stream.signal("raw"), values=raw)})
     gap = replace(experiment, recording=replace(recording, streams={**recording.streams, other.stream: broken}))
-    found = joint_torques(SensorRun(gap, gap.sensors[0]), {}, SubModelChoice(other_sensors=OtherSensors.MEASURED))
-    assert found.left_out == ("torque of shoulder_yaw by prior over 'judge': every evaluated sample has a gap",)
-    assert {verdict.joint for verdict in found.verdicts} == set(INBOARD[1:])
+    found, left_out = joint_torques(
+        SensorRun(gap, gap.sensors[0]), {}, SubModelChoice(other_sensors=OtherSensors.MEASURED)
+    )
+    assert left_out == ("torque of shoulder_yaw by prior over 'judge': every evaluated sample has a gap",)
+    assert {verdict.joint for verdict in found} == set(INBOARD[1:])

@@ -62,7 +62,7 @@ class JointTorqueRow(Row):
     """Label of the interval."""
     joint: Annotated[str, Shown("joint")]
     """The joint."""
-    unit: Annotated[Literal["N m", "N"], Shown("unit")]
+    unit: Annotated[Literal["N", "N m"], Shown("unit")]
     """Unit of its torque."""
     source: Annotated[str, Shown("source")]
     """A source, or `fused`."""

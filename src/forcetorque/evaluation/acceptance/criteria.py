@@ -31,7 +31,7 @@ from forcetorque.experiment.free_sub_model import OtherSensors, SubModelChoice
 from forcetorque.experiment.raw_counts import IntervalQuality
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.table import FloatOrNull, Row
+from forcetorque.results.table import FloatOrNull, RowOfSensor
 
 
 class Bound(StrEnum):
@@ -41,13 +41,9 @@ class Bound(StrEnum):
     AT_LEAST = "at least"
 
 
-class Criterion(Row):
+class Criterion(RowOfSensor):
     """One number and its limit."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: str
     """The calibration file, or the prior."""
     criterion: str

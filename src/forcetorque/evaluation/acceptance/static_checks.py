@@ -28,7 +28,7 @@ from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, Use
-from forcetorque.results.table import FloatOrNull, Row, WrenchValues
+from forcetorque.results.table import FloatOrNull, Row, RowOfSensor, WrenchValues
 
 _Measured = TypeVar("_Measured")
 
@@ -46,13 +46,9 @@ class IntervalOffset(Row):
     """Mean temperature of the same samples; None if the sensor has no such variable."""
 
 
-class StaticChecks(Row):
+class StaticChecks(RowOfSensor):
     """Static checks of one sensor; None is what could not be measured, see `not_measured`."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: str
     """The calibration file, or the prior."""
     limit_counts: float
@@ -147,8 +143,8 @@ def check(
         calibration=f"prior {sensor.prior_source}" if calibration is None else calibration[0],
         limit_counts=sensor.limit_counts,
         condition=None if matrix is None else matrix.condition,
-        resolution_worst=None if matrix is None else matrix.resolution.worst,
-        resolution_rms=None if matrix is None else matrix.resolution.rms,
+        resolution_worst=None if matrix is None else matrix.resolution_worst,
+        resolution_rms=None if matrix is None else matrix.resolution_rms,
         full_scale_specified=None if matrix is None else matrix.stated_full_scale,
         full_scale_positive=None if full_scale is None else full_scale.positive,
         full_scale_negative=None if full_scale is None else full_scale.negative,

@@ -349,12 +349,12 @@ class _SensorLocation:
     def _reads(self, wrench: FloatArray, matrix: FloatArray | None) -> bool:
         """Whether the sensor can read loads, as far as its limit is known."""
         reached = _reached(wrench, self.run.sensor, matrix)
-        return reached is None or reached.share <= 1.0
+        return reached is None or reached[0] <= 1.0
 
     def _pushed_less(self, wrench: FloatArray, force: float, matrix: FloatArray | None) -> LoadCaseTable:
         """Pushes like those of a force, as strong as the sensor can read."""
         reached = _reached(wrench, self.run.sensor, matrix)
-        least = force if reached is None else min(force, force / reached.share)
+        least = force if reached is None else min(force, force / reached[0])
         digit = 10.0 ** (np.floor(np.log10(least)) - 1)  # two digits, rounded down
         return LoadCaseTable(
             name="push", force_N=float(f"{np.floor(least / digit) * digit:.6g}"), radius_m=DEFAULT_RADIUS_M
@@ -457,18 +457,8 @@ def _full_scale(run: SensorRun) -> FloatArray:
     return sensor.limit_counts * np.linalg.norm(sensor.prior, axis=1)
 
 
-@dataclass(frozen=True, slots=True)
-class _Reached:
-    """How far loads go towards what a sensor can read."""
-
-    share: float
-    """Of its limit; above 1 it cannot read them."""
-    text: str
-    """What they reach, and the limit."""
-
-
-def _reached(wrench: FloatArray, sensor: ExperimentSensor, matrix: FloatArray | None) -> _Reached | None:
-    """Compare loads, shape (n, 6), with what the sensor can read; None where nobody knows its limit."""
+def _reached(wrench: FloatArray, sensor: ExperimentSensor, matrix: FloatArray | None) -> tuple[float, str] | None:
+    """Share of what the sensor can read that loads, shape (n, 6), reach, with a message; None without a known limit."""
     if sensor.full_scale is not None:
         largest = np.abs(wrench).max(axis=0)
         worst = int(np.argmax(largest / sensor.full_scale))
@@ -476,13 +466,13 @@ def _reached(wrench: FloatArray, sensor: ExperimentSensor, matrix: FloatArray | 
             f"reaches {largest[worst]:.4g} {'N' if worst < 3 else 'N m'} in {WRENCH_COMPONENTS[worst]}, the full scale "
             f"of {sensor.name!r} is {sensor.full_scale[worst]:.4g}"
         )
-        return _Reached(float(largest[worst] / sensor.full_scale[worst]), text)
+        return float(largest[worst] / sensor.full_scale[worst]), text
     read_by = sensor.prior if matrix is None else matrix
     if read_by is None or sensor.prior_source == "identity":
         return None
     counts, limit = float(np.abs(wrench @ np.linalg.pinv(read_by).T).max()), sensor.limit_counts
     text = f"reaches {counts:.0f} counts in a channel of {sensor.name!r}, which reads up to {limit:.0f}"
-    return _Reached(counts / limit, text)
+    return counts / limit, text
 
 
 def beyond_range(case: LoadCase, sensor: ExperimentSensor, matrix: FloatArray | None) -> str | None:
@@ -497,4 +487,4 @@ def beyond_range(case: LoadCase, sensor: ExperimentSensor, matrix: FloatArray | 
         What the loads reach, and the limit; None where the sensor can read them, or nobody knows its limit.
     """
     reached = _reached(case.wrench, sensor, matrix)
-    return None if reached is None or reached.share <= 1.0 else reached.text
+    return None if reached is None or reached[0] <= 1.0 else reached[1]

@@ -49,7 +49,7 @@ from forcetorque.experiment.validation_offset import Offset
 from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import amount
-from forcetorque.results.table import Row, Shown, short_names
+from forcetorque.results.table import Row, RowOfSensor, Shown, short_names
 
 Decision = Literal["use", "do not use", "not enough data"]
 Tone = Literal["good", "caution", "bad", "unknown", "note"]
@@ -117,13 +117,9 @@ class LoadCaseError(Row):
         return f"{self.quantity} error {after} (95 %: {most}{allowed}{prior})"
 
 
-class LoadCaseVerdict(Row):
+class LoadCaseVerdict(RowOfSensor):
     """Whether one calibration may be used for one load case."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: str
     """The calibration file."""
     load_case: str

@@ -11,7 +11,7 @@ from forcetorque.evaluation.sphere.cloud import StaticForceError
 from forcetorque.evaluation.sphere.ellipsoid import CloudForm, EllipsoidFit, RadiusFit
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, SphereAnalysis
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.table import AxisValues, Row
+from forcetorque.results.table import AxisValues, Row, RowOfSensor
 
 
 class RadiusRow(Row):
@@ -174,13 +174,9 @@ class MomentEllipsoidRow(Row):
         )
 
 
-class SphereRow(Row):
+class SphereRow(RowOfSensor):
     """One sensor, read in one way."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     calibration: str
     """`prior`, or the calibration file."""
     intervals: tuple[str, ...]

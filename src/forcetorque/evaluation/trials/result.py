@@ -10,16 +10,12 @@ from forcetorque.evaluation.sphere.ellipsoid import CloudForm, EllipsoidFit
 from forcetorque.evaluation.sphere.result import EllipsoidRow
 from forcetorque.evaluation.trials.trials import DriftRow, TrialGroup, TrialSphere, mean_of_trials
 from forcetorque.results.number_text import finite_or_none
-from forcetorque.results.table import AxisValues, Row
+from forcetorque.results.table import AxisValues, Row, RowOfSensor
 
 
-class TrialRow(Row):
+class TrialRow(RowOfSensor):
     """One sensor in one trial, read in one way: a row of thesis Table 4.1."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     condition: str | None
     """What was done to the sensor, in the user's words."""
     trial: int
@@ -104,13 +100,9 @@ class GroupFitRow(Row):
     """What changed from the first trial to the last; none with one trial."""
 
 
-class GroupRow(Row):
+class GroupRow(RowOfSensor):
     """All trials of one sensor under one condition, read in one way."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     condition: str | None
     """What was done to the sensor."""
     calibration: str

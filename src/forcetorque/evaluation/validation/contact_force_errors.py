@@ -30,6 +30,7 @@ from forcetorque.experiment.validation_offset import Offset
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.table import (
     Row,
+    RowOfSensor,
     Shown,
     ShownWrench,
     Table,
@@ -193,13 +194,9 @@ WORTH = frozenset({"bias", "independent", "excitation_N", "excitation_Nm"})
 """Fields of a second table: the constant part, and what tells how much the errors are worth."""
 
 
-class ContactForceErrors(Row):
+class ContactForceErrors(RowOfSensor):
     """Contact wrench that a candidate reports where nothing touches, in the sensor's frame; per axis fx ... tz."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     sub_model: str
     """Sub-model that nothing touches."""
     calibration: Annotated[str, Shown("calibration", file=True)]

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -47,7 +46,7 @@ class EstimatedJointRow(EvaluatedRow):
 
     joint: Annotated[str, Shown("joint")]
     """A joint whose torque depends on the sensor."""
-    unit: Annotated[Literal["N m", "N"], Shown("unit")]
+    unit: Annotated[Literal["N", "N m"], Shown("unit")]
     """Unit of its torque: N for a prismatic joint."""
 
 
@@ -71,21 +70,11 @@ class RecordingJointTorques(JointTorqueErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class JointTorques:
-    """Joint torques that depend on one sensor, by all its candidates."""
-
-    verdicts: tuple[JointTorqueErrors, ...]
-    """One per calibration, offset and joint, joints from the support outwards."""
-    left_out: tuple[str, ...]
-    """Torques that the log does not allow to estimate, or to evaluate in an interval, in words."""
-
-
 def joint_torques(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
     choice: SubModelChoice = BEYOND_SENSOR,
-) -> JointTorques:
+) -> tuple[tuple[JointTorqueErrors, ...], tuple[str, ...]]:
     """Evaluate calibrations of a sensor by the joint torques that are estimated from it.
 
     The contacts are those of `estimate_experiment`: the support, and a full wrench at the sensor at the base of every
@@ -99,17 +88,19 @@ def joint_torques(
         choice: Which sub-model nothing touches, and what the other sensors read.
 
     Returns:
-        For every candidate, with its own offset and with one from each interval's first second, the errors per joint.
+        For every candidate, with its own offset and with one from each interval's first second, the errors per joint,
+        joints from the support outwards; and the torques that the log does not allow to estimate, or to evaluate.
 
     Raises:
         ExperimentError: If an interval has no support.
     """
     campaign = Campaign.of(runs)
     recordings = choice.in_campaign(campaign, lambda free: torque_error_samples(free, calibrations))
-    return joint_torques_of(campaign, pooled_torque_errors(recordings))
+    pooled = pooled_torque_errors(recordings)
+    return joint_torques_of(campaign, pooled), pooled.left_out
 
 
-def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTorques:
+def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> tuple[JointTorqueErrors, ...]:
     """Evaluate calibrations of a sensor by given errors of joint torques.
 
     Args:
@@ -117,9 +108,9 @@ def joint_torques_of(campaign: Campaign, torques: TorqueErrorSamples) -> JointTo
         torques: Errors by every candidate.
 
     Returns:
-        The same as `joint_torques`.
+        The errors of `joint_torques`.
     """
-    return JointTorques(verdicts=tuple(_rows(campaign, torques)), left_out=torques.left_out)
+    return tuple(_rows(campaign, torques))
 
 
 def joint_torque_table(rows: Sequence[JointTorqueErrors]) -> Table:
@@ -266,12 +257,12 @@ def validation(campaign: Campaign, calibrations: Mapping[str, Calibration], choi
     results = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, calibrations))
     torques = {name: result[0] for name, result in results.items()}
     contacts = {name: result[1] for name, result in results.items()}
-    joint_torques = joint_torques_of(campaign, pooled_torque_errors(torques))
+    pooled = pooled_torque_errors(torques)
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
     validity, unknown = _validity(campaign, calibrations)
     uses, undecided = _uses(campaign, calibrations)
-    reasons = (*forces.left_out, *joint_torques.left_out, *unknown, *undecided)
+    reasons = (*forces.left_out, *pooled.left_out, *unknown, *undecided)
     left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
     return Validation(
@@ -279,7 +270,7 @@ def validation(campaign: Campaign, calibrations: Mapping[str, Calibration], choi
         other_sensors=choice.other_sensors.value,
         contact_forces=forces.verdicts,
         best=forces.best,
-        joint_torques=joint_torques.verdicts,
+        joint_torques=joint_torques_of(campaign, pooled),
         recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
@@ -328,5 +319,5 @@ def _forces_apart(campaign: Campaign, recordings: Mapping[str, ContactWrenches])
 
 def _torques_apart(campaign: Campaign, recordings: Mapping[str, TorqueErrorSamples]) -> Iterator[RecordingJointTorques]:
     for name, torques in recordings.items():
-        for row in joint_torques_of(campaign, torques).verdicts:
+        for row in joint_torques_of(campaign, torques):
             yield RecordingJointTorques(recording=name, **dict(row))

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
@@ -23,21 +21,7 @@ _COARSE_S, _FINE_S = 1.0, 0.01
 """Spacing of the search, from first to last; s."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PressureClock:
-    """When the rows of a pressure were taken, on the clock of the counts."""
-
-    start_s: float
-    """First row, from the first message of counts; s."""
-    period_s: float
-    """Time from row to row; s."""
-    correlation: float
-    """Correlation of the steps of pressure and counts."""
-    shifted_correlation: float
-    """The same for the best shift alone, with rows as far apart as messages of counts are."""
-
-
-def match_pressure(seconds: FloatArray, counts: FloatArray, pressure: FloatArray) -> PressureClock:
+def match_pressure(seconds: FloatArray, counts: FloatArray, pressure: FloatArray) -> tuple[float, float, float, float]:
     """Find when the rows of a pressure were taken, by what both streams do at the same time.
 
     Levels would mislead: hysteresis lets counts lag behind a falling pressure by seconds. Steps do not. The pressure
@@ -49,7 +33,8 @@ def match_pressure(seconds: FloatArray, counts: FloatArray, pressure: FloatArray
         pressure: Pressure at an even, unknown rate; shape (m,); any unit.
 
     Returns:
-        The times.
+        Time of the first row from the first message of counts, s; time from row to row, s; correlation of the steps of
+        pressure and counts; the same for the best shift alone, with rows as far apart as messages of counts are.
 
     Raises:
         SkinError: If pressure or counts do not move, or their steps do not agree.
@@ -83,12 +68,7 @@ def match_pressure(seconds: FloatArray, counts: FloatArray, pressure: FloatArray
             f"pressure without a clock: expected its steps in the counts within {REACH_S:g} s, got a correlation of "
             f"{best:.2f} at {first:+.1f} s; cut both logs to the same time, or specify shift_rows"
         )
-    return PressureClock(
-        start_s=float(first),
-        period_s=float(last - first) / (len(pressure) - 1),
-        correlation=best,
-        shifted_correlation=shifted,
-    )
+    return float(first), float(last - first) / (len(pressure) - 1), best, shifted
 
 
 def _steps(values: FloatArray, period: float) -> tuple[FloatArray, FloatArray]:

@@ -194,17 +194,17 @@ def _estimated(name: str, signals: Mapping[str, Signal], other: Stream) -> tuple
     start = other.stamp_ns[0]
     seconds = (other.stamp_ns - start) * 1e-9
     pressure = signals["pressure"].values[:, 0]
-    clock = match_pressure(seconds, other.signals["taxel_counts"].values, pressure)
-    stamps = start + np.rint((clock.start_s + clock.period_s * np.arange(len(pressure))) * 1e9).astype(np.int64)
+    start_s, period_s, correlation, shifted = match_pressure(seconds, other.signals["taxel_counts"].values, pressure)
+    stamps = start + np.rint((start_s + period_s * np.arange(len(pressure))) * 1e9).astype(np.int64)
     period = float(seconds[-1]) / (len(seconds) - 1)
     text = (
         f"{len(pressure)} rows without a clock beside {len(seconds)} of {other.name!r}: their steps agree best if the "
-        f"first is {clock.start_s:+.2f} s from the first of {other.name!r} and rows are {1e3 * clock.period_s:.2f} ms "
-        f"apart, where those of {other.name!r} are {1e3 * period:.2f} ms: correlation {clock.correlation:.3f}, by a "
-        f"shift alone {clock.shifted_correlation:.3f}"
+        f"first is {start_s:+.2f} s from the first of {other.name!r} and rows are {1e3 * period_s:.2f} ms "
+        f"apart, where those of {other.name!r} are {1e3 * period:.2f} ms: correlation {correlation:.3f}, by a "
+        f"shift alone {shifted:.3f}"
     )
     return stamps, Finding(
-        stream=name, kind="estimated_clock", message=text, count=len(pressure), size=clock.start_s, unit="s"
+        stream=name, kind="estimated_clock", message=text, count=len(pressure), size=start_s, unit="s"
     )
 
 

@@ -53,7 +53,7 @@ from forcetorque.formats.tabular.row_readers import (
 from forcetorque.formats.tabular.table import ROW_NS, read_table, table_columns
 from forcetorque.formats.tabular.table_layout import EvenRows, StampColumn, StampUnit, TableLayout, TableSignal
 from forcetorque.recording.alignment import joined_stream
-from forcetorque.recording.recording import FileRows, Finding
+from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import Stream
 
 
@@ -383,7 +383,9 @@ class TabularFormat:
         )
 
 
-def _read_stream(k: int, specified: TabularLog, context: LogContext) -> tuple[StreamReading, tuple[FileRows, ...]]:
+def _read_stream(
+    k: int, specified: TabularLog, context: LogContext
+) -> tuple[StreamReading, tuple[tuple[str, int], ...]]:
     """The stream, and the files that it was put together of."""
     entry = specified.stream[k]
     names = [name for file in entry.files for name in _matching(file, entry, specified, context)]
@@ -401,7 +403,7 @@ def _read_stream(k: int, specified: TabularLog, context: LogContext) -> tuple[St
         skipped = Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
         findings.insert(0, skipped)
     findings += [finding for reading in readings for finding in reading.findings]
-    files = tuple(FileRows(name=name, rows=len(one)) for name, one in zip(names, segments, strict=True))
+    files = tuple((name, len(one)) for name, one in zip(names, segments, strict=True))
     return StreamReading(joined, tuple(findings)), files
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -312,17 +312,7 @@ MOST_ROWS = 3_600_000
 """Rows of a table of a sensor by itself that is read at once: an hour of 1 kHz takes a gigabyte."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SensorLog:
-    """A table of a sensor by itself, as it was first read."""
-
-    recording: Recording
-    """Its stream."""
-    assumed: tuple[str, ...]
-    """Likely values that the file does not state, as lines of an experiment file."""
-
-
-def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None:
+def first_look_at_sensor(path: Path, log_format: str | None) -> tuple[Recording, tuple[str, ...]] | None:
     """Read a table of one sensor and hardly anything else.
 
     Args:
@@ -330,8 +320,8 @@ def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None
         log_format: Name of the format; it is recognised by what is there if None.
 
     Returns:
-        The recording, and what was assumed; None for any other table, one of more rows than are read at once, or where
-        no value is likely.
+        The recording, and likely values that the file does not state, as lines of an experiment file; None for any
+        other table, one of more rows than are read at once, or where no value is likely.
     """
     log = draft_log([path], None, log_format)
     if not all(stream.is_sensor_alone for stream in log.streams):
@@ -342,4 +332,4 @@ def first_look_at_sensor(path: Path, log_format: str | None) -> SensorLog | None
     lines = recording_lines(log, Path(), None, {sensor.stream: sensor.name for sensor in sensors})
     recording, _ = read_drafted(likeliest_text(lines), Path(), sensors, None)
     assumed = tuple(text.likeliest for text in lines if isinstance(text, Question) and text.likeliest is not None)
-    return None if recording is None else SensorLog(recording=recording, assumed=assumed)
+    return None if recording is None else (recording, assumed)

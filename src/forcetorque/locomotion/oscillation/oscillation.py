@@ -18,7 +18,6 @@ from forcetorque.locomotion.oscillation.spectrum import (
     Candidate,
     ComplexArray,
     ResampledSignal,
-    Sensitivity,
     growth_pattern,
     pieces,
     sensitivity,
@@ -313,8 +312,8 @@ class OscillationSearch:
     """Lowest frequency that was looked at; Hz."""
     highest_hz: float
     """Highest frequency that was looked at; Hz."""
-    sensitivity: Sensitivity
-    """Amplitudes that would be seen beside them, by cycles in the signal."""
+    sensitivity: tuple[FloatArray, FloatArray]
+    """Cycles in the signal, and amplitudes that would be seen beside them; shape (m,) each."""
     duration_s: float
     """How long the signal lasts; s."""
 
@@ -327,8 +326,7 @@ class OscillationSearch:
         Returns:
             Amplitude of a steady oscillation that is seen with the probability `POWER`.
         """
-        known = self.sensitivity
-        return float(np.interp(frequency_hz * self.duration_s, known.cycles, known.amplitude))
+        return float(np.interp(frequency_hz * self.duration_s, *self.sensitivity))
 
 
 def find_oscillations(signal: ResampledSignal, *, name: str) -> OscillationSearch:

@@ -247,16 +247,6 @@ class Candidate:
         return self.chance < CHANCE
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Sensitivity:
-    """Amplitudes that would be seen."""
-
-    cycles: FloatArray
-    """Frequencies; shape (m,); cycles per record."""
-    amplitude: FloatArray
-    """Amplitude of a steady oscillation that is seen with the probability `POWER`; shape (m,)."""
-
-
 def strongest_candidate(values: FloatArray, highest: float, excluded: Sequence[tuple[float, float]] = ()) -> Candidate:
     """Find the frequency at which an oscillation is least likely to be noise.
 
@@ -355,7 +345,7 @@ def _inflation(chance: FloatArray, cycles: FloatArray) -> float:
     return max(1.0, float(np.quantile(-np.log(np.maximum(chance, 1e-300)), 0.9)) / math.log(10.0))
 
 
-def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
+def sensitivity(noise: FloatArray, highest: float) -> tuple[FloatArray, FloatArray]:
     """Compute the detectable amplitudes.
 
     Args:
@@ -363,7 +353,9 @@ def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
         highest: Highest frequency that is looked at; cycles per record.
 
     Returns:
-        Amplitudes by frequency; the power of the noise is taken as even over the band of the tapers.
+        Frequencies in cycles per record, and the amplitudes of steady oscillations of these frequencies that are seen
+        with the probability `POWER`; shape (m,) each. The power of the noise is taken as even over the band of the
+        tapers.
     """
     from scipy.ndimage import uniform_filter1d  # here because importing it takes longer than most commands
 
@@ -380,7 +372,7 @@ def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
         noncentral = _noncentrality(chance, family.count - 1)
         places.append(cycles)
         amplitudes.append(2.0 * np.sqrt(0.5 * noncentral * power / (steady @ steady)))
-    return Sensitivity(cycles=np.concatenate(places), amplitude=np.concatenate(amplitudes))
+    return np.concatenate(places), np.concatenate(amplitudes)
 
 
 def _noncentrality(chance: FloatArray, degrees: int) -> FloatArray:

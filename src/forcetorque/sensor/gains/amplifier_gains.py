@@ -13,12 +13,12 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, require_shape
+from forcetorque.base.arrays import FloatArray, IntArray, require_shape
 from forcetorque.base.errors import ForceTorqueError, ShapeError
 from forcetorque.recording.stream import Stream
 from forcetorque.recording.stream_faults import saturation_findings
@@ -149,18 +149,6 @@ class ChannelGain(Row):
         return verb if self.largest_factor is None else f"{verb} x {self.largest_factor:.3g}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class AxisResolution(ArrayRecord):
-    """What one count is worth along each axis of the wrench."""
-
-    worst: FloatArray = field(metadata=array(6))
-    """Change of a component when every channel is off by one count with the worst signs, the sum of the
-    magnitudes of its row of the matrix; shape (6,); N, N m."""
-    rms: FloatArray = field(metadata=array(6))
-    """Standard deviation of a component when the channels err independently with a standard deviation of one
-    count each, the Euclidean norm of its row; shape (6,); N, N m."""
-
-
 def channel_ranges(
     stream: Stream, counts: FloatArray, channels: Sequence[str], *, limit_counts: float, recovered: bool
 ) -> tuple[ChannelRange, ...]:
@@ -233,7 +221,7 @@ def advise_gains(
     return tuple(_channel_gain(channel, gain, allowed, margin) for channel, gain in zip(ranges, gains, strict=True))
 
 
-def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = None) -> AxisResolution:
+def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = None) -> tuple[FloatArray, FloatArray]:
     """Compute the wrench of one count.
 
     Args:
@@ -241,10 +229,12 @@ def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = Non
         factors: Factors on the gain of each channel; a count is then worth less by as much. None for the present.
 
     Returns:
-        The resolution of each axis.
+        Change of each component when every channel is off by one count with the worst signs, the sum of the magnitudes
+        of its row of the matrix; and its standard deviation when the channels err independently with a standard
+        deviation of one count each, the Euclidean norm of its row; shape (6,); N, N m.
     """
     per_count = matrix if factors is None else matrix / np.asarray(factors, dtype=np.float64)
-    return AxisResolution(worst=largest_step(per_count), rms=np.linalg.norm(per_count, axis=1))
+    return largest_step(per_count), np.linalg.norm(per_count, axis=1)
 
 
 def strongest_samples(counts: FloatArray) -> tuple[IntArray, int]:

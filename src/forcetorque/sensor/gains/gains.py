@@ -297,16 +297,16 @@ def _matrix(run: SensorRun, calibration: OneCalibration | None) -> tuple[FloatAr
 
 
 def _resolution_rows(matrix: FloatArray, channels: Sequence[ChannelGain]) -> tuple[ResolutionRow, ...]:
-    present = axis_resolution(matrix)
-    expected = axis_resolution(matrix, factors=[channel.factor for channel in channels])
+    worst, rms = axis_resolution(matrix)
+    expected_worst, expected_rms = axis_resolution(matrix, factors=[channel.factor for channel in channels])
     return tuple(
         ResolutionRow(
             component=component,
             unit=f"{unit}/count",
-            worst=float(present.worst[k]),
-            rms=float(present.rms[k]),
-            expected_worst=float(expected.worst[k]),
-            expected_rms=float(expected.rms[k]),
+            worst=float(worst[k]),
+            rms=float(rms[k]),
+            expected_worst=float(expected_worst[k]),
+            expected_rms=float(expected_rms[k]),
         )
         for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True))
     )

@@ -11,7 +11,7 @@ from forcetorque.experiment.logged_posture import JointRow, logged_postures
 from forcetorque.experiment.raw_counts import RawCounts
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Recording
-from forcetorque.results.table import Row, Table, Values
+from forcetorque.results.table import Row, RowOfSensor, Table, Values
 from forcetorque.sensor.gains.amplifier_gains import ChannelGain, GainChange, strongest_samples
 
 
@@ -73,13 +73,9 @@ class ResolutionRow(Row):
     """The second with the recommended gains."""
 
 
-class SensorRow(Row):
+class SensorRow(RowOfSensor):
     """One sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     samples: int
     """Number of samples in all intervals that are not ignored."""
     missing: int

@@ -22,7 +22,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import plus_minus
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import FloatOrNull, Row, Shown, Table, table_of
+from forcetorque.results.table import FloatOrNull, Row, RowOfSensor, Shown, Table, table_of
 from forcetorque.sensor.sessions.session_change_tests import (
     ERROR_RATE,
     SessionFit,
@@ -89,13 +89,9 @@ class SessionChange(Row):
         return f"drift of {what} {size} between {self.first} and {self.second}"
 
 
-class SensorSessions(Row):
+class SensorSessions(RowOfSensor):
     """One sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     wrench_source: str
     """What makes a wrench of its reading."""
     sessions: tuple[str, ...]

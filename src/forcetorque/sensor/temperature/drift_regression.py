@@ -213,19 +213,7 @@ STEP_DEVIATIONS = 8.0
 no record of 200 had one."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LoadStep:
-    """The largest step of a record."""
-
-    time_s: float
-    """When; s."""
-    signal: int
-    """Which signal, from 0."""
-    size: float
-    """How large, in the unit of the signal."""
-
-
-def find_load_step(cycles: Cycles, residual: FloatArray) -> LoadStep | None:
+def find_load_step(cycles: Cycles, residual: FloatArray) -> tuple[float, int, float] | None:
     """Find a step in the residual of a fit.
 
     Args:
@@ -233,7 +221,8 @@ def find_load_step(cycles: Cycles, residual: FloatArray) -> LoadStep | None:
         residual: What the fit left; shape (m, k).
 
     Returns:
-        The step that stands out most; None where none does.
+        Of the step that stands out most when it is, s, which signal it is of, from 0, and how large it is, in the unit
+        of the signal; None where none does.
     """
     if len(residual) <= 4 * BESIDE:
         return None
@@ -249,6 +238,4 @@ def find_load_step(cycles: Cycles, residual: FloatArray) -> LoadStep | None:
     at, signal = np.unravel_index(int(outstanding.argmax()), outstanding.shape)
     if outstanding[at, signal] < STEP_DEVIATIONS:
         return None
-    return LoadStep(
-        time_s=float(cycles.time_s[at + BESIDE]), signal=int(signal), size=float(abs(difference[at, signal]))
-    )
+    return float(cycles.time_s[at + BESIDE]), int(signal), float(abs(difference[at, signal]))

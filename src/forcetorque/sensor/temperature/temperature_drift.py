@@ -22,7 +22,7 @@ from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import with_error
 from forcetorque.results.result import DrawnResult
-from forcetorque.results.table import FloatOrNull, Row, Shown, Table, optional_table, table_of
+from forcetorque.results.table import FloatOrNull, Row, RowOfSensor, Shown, Table, optional_table, table_of
 from forcetorque.robot.mechanics.measured_and_expected_wrench import padded_samples
 from forcetorque.sensor.temperature.cycles import Cycles, cycles_of
 from forcetorque.sensor.temperature.drift_regression import (
@@ -30,7 +30,6 @@ from forcetorque.sensor.temperature.drift_regression import (
     LEAST_RANGE_DEGC,
     MIXED_WITH_TIME,
     DriftFit,
-    LoadStep,
     find_load_step,
     fit_drift,
 )
@@ -76,13 +75,9 @@ class ThermalCurve(Row):
     """Mean temperature, about which lines turn."""
 
 
-class SensorThermal(Row):
+class SensorThermal(RowOfSensor):
     """One sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
     wrench_source: str
     """What makes a wrench of its reading."""
     variable: str
@@ -294,7 +289,9 @@ def _row(k: int, signal: str, unit: str, fit: DriftFit) -> ThermalDriftRow:
     )
 
 
-def _warnings(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep | None) -> Iterator[str]:
+def _warnings(
+    sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: tuple[float, int, float] | None
+) -> Iterator[str]:
     if cycles.range_degC < LEAST_RANGE_DEGC:
         yield (
             f"{sensor.sensor}: its temperature went through {cycles.range_degC:.2g} degC only: coefficients are worth "
@@ -321,8 +318,9 @@ def _warnings(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadSt
             f"drift per degC, whose intervals allow for {NORMAL_95 * fit.lag_error_s:.0f} s; heat and cool it evenly"
         )
     if step is not None:
-        signal = [*sensor.components, *sensor.channels][step.signal]
+        time_s, place, size = step
+        signal = [*sensor.components, *sensor.channels][place]
         yield (
-            f"{sensor.sensor}: {signal.signal} steps by {step.size:.3g} {signal.unit} at {step.time_s:.0f} s, which no "
+            f"{sensor.sensor}: {signal.signal} steps by {size:.3g} {signal.unit} at {time_s:.0f} s, which no "
             "temperature does: expected a load that stays; leave out what lies before or after"
         )

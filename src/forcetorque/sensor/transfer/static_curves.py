@@ -65,26 +65,6 @@ class Score:
     """The function fitted to all points."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Failure:
-    """A kind of function that could not be fitted."""
-
-    name: str
-    """Name of the kind."""
-    reason: str
-    """Message of the error."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Comparison:
-    """All kinds, compared on the same held-out points."""
-
-    scores: tuple[Score, ...]
-    """Kinds that could be fitted in every fold, the least RMSE first."""
-    failures: tuple[Failure, ...]
-    """The others, in the order given."""
-
-
 def compare(
     stimulus: Any,
     output: Any,
@@ -92,7 +72,7 @@ def compare(
     fitters: Mapping[str, Fitter] = FITTERS,
     groups: Any = None,
     folds: int = 5,
-) -> Comparison:
+) -> tuple[tuple[Score, ...], dict[str, str]]:
     """Fit every kind of function and compare them on points that were held out.
 
     Errors of all folds are pooled before the RMSE is taken. Held-out points beyond the range of a fit
@@ -107,7 +87,8 @@ def compare(
         folds: Number of contiguous blocks, where no groups are given.
 
     Returns:
-        Scores with errors in the unit of the output, and failures with their reasons.
+        Scores of the kinds that could be fitted in every fold, with errors in the unit of the output, the least RMSE
+        first; and messages of the errors of the others by name, in the order given.
 
     Raises:
         ShapeError: If stimuli, outputs and groups do not fit each other.
@@ -115,13 +96,13 @@ def compare(
     """
     stimuli, outputs = calibration_points(stimulus, output, parameters=2)
     held_out = _held_out(len(stimuli), groups, folds)
-    scores, failures = [], []
+    scores, failures = [], dict[str, str]()
     for name, fit in fitters.items():
         try:
             scores.append(_score(name, fit, stimuli, outputs, held_out))
         except ForceTorqueError as error:
-            failures.append(Failure(name=name, reason=str(error)))
-    return Comparison(scores=tuple(sorted(scores, key=lambda score: score.rmse)), failures=tuple(failures))
+            failures[name] = str(error)
+    return tuple(sorted(scores, key=lambda score: score.rmse)), failures
 
 
 def _held_out(count: int, groups: Any, folds: int) -> list[BoolArray]:
@@ -291,9 +272,9 @@ def channel_curve(
             nonlinearity_percent=None,
             not_fitted=(),
         )
-    comparison = compare(stimulus, output, fitters=fitters, groups=groups)
-    best = comparison.scores[0]
-    line = next(score for score in comparison.scores if score.name == _LINEAR)
+    scores, failures = compare(stimulus, output, fitters=fitters, groups=groups)
+    best = scores[0]
+    line = next(score for score in scores if score.name == _LINEAR)
     grid = np.linspace(float(stimulus.min()), float(stimulus.max()), _GRID)
     distance = float(np.abs(best.model.predict(grid) - line.model.predict(grid)).max())
     moved = span >= MOVED * line.rmse
@@ -311,7 +292,7 @@ def channel_curve(
         linear_rmse=line.rmse,
         curved=curved if moved else None,
         nonlinearity_percent=100.0 * distance / span if moved else None,
-        not_fitted=tuple(failure.name for failure in comparison.failures),
+        not_fitted=tuple(failures),
     )
 
 
