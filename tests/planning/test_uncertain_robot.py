@@ -13,11 +13,12 @@ import pytest
 from benchmarks.planned_errors import LIMBS, Trial, followed
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import QUADRATIC_WITHOUT_PRIOR, Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.planning import information
 from forcetorque.planning.information import Knowledge, PlannedLoads, unfitted_posterior
 from forcetorque.planning.planning import plan
 from forcetorque.planning.posture_search import Choices, Criterion, pick
@@ -145,8 +146,11 @@ def _planning(folder: Path, robot: str) -> SensorRun:
     return SensorRun(load_experiment(folder / "own.toml", Purpose.PLANNING), "arm_ft")
 
 
-def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(arm: Path) -> None:
+def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(
+    arm: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """And the assumption is said; what the model makes of the error is in the rows."""
+    monkeypatch.setattr(information, "QUADRATIC", QUADRATIC_WITHOUT_PRIOR)  # as expected then
     exact, usual = (
         plan(_planning(arm, robot), recordings=1, seconds=20.0, effort=SHORT) for robot in (EXACT, "tolerance = {}\n")
     )

@@ -12,7 +12,13 @@ import numpy as np
 from forcetorque.base.arrays import ArrayRecord, FloatArray, array
 from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import expected_sensor_errors as expected
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, QUADRATIC, Assumptions, rows_of
+from forcetorque.experiment.calibration.expected_sensor_errors import (
+    LOADS,
+    QUADRATIC,
+    QUADRATIC_WITHOUT_PRIOR,
+    Assumptions,
+    rows_of,
+)
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
 from forcetorque.experiment.calibration.quadratic_correction import PAIRS, quadratic_terms
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
@@ -167,7 +173,8 @@ class Nuisance:
             The terms.
         """
         rows = rows_of(matrix, assumptions, in_wrench=with_prior)
-        return cls(load_to_full_scale=rows.load_to_full_scale, deviation=QUADRATIC.expected * rows.unit)
+        expected = (QUADRATIC if with_prior else QUADRATIC_WITHOUT_PRIOR).expected
+        return cls(load_to_full_scale=rows.load_to_full_scale, deviation=expected * rows.unit)
 
     def columns(self, wrench: FloatArray, centre: FloatArray) -> FloatArray:
         """Compute the products.

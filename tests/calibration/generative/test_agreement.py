@@ -8,6 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
+from forcetorque.base.wrench import FORCE, MOMENT
 from forcetorque.calibration.generative.agreement import (
     disagreements,
     require_response,
@@ -80,6 +81,19 @@ def test_a_sensor_answers_with_three_tenths_of_its_prior(gain: float, is_refused
             require_sensor(response)
     else:
         require_sensor(response)
+
+
+@pytest.mark.parametrize("part", [FORCE, MOMENT])
+def test_a_sensor_does_not_answer_in_reverse(part: slice) -> None:
+    """One or three reversed components are refused, a mount that is turned by half a turn is not."""
+    for sign, is_refused in (([-1, -1, -1], True), ([1, -1, 1], True), ([-1, -1, 1], False)):
+        response = np.eye(6)
+        response[part, part] = np.diag(sign)
+        if is_refused:
+            with pytest.raises(FitError, match="with the reverse of what its prior says"):
+                require_sensor(response)
+        else:
+            require_sensor(response)
 
 
 @pytest.mark.parametrize(("share", "is_refused"), [(0.49, False), (0.51, True)])

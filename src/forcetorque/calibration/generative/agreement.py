@@ -94,6 +94,10 @@ _RANK = 1e-6
 """Share of the largest change of load below which a direction does not move."""
 _UNKNOWN = 0.5
 """Share of its response that the standard deviation of it may be, where no prior helps."""
+_REMEDY = (
+    "what its prior says; mounting does not do that: check prior and serial, the masses of the model, "
+    "measure_direction and the support"
+)
 _LEAST_GAIN = 0.3
 """Least singular value of measured over prior response; mounting takes up to half of it, not more."""
 
@@ -185,7 +189,7 @@ def require_response(
 
 
 def require_sensor(response: FloatArray) -> None:
-    """Refuse data by which a sensor would hardly answer to some load that its prior says it answers to.
+    """Refuse data by which a sensor would hardly answer to some load, or answer in reverse, other than its prior says.
 
     Args:
         response: Measured over prior response, in units of the size of every row; shape (6, 6).
@@ -196,10 +200,11 @@ def require_sensor(response: FloatArray) -> None:
     _, strengths, directions = np.linalg.svd(response)
     if strengths[-1] < _LEAST_GAIN:
         raise FitError(
-            f"by the data the sensor answers to {direction_words(directions[-1])} with {strengths[-1]:.2f} of what its "
-            "prior says; mounting does not do that: check prior and serial, the masses of the model, measure_direction "
-            "and the support"
+            f"by the data the sensor answers to {direction_words(directions[-1])} with {strengths[-1]:.2f} of {_REMEDY}"
         )
+    for part, name in zip(FORCE_AND_MOMENT, ("forces", "moments"), strict=True):
+        if np.linalg.det(response[part, part]) < 0.0:
+            raise FitError(f"by the data the sensor answers to {name} with the reverse of {_REMEDY}")
 
 
 def _load_sizes(wrench: FloatArray) -> FloatArray:

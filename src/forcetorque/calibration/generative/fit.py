@@ -131,12 +131,13 @@ class Layout:
         sensor = expected.COEFFICIENTS if terms else expected.SENSOR
         if assumptions.prior_size is not None:
             sensor = expected.STATED
+        quadratic = expected.QUADRATIC
         if not with_prior:  # nothing is known of the sensor: its deviations may be as large as they like
-            sensor = Scale(expected=1e3, weight=np.inf)
-        own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING)
+            sensor, quadratic = Scale(expected=1e3, weight=np.inf), expected.QUADRATIC_WITHOUT_PRIOR
+        own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), quadratic, expected.FLATTENING)
         kinds = list(dict.fromkeys(term.kind for term in terms))
         mount = expected.mount_scales(assumptions.mount)
-        shared = (expected.GAIN, *mount, *(expected.MODEL for _ in kinds)) if terms else ()
+        shared = (expected.GAIN, *mount, *(expected.model_scale(kind) for kind in kinds)) if terms else ()
         scales = (*own * (int(group.max()) + 1), *shared)
         counts = self._counts
         of_own = np.repeat(np.arange(len(own)), counts[: len(own)])

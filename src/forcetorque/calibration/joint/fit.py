@@ -33,7 +33,7 @@ from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, in
 from forcetorque.calibration.generative.whitening import Border, Whitened
 from forcetorque.calibration.joint.unknowns import CHANGES, EVEN, JointFit, Places, SensorPrior
 from forcetorque.calibration.joint.windows import PartWindows
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, MODEL, Scale
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Scale, model_scale
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 _OFFSET: Final = Scale(expected=1e3, weight=np.inf)
@@ -150,7 +150,7 @@ class _Unknowns:
         scales += [_OFFSET, _SLOPE]
         kinds = list(dict.fromkeys(term.kind for term in self.places.terms))
         size += [len(scales) + kinds.index(term.kind) for term in self.places.terms]
-        scales += [MODEL] * len(kinds)
+        scales += [model_scale(kind) for kind in kinds]
         return Sizes(
             places=rows,
             own=0,

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.experiment.calibration.robot_model_error import MountTolerance
+from forcetorque.experiment.calibration.robot_model_error import MountTolerance, TermKind
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, measured_components
 
 ACCURACY_SHARE: Final = 1e-3
@@ -66,8 +66,15 @@ SHIFT: Final = Scale(expected=0.002, weight=6.0)
 """Shift of its origin along each of them; m. Centres of mass that are off look like one, so it is held."""
 MODEL: Final = Scale(expected=1.0, weight=4.0, least=1.0)
 """Errors of the robot model of one kind, over their tolerance: evidence may find them larger, never smaller."""
-QUADRATIC: Final = Scale(expected=0.05, weight=6.0)
-"""Quadratic terms, over full scale."""
+MASS: Final = Scale(expected=1.0, weight=8.0, least=1.0)
+"""The same of masses, for which evidence must be stronger: masses that all err alike read as a gain of the sensor."""
+QUADRATIC: Final = Scale(expected=0.02, weight=0.25)
+"""Quadratic terms, over full scale.
+
+Where 5 % are expected, which count for six coefficients, the feet of a real log err by 1.1 times as much.
+"""
+QUADRATIC_WITHOUT_PRIOR: Final = Scale(expected=0.05, weight=6.0)
+"""The same of a sensor without a prior matrix."""
 FLATTENED: Final = 1.0 / 3.0
 """What the derivative window took from the reference, over what one of twice the length would take besides.
 
@@ -110,6 +117,11 @@ def variable_sizes(variable: LinearVariable, from_load: FloatArray, extent: floa
             "says nothing of its coefficients; state it, record more, or leave the variable out"
         )
     return np.full(len(from_load), VARIABLE_SHARE / extent)
+
+
+def model_scale(kind: TermKind) -> Scale:
+    """Give the expected size of errors of the robot model of one kind, over their tolerance."""
+    return MASS if kind is TermKind.MASS else MODEL
 
 
 def mount_scales(mount: MountTolerance) -> tuple[Scale, Scale]:
