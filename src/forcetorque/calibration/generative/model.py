@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -24,7 +25,8 @@ from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.calibration.generative.row_evidence import RowPrior, evidence_of
 from forcetorque.calibration.generative.shared_unknowns import RowProducts, SharedSolution, solve_together
 from forcetorque.calibration.generative.whitening import Whitened
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, MODEL, Scale
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 _SWEEPS = 20
 _CHOICES = (0, 4, 10)
@@ -159,6 +161,12 @@ class Sizes:
     least: FloatArray
     """Sizes below which no evidence takes them; shape (sizes,)."""
 
+    @classmethod
+    def scaled(cls, scales: Sequence[Scale], size: IntArray, *, places: Sequence[IntArray], own: int) -> Self:
+        """Take the scales of the sizes; the others as of the class."""
+        expected, weight, least = np.array([(one.expected, one.weight, one.least) for one in scales]).T
+        return cls(places=places, own=own, size=size, expected=expected, weight=weight, least=least)
+
     @property
     def coupled(self) -> bool:
         """Whether rows share unknowns."""
@@ -196,6 +204,20 @@ class Sizes:
         free = np.isfinite(self.weight)
         square = (sizes[free] / self.expected[free]) ** 2
         return float((self.weight[free] * (np.log(square) + 1.0 / square)).sum())
+
+
+def sizes_of_terms(terms: Sequence[ErrorTerm], first: int) -> tuple[list[int], list[Scale]]:
+    """Give the terms of the robot model of one kind one size.
+
+    Args:
+        terms: The terms.
+        first: Number of the first of these sizes.
+
+    Returns:
+        Number of the size of every term, and the scales of these sizes.
+    """
+    kinds = list(dict.fromkeys(term.kind for term in terms))
+    return [first + kinds.index(term.kind) for term in terms], [MODEL] * len(kinds)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

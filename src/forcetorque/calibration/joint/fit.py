@@ -29,11 +29,11 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES
-from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer
+from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer, sizes_of_terms
 from forcetorque.calibration.generative.whitening import Border, Whitened
 from forcetorque.calibration.joint.unknowns import CHANGES, EVEN, JointFit, Places, SensorPrior
 from forcetorque.calibration.joint.windows import PartWindows
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, MODEL, Scale
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Scale
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 _OFFSET: Final = Scale(expected=1e3, weight=np.inf)
@@ -148,17 +148,8 @@ class _Unknowns:
         size += [len(scales)] * (LOADS * len(self.places.offsets))
         size += [len(scales) + 1] * (LOADS * len(self.places.slopes))
         scales += [_OFFSET, _SLOPE]
-        kinds = list(dict.fromkeys(term.kind for term in self.places.terms))
-        size += [len(scales) + kinds.index(term.kind) for term in self.places.terms]
-        scales += [MODEL] * len(kinds)
-        return Sizes(
-            places=rows,
-            own=0,
-            size=np.array(size),
-            expected=np.array([scale.expected for scale in scales]),
-            weight=np.array([scale.weight for scale in scales]),
-            least=np.array([scale.least for scale in scales]),
-        )
+        of_terms, of_kinds = sizes_of_terms(self.places.terms, len(scales))
+        return Sizes.scaled([*scales, *of_kinds], np.array([*size, *of_terms]), places=rows, own=0)
 
     def of_sensors(self, sizes: Sizes) -> BoolArray:
         """Which sizes are those of sensors; shape (sizes,)."""
