@@ -23,7 +23,7 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.calibration.generative.row_evidence import RowPrior, evidence_of
-from forcetorque.calibration.generative.shared_unknowns import RowProducts, SharedSolution, solve_together
+from forcetorque.calibration.generative.shared_unknowns import SharedSolution, in_unknowns, solve_together
 from forcetorque.calibration.generative.whitening import Whitened
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, MODEL, Scale
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
@@ -86,7 +86,7 @@ class _Row:
     def choose(self, shape: int) -> None:
         """Take a shape of the noise."""
         self.shape = shape
-        self.products = RowProducts.of(self.data[shape], self.basis, *self._place)
+        self.products = in_unknowns(self.data[shape], self.basis, *self._place)
 
     def take_noise(self, variance: float) -> None:
         """Start with a known variance of the noise."""
