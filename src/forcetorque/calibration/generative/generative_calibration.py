@@ -222,13 +222,12 @@ def generative_calibration(
     fit, trial, linearity = _fit(recordings, stretches, variables)
     moments = pooled(interval.moments for interval in intervals)
     sessions = _sessions(fit, intervals, first.prior)
-    errors = fit.posterior.coefficient_error(fit.model.coefficients)
     return Calibration(
         sensor=first.sensor,
         matrix=fit.model.matrix,
         offset=fit.model.offset,
         sessions=sessions,
-        variables=tuple(_variable(fit, recordings, k, variable, errors[:, k]) for k, variable in enumerate(variables)),
+        variables=_variables(fit, intervals, variables),
         quadratic=fit.model.quadratic,
         nonlinear=trial,
         linearity=linearity,
@@ -340,19 +339,14 @@ def _prior_offset(intervals: Sequence[IntervalMoments], session: str, prior: Flo
     return measured_part(moments.reference_mean, measured_components(prior)) - prior @ moments.raw_mean
 
 
-def _variable(
-    fit: GenerativeFit, recordings: Sequence[RecordingMoments], k: int, variable: LinearVariable, error: FloatArray
-) -> CalibratedVariable:
-    intervals = [interval for recording in recordings for interval in recording.intervals]
-    return CalibratedVariable(
-        name=variable.name,
-        unit=variable.unit,
-        reference_value=float(fit.model.reference_values[k]),
-        coefficients=fit.model.coefficients[:, k],
-        standard_error=error,
-        prior=variable.prior,
-        minimum=min(float(interval.variable_minimum[k]) for interval in intervals),
-        maximum=max(float(interval.variable_maximum[k]) for interval in intervals),
+def _variables(
+    fit: GenerativeFit, intervals: Sequence[IntervalMoments], variables: Sequence[LinearVariable]
+) -> tuple[CalibratedVariable, ...]:
+    model, errors = fit.model, fit.posterior.coefficient_error(fit.model.coefficients)
+    ends = np.array([[one.variable_minimum, one.variable_maximum] for one in intervals])
+    return tuple(
+        CalibratedVariable.of(one, model.reference_values[k], model.coefficients[:, k], errors[:, k], ends[:, :, k])
+        for k, one in enumerate(variables)
     )
 
 
