@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Final, Self
+from typing import Self
 
 import numpy as np
 
@@ -30,15 +30,22 @@ from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, Mode
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
 
 
-def _frame_changes() -> FloatArray:
+def gain_and_frame_changes(from_raw: FloatArray, from_load: FloatArray, response: FloatArray) -> FloatArray:
+    """Give what gains of channels, and rotation and shift of the frame of a sensor, change in the response to loads.
+
+    Args:
+        from_raw: What reads the rows off the raw readings; shape (rows, c).
+        from_load: What a load does to the rows; shape (rows, 6).
+        response: Response of the readings to loads; shape (c, 6).
+
+    Returns:
+        Changes of every row by relative gains, angles about and shifts along the axes; shape (rows, 6, c + 6).
+    """
     skew = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)
-    changes = np.zeros((LOADS, LOADS, LOADS))
-    changes[:3, :3, :3] = changes[:3, 3:, 3:] = changes[3:, 3:, :3] = skew
-    return changes
-
-
-FRAME_CHANGES: Final = _frame_changes()
-"""What rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
+    frame = np.zeros((LOADS, LOADS, LOADS))
+    frame[:3, :3, :3] = frame[:3, 3:, 3:] = frame[3:, 3:, :3] = skew
+    gains = np.einsum("rk,kd->rdk", from_raw, response)
+    return np.concatenate([gains, np.einsum("rc,kcd->rdk", from_load, frame)], axis=2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,12 +141,8 @@ class SolvedRows:
     each."""
     unknowns: Sequence[Unknowns]
     """Unknowns of every row."""
-    free: Sequence[FreeUnknowns]
-    """Offsets and drifts of every row, given its unknowns."""
     layout: Layout
     """Where these stand."""
-    terms: Sequence[ErrorTerm]
-    """Numbers of the robot model that may be wrong."""
     expected_rows: FloatArray
     """What variables were expected to add to every row, which was taken off; shape (rows, v)."""
     matrix: FloatArray
@@ -167,7 +170,8 @@ class SolvedRows:
         own = self.layout["model"]
         shared = self.unknowns[0].covariance[own, own]  # by all rows
         of_model = np.asarray(np.linalg.pinv(shared), dtype=np.float64)
-        known = [self._row(k, of_model) for k in range(len(unit))]
+        free = free_unknowns(self.design, [unknown.noise for unknown in self.unknowns])
+        known = [self._row(k, own, of_model) for k, own in enumerate(free)]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
         learnt = covariance[:, :LOADS, :LOADS].copy()
@@ -195,7 +199,7 @@ class SolvedRows:
             accuracy=self.assumptions.reference_accuracy(self.matrix),
             repeatability=self.assumptions.repeatability,
             load_centre=self.design.load_centre,
-            model=self._model([row[2] * size for row, size in zip(known, unit, strict=True)]) if self.terms else None,
+            model=self._model([row[2] * size for row, size in zip(known, unit, strict=True)]),
         )
         return matrix, posterior
 
@@ -236,7 +240,7 @@ class SolvedRows:
                 standard_error=float(np.sqrt(max(variance, 0.0))) * term.deviation,
                 tolerance=term.deviation,
             )
-            for term, value, variance in zip(self.terms, values, variances, strict=True)
+            for term, value, variance in zip(self.design.derivatives.terms, values, variances, strict=True)
         )
 
     def _noise(self) -> tuple[RowNoise, ...]:
@@ -250,7 +254,7 @@ class SolvedRows:
             for unknown, unit in zip(self.unknowns, self.rows.unit, strict=True)
         )
 
-    def _row(self, k: int, information: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _row(self, k: int, free: FreeUnknowns, information: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit.
 
         The offset is that which suits the robot model as it is: what the model is found to be off by in the mean of a
@@ -258,13 +262,14 @@ class SolvedRows:
 
         Args:
             k: The row.
+            free: Its offsets and drifts, given its unknowns.
             information: Inverse covariance of the errors of the model; shape (terms, terms).
 
         Returns:
             Mean, shape (p,), covariance, shape (p, p), and the change of the mean per tolerance of every error of the
             model, were that known; shape (p, terms).
         """
-        unknown, basis, design, free = self.unknowns[k], self.basis[k], self.design, self.free[k]
+        unknown, basis, design = self.unknowns[k], self.basis[k], self.design
         (a, b), sessions = basis.shape, len(design.sessions)
         used = LOADS + self.expected_rows.shape[1]
         from_unknowns = np.zeros((used + design.free.shape[1], len(unknown.coefficients)))
@@ -289,11 +294,13 @@ class SolvedRows:
         mean = constant + from_unknowns @ unknown.coefficients
         return mean, 0.5 * (covariance + covariance.T), by_model
 
-    def _model(self, by_model: Sequence[FloatArray]) -> ModelPart:
-        """What rows owe to errors of the robot model, of which they share what is known."""
-        deviations, own = np.array([term.deviation for term in self.terms]), self.layout["model"]
+    def _model(self, by_model: Sequence[FloatArray]) -> ModelPart | None:
+        """What rows owe to errors of the robot model, of which they share what is known; None where it is exact."""
+        terms, deviations, own = self.design.derivatives.terms, self.design.derivatives.deviations, self.layout["model"]
+        if not terms:
+            return None
         return ModelPart(
-            terms=tuple(self.terms),
+            terms=terms,
             term_covariance=self.unknowns[0].covariance[own, own] * np.outer(deviations, deviations),
             response=np.stack(by_model) / deviations,
         )
@@ -441,8 +448,9 @@ def fit_generative(
         expected.variable_sizes(one, rows.from_load, extent) for one, extent in zip(variables, extents, strict=True)
     ]
     by_row = np.column_stack([np.zeros((len(rows.unit), 0)), *of_variables])
+    changes = gain_and_frame_changes(rows.from_raw, rows.from_load, np.linalg.pinv(matrix))
     basis = [
-        _basis(rows, matrix, k, layout, size=size, variables=by_row[k])
+        _basis(rows, changes[k], k, layout, size=size, variables=by_row[k])
         for k, size in enumerate(rows.prior_sizes(assumptions, 1.0))
     ]
 
@@ -464,15 +472,12 @@ def fit_generative(
         ]
         sizes = layout.sizes(rows.group, terms, assumptions, with_prior=prior is not None)
         best = infer(data, sizes, local=design.local_places.ravel(), sensor=np.arange(LOADS), start=start)
-        unknowns = best.rows()
         solved = SolvedRows(
             rows=rows,
             design=design,
             basis=basis,
-            unknowns=unknowns,
-            free=free_unknowns(design, [unknown.noise for unknown in unknowns]),
+            unknowns=best.rows(),
             layout=layout,
-            terms=terms,
             expected_rows=expected_rows,
             matrix=matrix,
             with_prior=prior is not None,
@@ -547,7 +552,7 @@ def _rough(raw: FloatArray, wrench: FloatArray, measured: BoolArray) -> FloatArr
 
 
 def _basis(
-    rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, size: float, variables: FloatArray
+    rows: Rows, changes: FloatArray, row: int, layout: Layout, *, size: float, variables: FloatArray
 ) -> FloatArray:
     """What the columns of the design are worth in the unknowns of a row before those of terms; shape (a, b)."""
     v, pairs = layout.own["variables"], len(PAIRS[0])
@@ -562,9 +567,7 @@ def _basis(
     if not layout.shared["model"]:
         basis[:LOADS, layout["reference"]] = rows.frame_root[row]
         return basis
-    basis[:LOADS, layout["gains"]] = (rows.from_raw[row][:, None] * np.linalg.pinv(matrix)).T
-    moved = np.einsum("c,kcd->dk", rows.from_load[row], FRAME_CHANGES)
-    basis[:LOADS, layout["rotation"]], basis[:LOADS, layout["shift"]] = moved[:, :3], moved[:, 3:]
+    basis[:LOADS, layout["gains"].start : layout["shift"].stop] = changes
     return basis
 
 

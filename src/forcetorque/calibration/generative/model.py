@@ -88,14 +88,6 @@ class _Row:
         self.shape = shape
         self.products = in_unknowns(self.data[shape], self.basis, *self._place)
 
-    def take_noise(self, variance: float) -> None:
-        """Start with a known variance of the noise."""
-        self.variance = np.maximum(variance, self.least)
-
-    def take_all_as_noise(self) -> None:
-        """Start with the whole response as noise."""
-        self.variance = np.maximum(self.start * self.response / self.freedom, self.least)
-
     def take_least_squares(self, used: IntArray) -> FloatArray:
         """Start with the residual of least squares on some unknowns as noise, and give these by the first shape."""
         basis, a = self.basis[:, used], len(self.basis)
@@ -298,10 +290,9 @@ def infer(
     """
     rows = [_Row(k, one, sizes) for k, one in enumerate(data)]
     of_cells = np.zeros(0, dtype=np.int64) if local is None else local
-    for row, known in zip(rows, start, strict=False):
-        row.take_noise(known.variance)
-    for row in () if start else rows:
-        row.take_all_as_noise()
+    variances = [known.variance for known in start] or [row.start * row.response / row.freedom for row in rows]
+    for row, variance in zip(rows, variances, strict=True):
+        row.variance = np.maximum(variance, row.least)
     best = _ascend(rows, sizes, sizes.of(start), of_cells, hold=bool(start))
     if start or sensor is None or rows[0].freedom <= LOADS or not _have_rank(data[0].data[0].columns[:LOADS, :LOADS]):
         return best

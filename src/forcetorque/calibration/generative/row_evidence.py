@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -31,14 +30,6 @@ class EvidenceTerms:
     """`s^T (M + v)^-2 s`, the sum of squares of the unknowns; shape (k,)."""
     determined: FloatArray
     """Trace of `M (M + v)^-1`, the number of unknowns that the data determine; shape (k,)."""
-
-
-class RowEvidence(Protocol):
-    """The evidence of k rows or shapes of the noise."""
-
-    def at(self, variance: FloatArray) -> EvidenceTerms:
-        """Evaluate it for the variances of the noise; shape (k,)."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -69,14 +60,14 @@ class RowPrior:
         return cls(root=root, local=local)
 
 
-def evidence_of(data: Sequence[tuple[Whitened, RowPrior]]) -> RowEvidence:
+def evidence_of(data: Sequence[tuple[Whitened, RowPrior]]) -> _Tridiagonal | _Bordered:
     """Prepare the evidence of rows.
 
     Args:
         data: The data of k rows or shapes of the noise, each with the prior distribution of the row.
 
     Returns:
-        The evidence.
+        The evidence, whose `at` evaluates it at variances of the noise.
     """
     if data[0][0].border.own.size:
         return _Bordered(data)

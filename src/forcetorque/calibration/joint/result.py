@@ -377,7 +377,8 @@ def _far_errors(errors: Sequence[ModelErrorRow], urdf: Path | None) -> Iterator[
 def _wide_errors(errors: Sequence[ModelErrorRow], roots: Sequence[str]) -> Iterator[str]:
     wide = [row for row in errors if row.is_wide]
     if wide:
-        kinds = ", ".join(_kind(unit, rows) for unit, rows in _by_unit(wide))
+        units = dict.fromkeys(row.unit for row in wide)
+        kinds = ", ".join(_kind(unit, [row for row in wide if row.unit == unit]) for unit in units)
         yield (
             f"errors of the robot model are by evidence far above their tolerances: {kinds}. "
             f"The model, or the motion, is not that of the robot. {_imu_question(roots)}"
@@ -386,11 +387,6 @@ def _wide_errors(errors: Sequence[ModelErrorRow], roots: Sequence[str]) -> Itera
 
 _KINDS = {"": "mass", "m": "centre of mass", "rad": "joint zero", "m/s2": "acceleration", "s": "delay"}
 """What a number of the model is, by its unit."""
-
-
-def _by_unit(rows: Sequence[ModelErrorRow]) -> Iterator[tuple[str, list[ModelErrorRow]]]:
-    for unit in dict.fromkeys(row.unit for row in rows):
-        yield unit, [row for row in rows if row.unit == unit]
 
 
 def _kind(unit: str, rows: Sequence[ModelErrorRow]) -> str:
