@@ -448,7 +448,8 @@ def fit_generative(
         expected.variable_sizes(one, rows.from_load, extent) for one, extent in zip(variables, extents, strict=True)
     ]
     by_row = np.column_stack([np.zeros((len(rows.unit), 0)), *of_variables])
-    changes = gain_and_frame_changes(rows.from_raw, rows.from_load, np.linalg.pinv(matrix))
+    to_raw = np.asarray(np.linalg.pinv(matrix), dtype=np.float64)
+    changes = gain_and_frame_changes(rows.from_raw, rows.from_load, to_raw)
     basis = [
         _basis(rows, changes[k], k, layout, size=size, variables=by_row[k])
         for k, size in enumerate(rows.prior_sizes(assumptions, 1.0))

@@ -290,9 +290,9 @@ def infer(
     """
     rows = [_Row(k, one, sizes) for k, one in enumerate(data)]
     of_cells = np.zeros(0, dtype=np.int64) if local is None else local
-    variances = [known.variance for known in start] or [row.start * row.response / row.freedom for row in rows]
-    for row, variance in zip(rows, variances, strict=True):
-        row.variance = np.maximum(variance, row.least)
+    for number, row in enumerate(rows):
+        of_start = start[number].variance if start else row.start * row.response / row.freedom
+        row.variance = np.maximum(of_start, row.least)
     best = _ascend(rows, sizes, sizes.of(start), of_cells, hold=bool(start))
     if start or sensor is None or rows[0].freedom <= LOADS or not _have_rank(data[0].data[0].columns[:LOADS, :LOADS]):
         return best
