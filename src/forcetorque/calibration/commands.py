@@ -111,6 +111,7 @@ def calibrate(
     refuse_standard_output("--output", output)
     refuse_figure(figure, force=force)
     refusals: list[ForceTorqueError] = []
+    first: Experiment | None
     result: SensorCalibrations | None
     if jointly:
         alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
@@ -165,7 +166,7 @@ def _fitted_alone(
     declare_outputs(*filter(Path.exists, filter(None, [*files, write_urdf])), force=force)
     if write_urdf is not None:
         _require_one_fit(write_urdf, names, contents)
-    made = {"code_version": version("forcetorque"), "created": created_now()}
+    made: dict[str, Any] = {"code_version": version("forcetorque"), "created": created_now()}
     thesis = options["kind"] not in (None, "generative") or options["regularisation"] is not None
     results = []
     for (name, serial), file in zip(names, files, strict=True):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -90,11 +90,14 @@ class Stretch(ArrayRecord):
             All else as it is.
         """
         own = iter(rows)
+        time_s = next(own)
+        of_joints: dict[str, Any] = {name: next(own) for name in _MOTION}
+        of_root = {name: next(own) for name in _OF_ROOT if getattr(self.root, name).ndim == 2}
         return replace(
             self,
-            time_s=next(own),
-            joints=replace(self.joints, **{name: next(own) for name in _MOTION}),
-            root=replace(self.root, **{name: next(own) for name in _OF_ROOT if getattr(self.root, name).ndim == 2}),
+            time_s=time_s,
+            joints=replace(self.joints, **of_joints),
+            root=replace(self.root, **of_root),
             readings={name: next(own) for name in self.readings},
             variables={name: next(own) for name in self.variables},
         )
