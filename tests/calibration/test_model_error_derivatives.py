@@ -24,6 +24,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelError, ModelTolerance, TermKind
 from forcetorque.experiment.calibration.stored_moments import read_moments
+from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Use
@@ -68,8 +69,7 @@ def test_columns_are_differences_between_robots(
     monkeypatch.setattr("forcetorque.calibration.model_error_derivatives.SAMPLES_PER_WINDOW", samples_per_window)
     run = _run(arm)
     (samples,) = run.samples(Use.CALIBRATION)
-    columns = model_columns(run, samples.interval, samples.data_set)
-    by_name = {term.name: columns.columns[:, :, k] for k, term in enumerate(columns.terms)}
+    by_name = _columns(run, samples)
 
     def robot(step: float) -> RobotModel:
         model = run.experiment.model
@@ -94,10 +94,10 @@ def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
     for text in (EXACT, none):
         run = _run(arm, text)
         (samples,) = run.samples(Use.CALIBRATION)
-        assert model_columns(run, samples.interval, samples.data_set).terms == ()
+        assert _columns(run, samples) == {}
         assert _calibrated(run).model_errors == ()
     one = _run(arm, "tolerance = { links = { hand = 0.0, tool = 0.0 }, joints = { wrist = 2.0 } }\n")
-    terms = {term.name: term for term in model_columns(one, samples.interval, samples.data_set).terms}
+    terms = {term.name: term for term in model_columns(one, samples.interval, samples.data_set)[0]}
     assert "mass of hand" not in terms
     assert terms["zero of wrist"].deviation == pytest.approx(np.radians(2.0))
     assert terms["zero of elbow"].deviation == pytest.approx(np.radians(0.5))
@@ -123,15 +123,13 @@ def test_an_attached_load_is_no_error_of_a_link(arm: Path, load_kg: float) -> No
     """Masses and centres stay those of the robot, also where the load makes another link of the body the heaviest."""
     run = _run(arm)
     (samples,) = run.samples(Use.CALIBRATION)
-    bare = model_columns(run, samples.interval, samples.data_set)
+    of_bare = _columns(run, samples)
     file = arm / "own.toml"
     load = f'\n[[load]]\nlink = "tool"\nmass_kg = {load_kg}\ncentre_of_mass_m = [0.0, 0.0, 0.0]\n'
     file.write_text(file.read_text(encoding="utf-8") + load, encoding="utf-8")
     run = SensorRun(load_experiment(file), "arm_ft")
     (samples,) = run.samples(Use.CALIBRATION)
-    loaded = model_columns(run, samples.interval, samples.data_set)
-    of_bare = {term.name: bare.columns[:, :, k] for k, term in enumerate(bare.terms)}
-    of_loaded = {term.name: loaded.columns[:, :, k] for k, term in enumerate(loaded.terms)}
+    of_loaded = _columns(run, samples)
     np.testing.assert_allclose(of_loaded["mass of hand"], of_bare["mass of hand"], rtol=1e-9)
     assert np.abs(of_loaded["zero of wrist"]).max() > np.abs(of_bare["zero of wrist"]).max()
 
@@ -174,6 +172,12 @@ def test_stored_moments_carry_the_model(arm: Path) -> None:
     assert direct.model_errors
     assert stored.model_errors == direct.model_errors
     np.testing.assert_array_equal(stored.matrix, direct.matrix)
+
+
+def _columns(run: SensorRun, samples: IntervalSamples) -> dict[str, FloatArray]:
+    """Derivatives in windows by the name of the term; shape (w, 6) each."""
+    terms, columns = model_columns(run, samples.interval, samples.data_set)
+    return {term.name: columns[:, :, k] for k, term in enumerate(terms)}
 
 
 def _calibrated(run: SensorRun) -> Calibration:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import io
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib import import_module
@@ -38,6 +38,7 @@ from forcetorque.evaluation.figures.sphere import force_space_figure, index_figu
 from forcetorque.evaluation.load_cases.verdict import LoadCaseError, LoadCaseVerdict, Reason
 from forcetorque.evaluation.sphere.sensor_sphere import SensorSphere, analyse_sphere
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials
+from forcetorque.experiment.calibration.provenance import Validity
 from forcetorque.experiment.validation_offset import Offset
 from forcetorque.locomotion.figures import (
     balance_figure,
@@ -219,17 +220,36 @@ def _residual(rng: np.random.Generator) -> Figure:
     return residual_figure(time, {"prior": 0.3 * _wrenches(rng), "new": 0.1 * _wrenches(rng)})
 
 
-def excitation_of_sensors(rng: np.random.Generator, *channels: int) -> tuple[list[str], *tuple[list[np.ndarray], ...]]:
+def validity_of_directions(
+    variance: np.ndarray, explained: np.ndarray, excited: Sequence[bool], directions: np.ndarray
+) -> Validity:
+    """What supports a calibration by its raw directions, nothing else."""
+    none, zero = np.zeros(len(excited)), np.zeros(6)
+    return Validity(
+        raw_minimum_counts=none,
+        raw_maximum_counts=none,
+        expected_wrench_sd=zero,
+        rank=len(excited),
+        condition=None,
+        directions=directions,
+        variance_counts2=variance,
+        explained=explained,
+        excited=tuple(excited),
+    )
+
+
+def excitation_of_sensors(rng: np.random.Generator, *channels: int) -> dict[str, Validity]:
     """What the figure of excitation takes of sensors with so many channels: every second direction is excited."""
-    names = [f"sensor {k}" for k in range(len(channels))]
-    variance = [np.sort(10.0 ** rng.uniform(0.0, 8.0, c))[::-1] for c in channels]
-    explained = [np.where(np.arange(c) % 2, rng.uniform(0.0, 0.4, c), rng.uniform(0.6, 1.0, c)) for c in channels]
-    directions = [np.linalg.qr(rng.normal(size=(c, c)))[0] for c in channels]
-    return names, variance, explained, [share > 0.5 for share in explained], directions
+    sensors = {}
+    for k, c in enumerate(channels):
+        share = np.where(np.arange(c) % 2, rng.uniform(0.0, 0.4, c), rng.uniform(0.6, 1.0, c))
+        variance, directions = np.sort(10.0 ** rng.uniform(0.0, 8.0, c))[::-1], np.linalg.qr(rng.normal(size=(c, c)))[0]
+        sensors[f"sensor {k}"] = validity_of_directions(variance, share, [bool(one > 0.5) for one in share], directions)
+    return sensors
 
 
 def _excitation(rng: np.random.Generator) -> Figure:
-    return excitation_figure(*excitation_of_sensors(rng, 6, 12))
+    return excitation_figure(excitation_of_sensors(rng, 6, 12))
 
 
 def learnt_of(rng: np.random.Generator) -> tuple[InformationGain, ...]:

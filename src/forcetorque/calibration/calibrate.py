@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
@@ -94,17 +95,27 @@ def calibrate_sensor(
     if kind is None and regularisation is None:
         _require_one_estimator(campaign)
     campaign, mount = with_estimated_mount(campaign)
+    options = campaign.runs[0].experiment.fit_options
+    with _stating_touches(campaign):
+        if kind == "generative" or (kind is None and regularisation is None and options.generative):
+            recordings = [*moments, *recording_moments(campaign)]
+            calibration = generative_calibration(
+                recordings, code_version=code_version, created=created, nonlinear=nonlinear
+            )
+        elif nonlinear:
+            raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
+        elif moments:
+            raise FitError(_MOMENTS)
+        else:
+            calibration = _of_thesis(campaign, regularisation, kind, code_version=code_version, created=created)
+    return calibration if mount is None else calibration.model_copy(update={"mount": mount})
+
+
+@contextmanager
+def _stating_touches(campaign: Campaign) -> Iterator[None]:
+    """Add to a refusal what may touch the robot beyond the sensor."""
     try:
-        calibration = _fitted(
-            campaign,
-            code_version=code_version,
-            created=created,
-            moments=moments,
-            regularisation=regularisation,
-            kind=kind,
-            nonlinear=nonlinear,
-        )
-        return calibration if mount is None else calibration.model_copy(update={"mount": mount})
+        yield
     except FitError as error:
         sentences = dict.fromkeys(sentence for run in campaign.runs if (sentence := possible_touch(run)) is not None)
         if not sentences:
@@ -112,29 +123,19 @@ def calibrate_sensor(
         raise FitError("; ".join([str(error), *sentences])) from error
 
 
-def _fitted(
+def _of_thesis(
     campaign: Campaign,
+    regularisation: float | Literal["held-out"] | None,
+    kind: EstimationType | str | None,
     *,
     code_version: str,
     created: str,
-    moments: Sequence[RecordingMoments],
-    regularisation: float | Literal["held-out"] | None,
-    kind: EstimationType | str | None,
-    nonlinear: bool | None,
 ) -> Calibration:
-    experiment = campaign.runs[0].experiment
-    options = experiment.fit_options
-    if kind == "generative" or (kind is None and regularisation is None and options.generative):
-        recordings = [*moments, *recording_moments(campaign)]
-        return generative_calibration(recordings, code_version=code_version, created=created, nonlinear=nonlinear)
-    if nonlinear:
-        raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
-    if moments:
-        raise FitError(_MOMENTS)
     if isinstance(regularisation, str) and regularisation != "held-out":
         raise FitError(f"regularisation: expected lambda in counts2, or 'held-out', got {regularisation!r}")
+    options = campaign.runs[0].experiment.fit_options
     named = estimation_type(kind) if isinstance(kind, str) else kind
-    given = experiment.fit_options.regularisation if regularisation is None else regularisation
+    given = options.regularisation if regularisation is None else regularisation
     return thesis_calibration(
         campaign,
         options.kind(has_variables=bool(campaign.sensor.variables)) if named is None else named,
@@ -263,6 +264,26 @@ class SensorCalibration(Row):
     """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
     channels: tuple[str, ...] = Field(default=(), exclude=True, repr=False)
     """Names of its channels in the logs; none where they have none, or several."""
+
+    @classmethod
+    def of(cls, file: Path | str, calibration: Calibration, campaign: Campaign | None) -> Self:
+        """Take a calibration.
+
+        Args:
+            file: As of the class.
+            calibration: As of the class.
+            campaign: The fitted recordings; None where moments were all there was.
+
+        Returns:
+            The calibration with what is told of it.
+        """
+        return cls(
+            file=str(file),
+            calibration=calibration,
+            secondary_matrix=calibration.secondary_matrix(),
+            information_gain=information_gains(calibration),
+            channels=() if campaign is None else channel_names(campaign),
+        )
 
 
 class SensorCalibrations(DrawnResult):
@@ -400,20 +421,13 @@ def calibrate_for_file(
         kind=kind,
         nonlinear=nonlinear,
     )
-    entry = SensorCalibration(
-        file=str(file),
-        calibration=calibration,
-        secondary_matrix=calibration.secondary_matrix(),
-        information_gain=information_gains(calibration),
-        channels=() if campaign is None else channel_names(campaign),
-    )
     left_out = () if campaign is None else campaign.left_out
     urdf = None if campaign is None else urdf_of(campaign.runs[0].experiment)
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
     doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
-        calibrations=(entry,),
+        calibrations=(SensorCalibration.of(file, calibration, campaign),),
         has_validation=campaign is None or any(run.has(Use.VALIDATION) for run in campaign.runs),
         warnings=(*left_out, *doubts, *fit_doubts(calibration, said=doubts, urdf=urdf)),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -103,74 +103,137 @@ def calibrate(
     Python: `run.calibrate()`, over experiments `run.calibrate(other["arm_ft"])`; `--jointly`:
     `forcetorque.calibrate_jointly([experiment])`
     """
-    from functools import partial
-    from importlib.metadata import version
-
-    from forcetorque.base.output_file import declare_outputs
-    from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
     from forcetorque.calibration.corrected_urdf import write_corrected_urdf
-    from forcetorque.calibration.joint.commands import calibrate_together, refuse_beside_jointly
-    from forcetorque.calibration.reduced_recordings import store_moments
-    from forcetorque.experiment.named_files import stated_in
-    from forcetorque.results.result import created_now
-    from forcetorque.results.terminal.command_inputs import campaign_of, readable_experiments, stored_moments
+    from forcetorque.calibration.joint.calibrate import JOINT_FILE
     from forcetorque.results.terminal.command_output import refuse_figure
 
     log = start_logging()
     refuse_standard_output("--output", output)
     refuse_figure(figure, force=force)
+    refusals: list[ForceTorqueError] = []
+    first: Experiment | None
+    result: SensorCalibrations | None
     if jointly:
         alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
         refuse_beside_jointly(alone)
-        calibrate_together(
-            experiments, output, sensor, figure, write_urdf, log, output_format, details=details, force=force
+        first, result = _fitted_jointly(experiments, output, sensor, write_urdf, log, force=force)
+        found = output / JOINT_FILE
+    else:
+        options = {"regularisation": _lambda(regularisation), "kind": _kind(kind), "nonlinear": nonlinear}
+        first, found, result = _fitted_alone(
+            experiments, output, sensor, moments, write_urdf, log, refusals, options, force=force
         )
-        return
+    if result is not None:
+        result = result.save(force=force)
+        try:
+            result = result if figure is None else drawn_to(result, figure)
+        except ForceTorqueError as error:  # what cannot be drawn is shown all the same
+            refusals.append(error)
+        show(result, output_format, details=details, experiments=experiments, refusals=refusals)
+        if write_urdf is not None and first is not None:
+            write_corrected_urdf(first, found, write_urdf, force=force)
+            log.info("corrected robot model written to %s", write_urdf)
+    end_with(refusals)
+
+
+def _fitted_alone(
+    experiments: Sequence[Path],
+    output: Path,
+    wanted: Sequence[str] | None,
+    moments: Path | None,
+    write_urdf: Path | None,
+    log: logging.Logger,
+    refusals: list[ForceTorqueError],
+    options: Mapping[str, Any],
+    *,
+    force: bool,
+) -> tuple[Experiment | None, Path, SensorCalibrations | None]:
+    """Fit sensor by sensor: first experiment, first file and calibrations; who is refused is added to the refusals."""
+    from importlib.metadata import version
+
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file
+    from forcetorque.calibration.reduced_recordings import store_moments
+    from forcetorque.experiment.named_files import stated_in
+    from forcetorque.results.result import created_now
+    from forcetorque.results.terminal.command_inputs import campaign_of, readable_experiments, stored_moments
+
     stored = stored_moments(experiments)
     contents, left_out = readable_experiments([path for path in experiments if path.suffix != ".json"], log)
-    names = _sensors(contents, stored, sensor)
+    names = _sensors(contents, stored, wanted)
     files = calibration_files(output, names)
     # folders of the others are made when they are written
     declare_outputs(*filter(Path.exists, filter(None, [*files, write_urdf])), force=force)
     if write_urdf is not None:
         _require_one_fit(write_urdf, names, contents)
-    fit = partial(
-        calibrate_for_file,
-        code_version=version("forcetorque"),
-        created=created_now(),
-        regularisation=_lambda(regularisation),
-        kind=_kind(kind),
-        nonlinear=nonlinear,
-    )
-    results, refusals = [], []
+    made: dict[str, Any] = {"code_version": version("forcetorque"), "created": created_now()}
+    thesis = options["kind"] not in (None, "generative") or options["regularisation"] is not None
+    results = []
     for (name, serial), file in zip(names, files, strict=True):
         log.info("fitting %s (%s)", name, serial)
         campaign = campaign_of(contents, name, left_out=left_out) if contents else None
         own = [one for one in stored.values() if one.sensor.name == name]
         try:
             with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
-                campaign = None if campaign is None else campaign.usable()
                 if campaign is not None:
-                    _state_memory(campaign, log, thesis=kind not in (None, "generative") or regularisation is not None)
-                if moments is not None and campaign is not None:
-                    store_moments(campaign, moments, force=force)
-                results.append(fit(campaign, file, moments=own))
+                    campaign = campaign.usable()
+                    _state_memory(campaign, log, thesis=thesis)
+                    if moments is not None:
+                        store_moments(campaign, moments, force=force)
+                results.append(calibrate_for_file(campaign, file, moments=own, **made, **options))
         except ForceTorqueError as error:  # a limb that stands still says nothing against the others
             refusals.append(error)
             _warn_of_doubts(campaign, log)
-    if results:
-        refusals = _show(
-            SensorCalibrations.together(results).save(force=force),
-            figure,
-            output_format,
-            details=details,
-            experiments=experiments,
-            refusals=refusals,
+    result = SensorCalibrations.together(results) if results else None
+    return next(iter(contents.values()), None), files[0], result
+
+
+def refuse_beside_jointly(options: Mapping[str, object]) -> None:
+    """Refuse options that only a sensor by itself has.
+
+    Args:
+        options: Values by option; None where it was not given.
+
+    Raises:
+        ExperimentError: If one was given.
+    """
+    for option, value in options.items():
+        if value is not None:
+            raise ExperimentError(
+                f"{option}: all sensors together have no such choice; leave out {option} or --jointly"
+            )
+
+
+def _fitted_jointly(
+    experiments: Sequence[Path],
+    output: Path,
+    wanted: Sequence[str] | None,
+    write_urdf: Path | None,
+    log: logging.Logger,
+    *,
+    force: bool,
+) -> tuple[Experiment, SensorCalibrations]:
+    """Fit all sensors at once: first experiment and calibrations."""
+    from importlib.metadata import version
+
+    from forcetorque.base.output_file import declare_outputs
+    from forcetorque.calibration.joint.calibrate import JOINT_FILE, calibrate_jointly, calibration_file
+    from forcetorque.results.result import created_now
+    from forcetorque.results.terminal.command_inputs import read_experiments, sensors_named
+
+    if output.suffix == ".json" or (output.exists() and not output.is_dir()):
+        raise ExperimentError(
+            f"--output {output}: expected a folder, for one file per sensor and {JOINT_FILE} with what they share"
         )
-        if write_urdf is not None:
-            write_corrected_urdf(next(iter(contents.values())), files[0], write_urdf, force=force)
-            log.info("corrected robot model written to %s", write_urdf)
-    end_with(refusals)
+    contents = list(read_experiments(experiments, log).values())
+    sensors = sensors_named(contents[0], wanted)
+    files = [output / calibration_file(sensor.name, sensor.serial) for sensor in sensors]
+    outputs = filter(None, [*files, output / JOINT_FILE, write_urdf])
+    declare_outputs(*filter(Path.exists, outputs), force=force)  # as of one sensor alone
+    names, made = [sensor.name for sensor in sensors], created_now()
+    return contents[0], calibrate_jointly(
+        contents, output, names, code_version=version("forcetorque"), created=made, progress=log.info
+    )
 
 
 _THESIS_BYTES, _WHOLE_BYTES, _OTHER_BYTES = 640, 1400, 500_000_000
@@ -227,26 +290,6 @@ def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:
     for run in campaign.runs if campaign else ():
         for sentence in data_doubts(run):
             log.warning("%s", sentence)
-
-
-def _show(
-    calibrations: SensorCalibrations,
-    figure: Path | None,
-    output_format: Format,
-    *,
-    details: bool,
-    experiments: Sequence[Path],
-    refusals: Sequence[ForceTorqueError],
-) -> list[ForceTorqueError]:
-    """Draw and show what was fitted; what cannot be drawn is shown all the same, and the refusals come back."""
-    refusals = [*refusals]
-    if figure is not None:
-        try:
-            calibrations = drawn_to(calibrations, figure)
-        except ForceTorqueError as error:
-            refusals.append(error)
-    show(calibrations, output_format, details=details, experiments=experiments, refusals=refusals)
-    return refusals
 
 
 def _sensors(

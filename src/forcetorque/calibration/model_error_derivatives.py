@@ -10,10 +10,10 @@ import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.calibration.joint.model_error_columns import (
+    columns_of_terms,
     delay_terms,
     error_terms,
     link_axes,
-    terms_of_acceleration,
     terms_of_body,
 )
 from forcetorque.experiment.calibration.moments import DataSet
@@ -39,16 +39,6 @@ _BLOCK: Final = 4096
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
 """Share of the largest effect of a term below which one is rounding, such as that of a yaw about gravity."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ModelColumns:
-    """Derivatives of the expected wrench by the numbers of the model that may be wrong."""
-
-    terms: tuple[ErrorTerm, ...]
-    """The numbers."""
-    columns: FloatArray
-    """Derivatives, means over w windows; shape (w, 6, terms); N, N m per unit of the term."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -152,15 +142,12 @@ class UncertainPart:
             axes={k: link_axes(self.bare, k) for k in bodies},
             turned=[of_joints[name] for name in places if name in of_joints],
         )
-        columns = {f"{ZERO}{joint}": column for joint, column in found.joints.items()}
-        for k, names in bodies.items():
-            columns |= dict(zip(names, found.bodies[k], strict=True))
-        columns |= dict(zip(terms_of_acceleration(self.tree), found.acceleration, strict=True))
+        columns = columns_of_terms(self.bare, found)
         for name, place in places.items():
             out[place] = columns[name]
 
 
-def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelColumns:
+def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
     """Differentiate the expected wrenches of a sensor by what the robot model may have wrong.
 
     The numbers are masses and centres of the links beyond the sensor, zeros of the joints between the support and
@@ -173,8 +160,9 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
         data: The fitted samples of the interval.
 
     Returns:
-        Derivatives on the windows of `data`; no terms where the model is exact, no link beyond the sensor has inertia,
-        or where a load stands in for the robot.
+        The numbers, and derivatives by them, means over the windows of `data`; shape (w, 6, terms); N, N m per unit of
+        the term. No terms where the model is exact, no link beyond the sensor has inertia, or where a load stands in
+        for the robot.
     """
     picked, window = _picked(data)
     at_ns = np.round(data.time_s[picked] * 1e9).astype(np.int64)
@@ -182,10 +170,7 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> ModelCol
     means = _means(columns, window[picked], int(window[-1]) + 1)
     effect = np.abs(means).max(axis=(0, 1)) * [term.deviation for term in terms]
     moved = effect > _ROUNDING * effect.max(initial=0.0)
-    return ModelColumns(
-        terms=tuple(term for term, used in zip(terms, moved, strict=True) if used),
-        columns=means[:, :, moved],
-    )
+    return tuple(term for term, used in zip(terms, moved, strict=True) if used), means[:, :, moved]
 
 
 def derivatives_at(

@@ -26,7 +26,6 @@ from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, VariableDescription
 from forcetorque.experiment.campaign import Campaign
 from forcetorque.experiment.campaign_intervals import CampaignInterval, CampaignRecording
-from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.long_recording import share_of_segments
 from forcetorque.experiment.raw_counts import full_scale_of, prior_size_of
 from forcetorque.experiment.segmented_samples import IntervalParts
@@ -120,8 +119,7 @@ def agreeing_moments(
         if marks.any():
             moments = interval.moments(marks)
             if recording.sensor.prior is not None:
-                model = model_columns(run, interval.part.interval, data.kept(marks))
-                moments = moments.with_model(model.terms, model.columns)
+                moments = moments.with_model(*model_columns(run, interval.part.interval, data.kept(marks)))
             kept += [moments] if block_s is None else in_blocks(moments, data.kept(marks), block_s)
     start_s = recording.start_ns * 1e-9
     return kept, [
@@ -152,7 +150,7 @@ def assumptions_of(recording: CampaignRecording) -> Assumptions:
         The assumptions.
     """
     options = recording.options
-    full_scale = channel_full_scale(recording)
+    full_scale = full_scale_of(recording.sensor, options.accuracy, channels=recording.channels)
     return Assumptions(
         full_scale=full_scale,
         load_full_scale=None if recording.sensor.measured.all() else recording.sensor.full_scale,
@@ -207,18 +205,6 @@ def moments_of(
     )
 
 
-def channel_full_scale(recording: CampaignRecording) -> FloatArray:
-    """Give the full scale of every channel of a sensor's raw reading.
-
-    Args:
-        recording: What the recording says about the sensor.
-
-    Returns:
-        Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
-    """
-    return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
-
-
 _BESIDE_NS: Final = 2 * 10**9
 """Samples beside a part of an interval by which it is told which agree: two windows; ns."""
 
@@ -250,10 +236,8 @@ class SegmentedMoments:
             run: The sensor in the segment.
         """
         parts = list(self._parts.of(run, [variable.name for variable in self._variables]))
-        if parts:
-            self._add_parts(run, parts)
-
-    def _add_parts(self, run: SensorRun, parts: Sequence[IntervalSamples]) -> None:
+        if not parts:
+            return
         campaign = Campaign.of(run)
         intervals = campaign.names.intervals(CampaignRecording.of(run), parts)
         data = [interval.data_set for interval in intervals]
@@ -313,7 +297,7 @@ class SegmentedMoments:
         blocks: list[IntervalMoments] = []
         for label, interval in intervals.items():
             own = [_with_model(block, models[at:]) for block, at in self._moments.get(label, ())]
-            blocks += _of_interval(_with_lost(own, self._parts.lost.get(label, ())), interval)
+            blocks += _of_interval(own, interval, self._parts.lost.get(label, ()))
         said = [*_joined_doubts(self._doubts), *dict.fromkeys(self._said)]
         return moments_of(recording, _with_all_terms(blocks), variables=self._variables, doubts=said)
 
@@ -351,25 +335,20 @@ def _with_model(block: IntervalMoments, values: FloatArray) -> IntervalMoments:
     return block.model_copy(update={"model": values[: shape[0] * shape[1]].reshape(shape)})
 
 
-def _with_lost(blocks: Sequence[IntervalMoments], lost: Sequence[tuple[int, UnusableCounts]]) -> list[IntervalMoments]:
-    """Blocks of which the first counts the samples of parts that have no block."""
-    if not blocks or not lost:
-        return list(blocks)
-    first = blocks[0]
-    counts = {
-        "dropped": first.dropped + sum(dropped for dropped, _ in lost),
-        "unusable": UnusableCounts.total([first.unusable, *(unusable for _, unusable in lost)]),
-    }
-    return [first.model_copy(update=counts), *blocks[1:]]
-
-
-def _of_interval(blocks: Sequence[IntervalMoments], interval: Interval) -> Iterator[IntervalMoments]:
-    """Blocks of parts of an interval as those of the interval."""
+def _of_interval(
+    blocks: Sequence[IntervalMoments], interval: Interval, lost: Sequence[tuple[int, UnusableCounts]]
+) -> Iterator[IntervalMoments]:
+    """Blocks of an interval, with the ends of it all; the first has what was lost of segments without a sample too."""
     contents = [block.interval.content for block in blocks if block.interval.content is not None]
-    content = Content.joined(contents)
-    for block in blocks:
-        update = {"start_ns": interval.start_ns, "end_ns": interval.end_ns, "content": content}
-        yield block.model_copy(update={"interval": block.interval.model_copy(update=update)})
+    ends = {"start_ns": interval.start_ns, "end_ns": interval.end_ns, "content": Content.joined(contents)}
+    for number, block in enumerate(blocks):
+        own = () if number else lost
+        update = {
+            "interval": block.interval.model_copy(update=ends),
+            "dropped": block.dropped + sum(dropped for dropped, _ in own),
+            "unusable": UnusableCounts.total([block.unusable, *(unusable for _, unusable in own)]),
+        }
+        yield block.model_copy(update=update)
 
 
 def _with_all_terms(blocks: Sequence[IntervalMoments]) -> list[IntervalMoments]:

@@ -121,15 +121,7 @@ def excitation_blocks(sensor: Assessment) -> Iterator[Block]:
     chosen = _of_thesis(sensor)
     if chosen:
         yield Figure(
-            picture=Picture(
-                lambda: excitation_figure(
-                    list(chosen),
-                    [one.validity.variance_counts2 for one in chosen.values()],
-                    [one.validity.explained for one in chosen.values()],
-                    [one.validity.excited for one in chosen.values()],
-                    [one.validity.directions for one in chosen.values()],
-                )
-            ),
+            picture=Picture(lambda: excitation_figure({name: one.validity for name, one in chosen.items()})),
             caption="How far the loads moved each direction of the raw readings while fitting, and how much of that "
             "motion they explain.",
             description="Bars of the deviation and explained share per raw direction, and what each is made of.",

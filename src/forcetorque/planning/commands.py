@@ -70,7 +70,7 @@ def plan(
 
     Python: `run.plan(calibration, clearance_deg=10.0)`; `--jointly`: `planning.plan_jointly([experiment])`
     """
-    from forcetorque.calibration.joint.commands import refuse_beside_jointly
+    from forcetorque.calibration.commands import refuse_beside_jointly
     from forcetorque.experiment.sensor_run import SensorRun
     from forcetorque.planning.joint_calibration_plan import plan_jointly
     from forcetorque.planning.planning import plan

@@ -3,29 +3,31 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from pydantic import ValidationError
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.calibration.figures.excitation import excitation_figure
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
+from forcetorque.experiment.calibration.provenance import Validity
 from forcetorque.results.figure_style import PAPER, REFERENCE_COLOUR, look, png_bytes
-from tests.report.drawing import excitation_of_sensors, legend_of, panels, words
+from tests.report.drawing import excitation_of_sensors, legend_of, panels, validity_of_directions, words
 
 TURN = np.sqrt(0.5)
-SENSOR = (
-    ["leg"],
-    [np.array([4e6, 900.0, 0.0])],
-    [np.array([0.99, 0.6, 0.2])],
-    [(True, True, False)],
-    [np.array([[-TURN, -TURN, 0.0], [0.0, 0.0, 1.0], [TURN, -TURN, 0.0]])],
-)
+DIRECTIONS = np.array([[-TURN, -TURN, 0.0], [0.0, 0.0, 1.0], [TURN, -TURN, 0.0]])
+
+
+def _leg(excited: tuple[bool, bool, bool] = (True, True, False), directions: np.ndarray = DIRECTIONS) -> Validity:
+    return validity_of_directions(np.array([4e6, 900.0, 0.0]), np.array([0.99, 0.6, 0.2]), excited, directions)
 
 
 def test_points_lie_at_deviation_and_share(drawn: list[Figure]) -> None:
     """The root of the variance on a logarithmic axis, the share in percent; one of 0 at the left edge, named 0."""
-    excitation_figure(*SENSOR)
+    excitation_figure({"leg": _leg()})
     strength, share, _ = panels(drawn[0])
     points = [line.get_xydata()[0].tolist() for line in strength.lines if len(line.get_xdata()) == 1]
     assert strength.get_xscale() == "log"
@@ -40,8 +42,7 @@ def test_points_lie_at_deviation_and_share(drawn: list[Figure]) -> None:
 
 def test_what_is_not_excited_differs_in_colour_marker_and_line(drawn: list[Figure]) -> None:
     """As it was given, not as the share would have it; the legend says which."""
-    names, variance, explained, _, directions = SENSOR
-    excitation_figure(names, variance, explained, [(True, False, True)], directions)
+    excitation_figure({"leg": _leg((True, False, True))})
     for panel in panels(drawn[0])[:2]:
         points = [line for line in panel.lines if len(line.get_xdata()) == 1]
         assert [line.get_color() for line in points] == [look(k).colour for k in (0, 1, 0)]
@@ -55,22 +56,22 @@ def test_what_is_not_excited_differs_in_colour_marker_and_line(drawn: list[Figur
 
 def test_directions_are_written_with_their_largest_part_positive(drawn: list[Figure]) -> None:
     """The sign of an eigenvector means nothing; numbers have theirs, and letters are white where the cell is dark."""
-    excitation_figure(*SENSOR)
+    excitation_figure({"leg": _leg()})
     parts = panels(drawn[0])[2]
     written = np.reshape([text.get_text() for text in parts.texts], (3, 3)).tolist()
     assert written == [["0.71", "0.71", "0.00"], ["0.00", "0.00", "1.00"], ["0.71", "−0.71", "0.00"]]
     np.testing.assert_allclose(parts.images[0].get_array()[0], [TURN, TURN, 0.0])
     assert [text.get_color() for text in parts.texts[3:6]] == [REFERENCE_COLOUR, REFERENCE_COLOUR, PAPER]
-    flipped = (*SENSOR[:4], [-SENSOR[4][0]])
-    assert png_bytes(excitation_figure(*flipped)) == png_bytes(excitation_figure(*SENSOR))
+    flipped = {"leg": _leg(directions=-DIRECTIONS)}
+    assert png_bytes(excitation_figure(flipped)) == png_bytes(excitation_figure({"leg": _leg()}))
 
 
 def test_a_row_per_sensor_each_with_its_channels(drawn: list[Figure]) -> None:
     """Sensors of six and twelve channels below each other; where numbers have no room the minus signs stay."""
     args = excitation_of_sensors(np.random.default_rng(1), 6, 12)
-    excitation_figure(*args)
+    excitation_figure(args)
     assert len(panels(drawn[0])) == 6
-    assert [panels(drawn[0])[k].get_title(loc="left") for k in (0, 3)] == args[0]
+    assert [panels(drawn[0])[k].get_title(loc="left") for k in (0, 3)] == list(args)
     wide = panels(drawn[0])[5]
     assert wide.images[0].get_array().shape == (12, 12)
     assert {text.get_text() for text in wide.texts} == {"", "–"}
@@ -80,41 +81,24 @@ def test_a_row_per_sensor_each_with_its_channels(drawn: list[Figure]) -> None:
 
 def test_names_are_shown_as_they_are(drawn: list[Figure]) -> None:
     """Without formulas."""
-    excitation_figure(["leg_$1$"], *SENSOR[1:])
+    excitation_figure({"leg_$1$": _leg()})
     assert r"leg_\$1\$" in words(drawn[0])
 
 
 def test_nothing_that_moves_is_drawn_too(drawn: list[Figure]) -> None:
     """Without a scale all lie at the left edge."""
-    excitation_figure(["still"], [np.zeros(2)], [np.zeros(2)], [(False, False)], [np.eye(2)])
+    excitation_figure({"still": validity_of_directions(np.zeros(2), np.zeros(2), (False, False), np.eye(2))})
     assert [text.get_text() for text in panels(drawn[0])[0].texts] == ["0", "0"]
 
 
-def test_the_callers_arrays_stay_as_they_are() -> None:
-    """Directions are turned on a copy."""
-    kept = SENSOR[4][0].copy()
-    excitation_figure(*SENSOR)
-    np.testing.assert_array_equal(SENSOR[4][0], kept)
+def test_no_sensor_is_refused() -> None:
+    """There is nothing to draw."""
+    with pytest.raises(ShapeError, match="sensors: expected at least one sensor"):
+        excitation_figure({})
 
 
-@pytest.mark.parametrize(
-    ("place", "values", "message"),
-    [
-        (0, [], "names: expected at least one sensor"),
-        (2, [], "explained: expected one array for each of 1 sensors, got 0"),
-        (1, [np.zeros(0)], "leg: variance: expected at least one sample"),
-        (2, [np.zeros(2)], r"leg: explained: expected an array of shape \(3\)"),
-        (3, [(True,)], r"leg: excited: expected an array of shape \(3\)"),
-        (4, [np.zeros((3, 2))], r"leg: directions: expected an array of shape \(3, 3\)"),
-        (1, [np.array([1.0, -1.0, 0.0])], "leg: variance: expected finite numbers of 0 to inf, got -1"),
-        (2, [np.array([1.0, 99.0, 0.0])], "leg: explained: expected finite numbers of 0 to 1, got 99"),
-        (3, [(1.0, np.nan, 0.0)], "leg: excited: expected finite numbers of 0 to 1, got nan"),
-        (4, [2.0 * np.eye(3)], "leg: directions: expected finite numbers of -1 to 1, got 2"),
-    ],
-)
-def test_bad_input_is_refused(place: int, values: list[np.ndarray], message: str) -> None:
-    """Lengths, shapes and ranges, with the name of the sensor."""
-    args = [*SENSOR]
-    args[place] = values
-    with pytest.raises(ShapeError, match=message):
-        excitation_figure(*args)
+@pytest.mark.parametrize("damage", [{"explained": np.zeros(2)}, {"excited": (True,)}, {"directions": np.zeros((3, 2))}])
+def test_directions_of_other_lengths_are_refused(damage: dict[str, Any]) -> None:
+    """Where what supports a calibration is made or read."""
+    with pytest.raises(ValidationError, match="expected explained, excited and directions of 3 raw directions"):
+        Validity(**(_leg().model_dump() | damage))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -69,7 +70,8 @@ class LinearCase:
         """Give the default fit, the one that is kept, and the evidence."""
         assumed = Assumptions.of_counts(self.truth.shape[1], LIMIT_COUNTS)
         fit = fit_generative([self.means], None, assumed)
-        return fit, *linear_if_evident(fit, [self.means], None, assumed)
+        refit = partial(fit_generative, prior=None, assumptions=assumed)
+        return fit, *linear_if_evident(fit, [self.means], refit, noise_floor=assumed.states_accuracy)
 
     def ratio(self, fit: GenerativeFit) -> FloatArray:
         """Push error over that of least squares of loads on readings, force and moment; shape (2,)."""

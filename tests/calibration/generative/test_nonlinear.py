@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def _kept(seeds: range, crosstalk_counts: float) -> list[int]:
     for seed in seeds:
         sensor = Specimen(seed, crosstalk_counts)
         means = means_of([sensor.recording(k) for k in range(2 + seed % 2)])
-        counts.append(len(try_correction(means, FACTORY, ASSUMPTIONS).kept))
+        counts.append(len(try_correction(means, partial(fit_generative, prior=FACTORY, assumptions=ASSUMPTIONS)).kept))
     return counts
 
 
@@ -159,7 +160,7 @@ def test_a_sensor_that_is_linear_is_not_corrected_for_loads_that_hide_its_gain()
             )
         )
     means = means_of(data)
-    trial = try_correction(means, FACTORY, ASSUMPTIONS)
+    trial = try_correction(means, partial(fit_generative, prior=FACTORY, assumptions=ASSUMPTIONS))
     assert trial.kept == ()
     fit = fit_generative(means, FACTORY, ASSUMPTIONS)
     corrected = corrected_fit(fit, means, ["force", "moment"])
@@ -182,7 +183,7 @@ def test_errors_on_a_recording_that_was_not_fitted_are_those_of_its_readings() -
         count = rng.integers(20, 100, size=len(load)).astype(np.float64)
         parts.append(replace(means, reference=load, count=count, time_s=means.time_s + 100.0 * k))
         squares.append((error - np.average(error, axis=0, weights=count)) ** 2)
-    trial = try_correction(parts, PRIOR, assumptions())
+    trial = try_correction(parts, partial(fit_generative, prior=PRIOR, assumptions=assumptions()))
     assert trial.recordings == ("a", "b", "c")
     samples = [one.count.sum() for one in parts]
     np.testing.assert_array_equal(trial.samples, [*samples[:2], sum(samples[2:])])
@@ -197,7 +198,7 @@ def test_one_recording_is_not_enough() -> None:
     """There is nothing to judge on; the error says what to do."""
     means = means_of([Specimen(6, 0.0).recording(0)])
     with pytest.raises(FitError, match=r"at least two recordings, got 'recording 0' alone.*leave nonlinear out"):
-        try_correction(means, FACTORY, ASSUMPTIONS)
+        try_correction(means, partial(fit_generative, prior=FACTORY, assumptions=ASSUMPTIONS))
 
 
 def test_a_recording_that_the_fit_cannot_do_without_is_named() -> None:
@@ -206,7 +207,7 @@ def test_a_recording_that_the_fit_cannot_do_without_is_named() -> None:
     still = sensor.recording(1, reach=0.0)
     means = means_of([sensor.recording(0), still])
     with pytest.raises(FitError, match=r"^nonlinear: without recording 'recording 0': .*; leave nonlinear out$"):
-        try_correction(means, None, ASSUMPTIONS)
+        try_correction(means, partial(fit_generative, prior=None, assumptions=ASSUMPTIONS))
 
 
 @pytest.mark.long

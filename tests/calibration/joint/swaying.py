@@ -14,6 +14,8 @@ from forcetorque.base.inertia import Inertia
 from forcetorque.base.pose import invert_pose
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import transform_wrench
+from forcetorque.calibration.joint.result import ContactSpanRow
+from forcetorque.calibration.joint.robust_fit import JointResult
 from forcetorque.calibration.joint.unknowns import UNITS
 from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.robot.contacts import Contact
@@ -186,3 +188,8 @@ def _disturbed(rng: np.random.Generator, mass: float, centre_m: float) -> RobotM
             second_moment=inertia.second_moment * scale,
         )
     return RobotModel(name=model().name, links=links, joints=model().joints, sensors=model().sensors)
+
+
+def touches(result: JointResult) -> list[ContactSpanRow]:
+    """List the spans that a fit left out."""
+    return [span for one in result.residuals for span in ContactSpanRow.all_of(one)]

@@ -12,12 +12,13 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.joint import windows
-from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, touches_of, untouched
+from forcetorque.calibration.joint.result import ContactSpanRow
+from forcetorque.calibration.joint.robust_fit import JointResult, UntouchedStretch, fit_stretches, untouched
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
 from forcetorque.calibration.joint.window_nodes import Stretch
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
-from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
+from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying, touches
 
 WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.5)), "acceleration": 0.05}
 PUSHES = {"l_hand": (3.0, 30.0), "chest": (9.0, 60.0), "r_forearm": (15.0, 30.0)}
@@ -53,9 +54,8 @@ def test_three_pushes_in_twenty_seconds_are_survived() -> None:
     for seed in range(71, 81):
         other = swaying(seed + 100, sensor_seed=seed, **WRONG)
         pushed, clean = _fitted(swaying(seed, touches=_pushes(), **WRONG)), _fitted(swaying(seed, **WRONG))
-        known = all(
-            any(touch.start_s < start + 0.5 < touch.end_s for touch in pushed.touches) for start, _ in PUSHES.values()
-        )
+        spans = touches(pushed)
+        known = all(any(one.start_s < start + 0.5 < one.end_s for one in spans) for start, _ in PUSHES.values())
         survived += known and _errors(pushed.fit, other).mean() < 1.3 * _errors(clean.fit, other).mean()
     assert survived >= 9
 
@@ -71,10 +71,9 @@ def test_seconds_that_disagree_can_be_kept() -> None:
 
 def test_what_was_left_out_reaches_over_its_windows() -> None:
     """From half a window before the middle of the first to half a window after that of the last, each span alone."""
-    label = SimpleNamespace(label="swing")
-    part: Any = SimpleNamespace(part="chest", stretch=label, time_s=np.arange(8) * windows.WINDOW_S + 3.0)
-    spans = touches_of(part, np.array([True, True, False, False, True, True, True, False]))
-    assert [(one.part, one.label, one.start_s, one.end_s) for one in spans] == [
+    kept, time_s = np.array([True, True, False, False, True, True, True, False]), np.arange(8) * windows.WINDOW_S + 3.0
+    part: Any = SimpleNamespace(part="chest", label="swing", time_s=time_s, kept=kept)
+    assert [(one.sub_model, one.interval, one.start_s, one.end_s) for one in ContactSpanRow.all_of(part)] == [
         ("chest", "swing", 3.375, 3.875),
         ("chest", "swing", 4.625, 4.875),
     ]

@@ -90,7 +90,8 @@ def test_derivatives_of_demands_are_differences(model: RobotModel, seed: int) ->
         (equation,) = part_equations(of_tree, [part], motion, of_root)
         return equation.demand.T
 
-    found, expected = demand_derivatives(tree, part, joints, root), demand(joints)
+    axes = dict.fromkeys(heavy_bodies(tree, part), np.eye(3))
+    found, expected = demand_derivatives(tree, part, joints, root, axes=axes), demand(joints)
     size = 1.0 + np.abs(expected).max()
     for joint, column in found.joints.items():
         up, down = (demand(joints.shifted({joint: step})) for step in (STEP, -STEP))

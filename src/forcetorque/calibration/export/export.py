@@ -20,6 +20,7 @@ from forcetorque.base.wrench import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.calibration.export.formats import ExportFormat
 from forcetorque.calibration.export.ros2_parameters import raw_unit, ros2_parameters
 from forcetorque.calibration.export.wholebodydynamics import from_calibration, write_groups
+from forcetorque.calibration.summary import component_records
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.sensor_model import component_names, measured_components
 from forcetorque.experiment.named_files import stated_in
@@ -234,21 +235,22 @@ def write_calibration_table(path: Path | str, calibrations: Iterable[Calibration
     if not chosen:
         raise FormatError(f"{path}: expected at least one calibration to write, got none")
     channels = [f"c{j}_per_count" for j in range(max(calibration.matrix.shape[1] for calibration in chosen))]
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    variables = list(dict.fromkeys((v.name, v.unit) for calibration in chosen for v in calibration.variables))
+    variables = dict.fromkeys((v.name, v.unit) for calibration in chosen for v in calibration.variables)
     named = [text for name, unit in variables for text in (f"{name}_per_{unit}", f"{name}_reference_{unit}")]
-    writer.writerow(["sensor", "serial", "component", "unit", *channels, "offset", *named])
-    for calibration in chosen:
-        sensor, matrix, offset = calibration.sensor, calibration.matrix.tolist(), calibration.offset.tolist()
-        empty = [""] * (len(channels) - len(matrix[0]))
-        own = {(v.name, v.unit): v for v in calibration.variables}
-        for k in np.flatnonzero(measured_components(calibration.matrix)):
-            component, unit = WRENCH_COMPONENTS[k], WRENCH_UNITS[k]
-            cells = [sensor.name, sensor.serial, component, unit, *matrix[k], *empty, offset[k]]
-            for key in variables:
-                cells += [float(own[key].coefficients[k]), own[key].reference_value] if key in own else ["", ""]
-            writer.writerow(cells)
+    rows = [
+        record
+        for one in chosen
+        for record, measured in zip(component_records(one), measured_components(one.matrix), strict=True)
+        if measured
+    ]
+    _write_rows(path, ["sensor", "serial", "component", "unit", *channels, "offset", *named], rows)
+
+
+def _write_rows(path: Path | str, names: Sequence[str], rows: Iterable[Mapping[str, object]]) -> None:
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, names, restval="", extrasaction="ignore", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
     write_bytes_atomically(Path(path), text.getvalue().encode())
 
 
@@ -266,24 +268,17 @@ def write_coefficient_table(path: Path | str, calibrations: Iterable[Calibration
     Raises:
         FormatError: If no calibration has a variable.
     """
+    head = ("sensor", "serial", "variable", "unit", "reference_value")
     rows = [
-        [
-            *(c.sensor.name, c.sensor.serial, v.name, v.unit, v.reference_value),
-            *(
-                value if own else ""
-                for value, own in zip(v.coefficients.tolist(), measured_components(c.matrix), strict=True)
-            ),
-        ]
+        dict(zip(head, (c.sensor.name, c.sensor.serial, v.name, v.unit, v.reference_value), strict=True))
+        | dict(zip(np.array(WRENCH_COMPONENTS)[own], v.coefficients[own].tolist(), strict=True))
         for c in calibrations
+        for own in [measured_components(c.matrix)]
         for v in c.variables
     ]
     if not rows:
         raise FormatError(f"{path}: expected a calibration with a linear variable such as temperature, got none")
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["sensor", "serial", "variable", "unit", "reference_value", *WRENCH_COMPONENTS])
-    writer.writerows(rows)
-    write_bytes_atomically(Path(path), text.getvalue().encode())
+    _write_rows(path, [*head, *WRENCH_COMPONENTS], rows)
 
 
 def exported(

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.errors import ShapeError
 from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 from forcetorque.experiment.calibration.excitation import EXPLAINED_SHARE
+from forcetorque.experiment.calibration.provenance import Validity
 from forcetorque.results.figure_style import (
     GRID,
     PAPER,
@@ -23,7 +23,6 @@ from forcetorque.results.figure_style import (
     SMALL_PANEL_POINTS,
     THIN_REFERENCE_LINE,
     Look,
-    drawable,
     drawable_each,
     headline,
     in_figure_style,
@@ -53,136 +52,74 @@ _SEEN = 0.1
 _ROOM = 0.3
 """Part of the decades of an axis of counts, one at least, by which it goes on behind the strongest direction, for its
 number."""
-_ROUNDING = 1e-9
-"""Eigenvectors, and shares, pass their bounds by no more than rounding."""
 _EXCITED: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker}
 _NOT_EXCITED: dict[str, Any] = {"color": look(1).colour, "marker": "X"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Sensor:
-    """What is drawn of one sensor."""
-
-    name: str
-    """Its name."""
-    deviation: FloatArray
-    """Standard deviation along each direction; shape (c,); counts."""
-    explained: FloatArray
-    """Share of the variance that loads explain; shape (c,)."""
-    excited: BoolArray
-    """Whether they move the direction more than anything else does; shape (c,)."""
-    directions: FloatArray
-    """Directions, one per row, the largest part positive; shape (c, c)."""
-
-
 @in_figure_style
-def excitation_figure(
-    names: Sequence[str],
-    variance: Sequence[FloatArray],
-    explained: Sequence[FloatArray],
-    excited: Sequence[Sequence[bool]],
-    directions: Sequence[FloatArray],
-) -> Figure:
+def excitation_figure(sensors: Mapping[str, Validity]) -> Figure:
     """Draw what a data set has moved: raw directions, strongest first, and how far loads explain each.
 
     Of every direction there are the standard deviation of the readings along it, the share of their variance that the
     reference wrench explains, and the channels that it is made of. Along a direction that is not excited a matrix
-    is its prior's, or fitted to noise. They are those of `Calibration.validity`.
+    is its prior's, or fitted to noise. The sign of a direction means nothing; each is drawn with its largest part
+    positive.
 
     Args:
-        names: Names of the s sensors.
-        variance: Variance of the readings of each along its directions, not negative; shape (c,), c its own; counts2.
-        explained: Share of each variance that the reference explains, 0 to 1; shape (c,).
-        excited: Whether each direction counts as excited; shape (c,).
-        directions: Unit directions in the space of raw channels, one per row; shape (c, c). The sign of a row means
-            nothing; each is drawn with its largest part positive.
+        sensors: What supports the calibration of each sensor, by its name.
 
     Returns:
         The figure, a row for each sensor.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
-        ShapeError: If there are no sensors, the lengths or shapes differ, or a value is not finite or out of its range.
+        ShapeError: If there are no sensors.
     """
-    sensors = _checked(names, variance, explained, excited, directions)
-    heights = [_ROW_INCHES + _DIRECTION_INCHES * len(sensor.deviation) for sensor in sensors]
+    if not sensors:
+        raise ShapeError("sensors: expected at least one sensor to draw, got none")
+    heights = [_ROW_INCHES + _DIRECTION_INCHES * len(validity.excited) for validity in sensors.values()]
     figure = new_figure(sum(heights))
     grid = figure.subplots(
         len(sensors), 3, squeeze=False, gridspec_kw={"height_ratios": heights, "width_ratios": (1.0, 0.8, 1.2)}
     )
-    for (strength, share, parts), sensor in zip(grid, sensors, strict=True):
-        _draw_deviation(strength, sensor)
-        _draw_explained(share, sensor)
-        _draw_directions(parts, sensor)
-        strength.set_title(shown_name(sensor.name), loc="left")
+    for (strength, share, parts), (name, validity) in zip(grid, sensors.items(), strict=True):
+        _draw_deviation(strength, validity)
+        _draw_explained(share, validity)
+        _draw_directions(parts, validity.directions)
+        strength.set_title(shown_name(name), loc="left")
     keys = [("excited by the loads", {**_EXCITED, "markersize": 8.0, "linewidth": 1.2})]
     keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
     keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", THIN_REFERENCE_LINE))
     legend_below(figure, keys)
-    counts = [f"{np.count_nonzero(one.excited)} of {len(one.excited)} ({shown_name(one.name)})" for one in sensors]
+    counts = [f"{sum(one.excited)} of {len(one.excited)} ({shown_name(name)})" for name, one in sensors.items()]
     headline(figure, f"Raw directions that the loads excite: {', '.join(counts)}")
     return figure
 
 
-def _checked(names: Sequence[str], *columns: Sequence[Any]) -> list[_Sensor]:
-    if not names:
-        raise ShapeError("names: expected at least one sensor to draw, got none")
-    for argument, values in zip(("variance", "explained", "excited", "directions"), columns, strict=True):
-        if len(values) != len(names):
-            raise ShapeError(f"{argument}: expected one array for each of {len(names)} sensors, got {len(values)}")
-    return [_sensor(name, *values) for name, *values in zip(names, *columns, strict=True)]
-
-
-def _sensor(name: str, variance: Any, explained: Any, excited: Any, directions: Any) -> _Sensor:
-    spread = drawable(variance, name=f"{name}: variance", shape=(None,))
-    c = len(spread)
-    share = drawable(explained, name=f"{name}: explained", shape=(c,))
-    moved = drawable(excited, name=f"{name}: excited", shape=(c,))
-    rows = drawable(directions, name=f"{name}: directions", shape=(c, c))
-    for argument, values, low, high in (
-        ("variance", spread, 0.0, np.inf),
-        ("explained", share, 0.0, 1.0),
-        ("excited", moved, 0.0, 1.0),
-        ("directions", rows, -1.0, 1.0),
-    ):
-        wrong = ~((values >= low - _ROUNDING) & (values <= high + _ROUNDING))
-        if wrong.any():
-            raise ShapeError(
-                f"{name}: {argument}: expected finite numbers of {low:g} to {high:g}, got {values[wrong][0]:g}"
-            )
-    largest = np.take_along_axis(rows, np.abs(rows).argmax(axis=1)[:, None], axis=1)
-    return _Sensor(
-        name=name,
-        deviation=np.sqrt(np.maximum(spread, 0.0)),
-        explained=share,
-        excited=moved.astype(np.bool_),
-        directions=rows * np.where(largest < 0.0, -1.0, 1.0),
-    )
-
-
-def _draw_deviation(panel: Axes, sensor: _Sensor) -> None:
+def _draw_deviation(panel: Axes, validity: Validity) -> None:
     """Standard deviations on a logarithmic axis, with their numbers; one that is 0 at the left edge."""
-    moved = sensor.deviation[sensor.deviation > 0.0]
+    deviation = np.sqrt(validity.variance_counts2)
+    moved = deviation[deviation > 0.0]
     least, most = (float(moved.min()), float(moved.max())) if len(moved) else (1.0, 1.0)
     low, high = 0.5 * least, most * max(10.0, most / least) ** _ROOM
     panel.set(xscale="log", xlim=(low, high))
-    _draw_values(panel, sensor, np.maximum(sensor.deviation, low), low)
-    for row, value in enumerate(sensor.deviation):
+    _draw_values(panel, validity, np.maximum(deviation, low), low)
+    for row, value in enumerate(deviation):
         text = f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"
         panel.annotate(text, (max(value, low), row), (8.0, 0.0), textcoords="offset points", va="center")
     panel.set(ylabel="raw direction", xlabel="standard deviation, counts")
 
 
-def _draw_explained(panel: Axes, sensor: _Sensor) -> None:
+def _draw_explained(panel: Axes, validity: Validity) -> None:
     panel.axvline(100.0 * EXPLAINED_SHARE, **THIN_REFERENCE_LINE)
     panel.set_xlim(0.0, 105.0)
-    _draw_values(panel, sensor, 100.0 * sensor.explained, 0.0)
+    _draw_values(panel, validity, 100.0 * validity.explained, 0.0)
     panel.set_xlabel("variance explained by loads, %")
 
 
-def _draw_values(panel: Axes, sensor: _Sensor, values: FloatArray, start: float) -> None:
+def _draw_values(panel: Axes, validity: Validity, values: FloatArray, start: float) -> None:
     """A line and a point for each direction; of those that are not excited the line is dotted."""
-    for row, (value, excited) in enumerate(zip(values, sensor.excited, strict=True)):
+    for row, (value, excited) in enumerate(zip(values, validity.excited, strict=True)):
         style = _EXCITED if excited else _NOT_EXCITED
         panel.plot([start, value], [row, row], "-" if excited else ":", color=style["color"], linewidth=1.6)
         panel.plot(
@@ -204,9 +141,10 @@ def _number_directions(panel: Axes, count: int) -> None:
     panel.set_yticks(range(count), [str(k + 1) for k in range(count)])
 
 
-def _draw_directions(panel: Axes, sensor: _Sensor) -> None:
+def _draw_directions(panel: Axes, directions: FloatArray) -> None:
     """Size of each part by darkness, which rises evenly in grey too; its sign, and with room its number, written."""
-    rows = sensor.directions
+    largest = np.take_along_axis(directions, np.abs(directions).argmax(axis=1)[:, None], axis=1)
+    rows = directions * np.where(largest < 0.0, -1.0, 1.0)
     panel.imshow(np.abs(rows), cmap="Blues", vmin=0.0, vmax=1.0, aspect="auto")
     written = len(rows) <= _MOST_WRITTEN
     for row, column in np.ndindex(rows.shape):

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Self
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from forcetorque.calibration.generative.agreement import (
     require_sensor,
 )
 from forcetorque.calibration.generative.design_matrix import Design, cells_of, design_of
-from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer
+from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer, sizes_of_terms
 from forcetorque.calibration.generative.whitening import FreeUnknowns, free_unknowns, whiten
 from forcetorque.experiment.calibration import expected_sensor_errors as expected
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Assumptions, Rows, Scale, rows_of
@@ -30,89 +30,67 @@ from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, Mode
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel, measured_components
 
 
-def _frame_changes() -> FloatArray:
+def gain_and_frame_changes(from_raw: FloatArray, from_load: FloatArray, response: FloatArray) -> FloatArray:
+    """Give what gains of channels, and rotation and shift of the frame of a sensor, change in the response to loads.
+
+    Args:
+        from_raw: What reads the rows off the raw readings; shape (rows, c).
+        from_load: What a load does to the rows; shape (rows, 6).
+        response: Response of the readings to loads; shape (c, 6).
+
+    Returns:
+        Changes of every row by relative gains, angles about and shifts along the axes; shape (rows, 6, c + 6).
+    """
     skew = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)
-    changes = np.zeros((LOADS, LOADS, LOADS))
-    changes[:3, :3, :3] = changes[:3, 3:, 3:] = changes[3:, 3:, :3] = skew
-    return changes
+    frame = np.zeros((LOADS, LOADS, LOADS))
+    frame[:3, :3, :3] = frame[:3, 3:, 3:] = frame[3:, 3:, :3] = skew
+    gains = np.einsum("rk,kd->rdk", from_raw, response)
+    return np.concatenate([gains, np.einsum("rc,kcd->rdk", from_load, frame)], axis=2)
 
 
-FRAME_CHANGES: Final = _frame_changes()
-"""What rotations about and shifts along the axes of a sensor do to a load; shape (6, 6, 6)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Layout:
     """Unknowns of a row: its own, then those that all rows share where the robot model may be wrong.
 
     Without terms of the model gain and frame of the reference are deviations of every row by itself.
     """
 
-    variables: int
-    """Number of linear variables."""
-    channels: int
-    """Number of channels."""
-    terms: int
-    """Numbers of the robot model that may be wrong; 0 where it is taken as exact."""
+    own: Mapping[str, int]
+    """Numbers of the row's own unknowns by their kind."""
+    shared: Mapping[str, int]
+    """The same of those that all rows share."""
 
-    def _slice(self, index: int) -> slice:
-        ends = np.cumsum([0, *self._counts])
-        return slice(int(ends[index]), int(ends[index + 1]))
+    @classmethod
+    def of(cls, *, variables: int, channels: int, terms: int) -> Self:
+        """Lay out the unknowns.
 
-    @property
-    def _counts(self) -> tuple[int, ...]:
-        own = (LOADS, 0 if self.terms else LOADS, self.variables, len(PAIRS[0]), LOADS)
-        return own + ((self.channels, 3, 3, self.terms) if self.terms else (0, 0, 0, 0))
+        Args:
+            variables: Number of linear variables.
+            channels: Number of channels.
+            terms: Numbers of the robot model that may be wrong; 0 where it is taken as exact.
 
-    @property
-    def unknowns(self) -> int:
-        """Number of unknowns of a row."""
-        return sum(self._counts)
+        Returns:
+            The layout.
+        """
+        return cls(
+            {
+                "coefficients": LOADS,
+                "reference": 0 if terms else LOADS,
+                "variables": variables,
+                "quadratic": len(PAIRS[0]),
+                "flattening": LOADS,
+            },
+            dict(
+                zip(
+                    ("gains", "rotation", "shift", "model"), (channels, 3, 3, terms) if terms else (0,) * 4, strict=True
+                )
+            ),
+        )
 
-    @property
-    def coefficients(self) -> slice:
-        """Coefficients of the matrix."""
-        return self._slice(0)
-
-    @property
-    def reference(self) -> slice:
-        """Gain and frame of the reference in this row alone."""
-        return self._slice(1)
-
-    @property
-    def of_variables(self) -> slice:
-        """Coefficients of the variables."""
-        return self._slice(2)
-
-    @property
-    def quadratic(self) -> slice:
-        """Quadratic terms."""
-        return self._slice(3)
-
-    @property
-    def flattening(self) -> slice:
-        """What derivative windows took from the reference."""
-        return self._slice(4)
-
-    @property
-    def gains(self) -> slice:
-        """Gains of the channels."""
-        return self._slice(5)
-
-    @property
-    def rotation(self) -> slice:
-        """Rotation of the sensor."""
-        return self._slice(6)
-
-    @property
-    def shift(self) -> slice:
-        """Shift of its origin."""
-        return self._slice(7)
-
-    @property
-    def model(self) -> slice:
-        """Errors of the robot model, over their tolerances."""
-        return self._slice(8)
+    def __getitem__(self, kind: str) -> slice:
+        counts = {**self.own, **self.shared}
+        start = sum(list(counts.values())[: list(counts).index(kind)])
+        return slice(start, start + counts[kind])
 
     def sizes(
         self, group: IntArray, terms: Sequence[ErrorTerm], assumptions: Assumptions, *, with_prior: bool
@@ -135,23 +113,19 @@ class Layout:
         if not with_prior:  # nothing is known of the sensor: its deviations may be as large as they like
             sensor, quadratic = Scale(expected=1e3, weight=np.inf), expected.QUADRATIC_WITHOUT_PRIOR
         own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), quadratic, expected.FLATTENING)
-        kinds = list(dict.fromkeys(term.kind for term in terms))
-        mount = expected.mount_scales(assumptions.mount)
-        shared = (expected.GAIN, *mount, *(expected.model_scale(kind) for kind in kinds)) if terms else ()
-        scales = (*own * (int(group.max()) + 1), *shared)
-        counts = self._counts
-        of_own = np.repeat(np.arange(len(own)), counts[: len(own)])
-        of_shared = np.repeat(np.arange(3), counts[len(own) : -1]) if terms else np.zeros(0, dtype=np.int64)
-        of_shared = np.concatenate([of_shared, [3 + kinds.index(term.kind) for term in terms]]).astype(np.int64)
-        rows, first = len(group), len(own) * (int(group.max()) + 1)
-        together = np.arange(len(of_shared)) + rows * len(of_own)
-        return Sizes(
-            places=[np.r_[np.arange(len(of_own)) + k * len(of_own), together] for k in range(rows)],
+        beside = (expected.GAIN, *expected.mount_scales(assumptions.mount)) if terms else ()
+        scales = [*own * (int(group.max()) + 1), *beside]
+        of_own = np.repeat(np.arange(len(own)), list(self.own.values()))
+        counts = list(self.shared.values())[:-1]
+        of_shared = np.repeat(len(scales) - len(counts) + np.arange(len(counts)), counts)
+        of_terms, of_kinds = sizes_of_terms(terms, len(scales))
+        together = np.concatenate([of_shared, of_terms]).astype(np.int64)
+        shared = len(group) * len(of_own) + np.arange(len(together))
+        return Sizes.scaled(
+            [*scales, *of_kinds],
+            np.concatenate([*(of_own + len(own) * number for number in group), together]),
+            places=[np.r_[np.arange(len(of_own)) + k * len(of_own), shared] for k in range(len(group))],
             own=len(of_own),
-            size=np.concatenate([*(of_own + len(own) * number for number in group), first + of_shared]),
-            expected=np.array([scale.expected for scale in scales]),
-            weight=np.array([scale.weight for scale in scales]),
-            least=np.array([scale.least for scale in scales]),
         )
 
 
@@ -168,12 +142,8 @@ class SolvedRows:
     each."""
     unknowns: Sequence[Unknowns]
     """Unknowns of every row."""
-    free: Sequence[FreeUnknowns]
-    """Offsets and drifts of every row, given its unknowns."""
     layout: Layout
     """Where these stand."""
-    terms: Sequence[ErrorTerm]
-    """Numbers of the robot model that may be wrong."""
     expected_rows: FloatArray
     """What variables were expected to add to every row, which was taken off; shape (rows, v)."""
     matrix: FloatArray
@@ -198,10 +168,11 @@ class SolvedRows:
                 prior.
         """
         rows, unit, sessions = self.rows, self.rows.unit, self.design.sessions
-        own = self.layout.model
+        own = self.layout["model"]
         shared = self.unknowns[0].covariance[own, own]  # by all rows
         of_model = np.asarray(np.linalg.pinv(shared), dtype=np.float64)
-        known = [self._row(k, of_model) for k in range(len(unit))]
+        free = free_unknowns(self.design, [unknown.noise for unknown in self.unknowns])
+        known = [self._row(k, own, of_model) for k, own in enumerate(free)]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
         learnt = covariance[:, :LOADS, :LOADS].copy()
@@ -229,7 +200,7 @@ class SolvedRows:
             accuracy=self.assumptions.reference_accuracy(self.matrix),
             repeatability=self.assumptions.repeatability,
             load_centre=self.design.load_centre,
-            model=self._model([row[2] * size for row, size in zip(known, unit, strict=True)]) if self.terms else None,
+            model=self._model([row[2] * size for row, size in zip(known, unit, strict=True)]),
         )
         return matrix, posterior
 
@@ -251,7 +222,7 @@ class SolvedRows:
         Returns:
             Coefficients; shape (rows, 21); N, N m or counts.
         """
-        terms = np.stack([unknown.coefficients[self.layout.quadratic] for unknown in self.unknowns])
+        terms = np.stack([unknown.coefficients[self.layout["quadratic"]] for unknown in self.unknowns])
         return terms * self.rows.unit[:, None]
 
     def model_errors(self) -> tuple[ModelError, ...]:
@@ -260,7 +231,7 @@ class SolvedRows:
         Returns:
             An error per term.
         """
-        own, unknown = self.layout.model, self.unknowns[0]  # rows share them
+        own, unknown = self.layout["model"], self.unknowns[0]  # rows share them
         values, variances = unknown.coefficients[own], np.diag(unknown.covariance)[own]
         return tuple(
             ModelError(
@@ -270,7 +241,7 @@ class SolvedRows:
                 standard_error=float(np.sqrt(max(variance, 0.0))) * term.deviation,
                 tolerance=term.deviation,
             )
-            for term, value, variance in zip(self.terms, values, variances, strict=True)
+            for term, value, variance in zip(self.design.derivatives.terms, values, variances, strict=True)
         )
 
     def _noise(self) -> tuple[RowNoise, ...]:
@@ -284,7 +255,7 @@ class SolvedRows:
             for unknown, unit in zip(self.unknowns, self.rows.unit, strict=True)
         )
 
-    def _row(self, k: int, information: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _row(self, k: int, free: FreeUnknowns, information: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit.
 
         The offset is that which suits the robot model as it is: what the model is found to be off by in the mean of a
@@ -292,13 +263,14 @@ class SolvedRows:
 
         Args:
             k: The row.
+            free: Its offsets and drifts, given its unknowns.
             information: Inverse covariance of the errors of the model; shape (terms, terms).
 
         Returns:
             Mean, shape (p,), covariance, shape (p, p), and the change of the mean per tolerance of every error of the
             model, were that known; shape (p, terms).
         """
-        unknown, basis, design, free = self.unknowns[k], self.basis[k], self.design, self.free[k]
+        unknown, basis, design = self.unknowns[k], self.basis[k], self.design
         (a, b), sessions = basis.shape, len(design.sessions)
         used = LOADS + self.expected_rows.shape[1]
         from_unknowns = np.zeros((used + design.free.shape[1], len(unknown.coefficients)))
@@ -319,15 +291,17 @@ class SolvedRows:
         covariance = by_unknowns @ from_unknowns.T
         covariance[used:, used:] += unknown.variance * free.covariance
         covariance[offsets, offsets] += np.outer(kept_in_offset, kept_in_offset)
-        by_model = by_unknowns[:, self.layout.model] @ information
+        by_model = by_unknowns[:, self.layout["model"]] @ information
         mean = constant + from_unknowns @ unknown.coefficients
         return mean, 0.5 * (covariance + covariance.T), by_model
 
-    def _model(self, by_model: Sequence[FloatArray]) -> ModelPart:
-        """What rows owe to errors of the robot model, of which they share what is known."""
-        deviations, own = np.array([term.deviation for term in self.terms]), self.layout.model
+    def _model(self, by_model: Sequence[FloatArray]) -> ModelPart | None:
+        """What rows owe to errors of the robot model, of which they share what is known; None where it is exact."""
+        terms, deviations, own = self.design.derivatives.terms, self.design.derivatives.deviations, self.layout["model"]
+        if not terms:
+            return None
         return ModelPart(
-            terms=tuple(self.terms),
+            terms=terms,
             term_covariance=self.unknowns[0].covariance[own, own] * np.outer(deviations, deviations),
             response=np.stack(by_model) / deviations,
         )
@@ -469,14 +443,16 @@ def fit_generative(
     with_terms = ordered if prior is not None else [replace(s, terms=(), model=None) for s in ordered]
     derivatives = model_terms(with_terms, cells_of(ordered))
     terms = derivatives.terms
-    layout = Layout(variables=len(variables), channels=raw.shape[1], terms=len(terms))
+    layout = Layout.of(variables=len(variables), channels=raw.shape[1], terms=len(terms))
     extents = np.ptp(values, axis=0).tolist()
     of_variables = [
         expected.variable_sizes(one, rows.from_load, extent) for one, extent in zip(variables, extents, strict=True)
     ]
     by_row = np.column_stack([np.zeros((len(rows.unit), 0)), *of_variables])
+    to_raw = np.asarray(np.linalg.pinv(matrix), dtype=np.float64)
+    changes = gain_and_frame_changes(rows.from_raw, rows.from_load, to_raw)
     basis = [
-        _basis(rows, matrix, k, layout, size=size, variables=by_row[k])
+        _basis(rows, changes[k], k, layout, size=size, variables=by_row[k])
         for k, size in enumerate(rows.prior_sizes(assumptions, 1.0))
     ]
 
@@ -498,15 +474,12 @@ def fit_generative(
         ]
         sizes = layout.sizes(rows.group, terms, assumptions, with_prior=prior is not None)
         best = infer(data, sizes, local=design.local_places.ravel(), sensor=np.arange(LOADS), start=start)
-        unknowns = best.rows()
         solved = SolvedRows(
             rows=rows,
             design=design,
             basis=basis,
-            unknowns=unknowns,
-            free=free_unknowns(design, [unknown.noise for unknown in unknowns]),
+            unknowns=best.rows(),
             layout=layout,
-            terms=terms,
             expected_rows=expected_rows,
             matrix=matrix,
             with_prior=prior is not None,
@@ -581,24 +554,22 @@ def _rough(raw: FloatArray, wrench: FloatArray, measured: BoolArray) -> FloatArr
 
 
 def _basis(
-    rows: Rows, matrix: FloatArray, row: int, layout: Layout, *, size: float, variables: FloatArray
+    rows: Rows, changes: FloatArray, row: int, layout: Layout, *, size: float, variables: FloatArray
 ) -> FloatArray:
     """What the columns of the design are worth in the unknowns of a row before those of terms; shape (a, b)."""
-    v, pairs = layout.variables, len(PAIRS[0])
-    basis = np.zeros((2 * LOADS + v + pairs, layout.unknowns - layout.terms))
-    basis[:LOADS, layout.coefficients] = size * rows.sensor_root[row]
+    v, pairs = layout.own["variables"], len(PAIRS[0])
+    basis = np.zeros((2 * LOADS + v + pairs, layout["model"].start))
+    basis[:LOADS, layout["coefficients"]] = size * rows.sensor_root[row]
     column = LOADS
-    basis[column : column + v, layout.of_variables] = np.diag(variables)
+    basis[column : column + v, layout["variables"]] = np.diag(variables)
     column += v
-    basis[column : column + pairs, layout.quadratic] = np.eye(pairs)
+    basis[column : column + pairs, layout["quadratic"]] = np.eye(pairs)
     column += pairs
-    basis[column : column + LOADS, layout.flattening] = np.diag(rows.from_load[row])
-    if not layout.terms:
-        basis[:LOADS, layout.reference] = rows.frame_root[row]
+    basis[column : column + LOADS, layout["flattening"]] = np.diag(rows.from_load[row])
+    if not layout.shared["model"]:
+        basis[:LOADS, layout["reference"]] = rows.frame_root[row]
         return basis
-    basis[:LOADS, layout.gains] = (rows.from_raw[row][:, None] * np.linalg.pinv(matrix)).T
-    moved = np.einsum("c,kcd->dk", rows.from_load[row], FRAME_CHANGES)
-    basis[:LOADS, layout.rotation], basis[:LOADS, layout.shift] = moved[:, :3], moved[:, 3:]
+    basis[:LOADS, layout["gains"].start : layout["shift"].stop] = changes
     return basis
 
 

@@ -8,8 +8,9 @@ shows on recordings that were not fitted.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -28,7 +29,7 @@ from forcetorque.experiment.calibration.calibration_file import (
     SessionOffset,
 )
 from forcetorque.experiment.calibration.excitation import excitation_of
-from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED, LOADS, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import FLATTENED, LOADS
 from forcetorque.experiment.calibration.moments import WindowMeans, pooled
 from forcetorque.experiment.calibration.posterior import LoadError
 from forcetorque.experiment.calibration.provenance import Provenance, Selection
@@ -90,13 +91,7 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
 
 
 def linear_if_evident(
-    fit: GenerativeFit,
-    stretches: Sequence[WindowMeans],
-    prior: FloatArray | None,
-    assumptions: Assumptions,
-    *,
-    variables: Sequence[LinearVariable] = (),
-    drift: bool = False,
+    fit: GenerativeFit, stretches: Sequence[WindowMeans], refit: Callable[..., GenerativeFit], *, noise_floor: bool
 ) -> tuple[GenerativeFit, LinearityTest | None]:
     """Fit without quadratic terms where the data clearly show none, for a sensor without a prior or with more channels.
 
@@ -107,28 +102,15 @@ def linear_if_evident(
     Args:
         fit: The default fit.
         stretches: As of `fit_generative`.
-        prior: As of `fit_generative`.
-        assumptions: As of `fit_generative`.
-        variables: As of `fit_generative`.
-        drift: As of `fit_generative`.
+        refit: `fit_generative` with what is known of the sensor.
+        noise_floor: Whether an accuracy is stated, which is a floor of the noise.
 
     Returns:
         The fit that is kept, and the evidence; None where one of these fits is refused. A linear fit has the noise that
         the data show, and a floor only where an accuracy is stated.
     """
     try:
-        with_terms, without = (
-            fit_generative(
-                stretches,
-                prior,
-                assumptions,
-                variables=variables,
-                drift=drift,
-                quadratic=quadratic,
-                noise_floor=assumptions.states_accuracy,
-            )
-            for quadratic in (True, False)
-        )
+        with_terms, without = (refit(stretches, quadratic=own, noise_floor=noise_floor) for own in (True, False))
     except FitError:
         return fit, None
     test = LinearityTest(
@@ -139,22 +121,12 @@ def linear_if_evident(
     return (without if test.is_linear else fit), test
 
 
-def try_correction(
-    stretches: Sequence[WindowMeans],
-    prior: FloatArray | None,
-    assumptions: Assumptions,
-    *,
-    variables: Sequence[LinearVariable] = (),
-    drift: bool = False,
-) -> NonlinearTrial:
+def try_correction(stretches: Sequence[WindowMeans], refit: Callable[..., GenerativeFit]) -> NonlinearTrial:
     """Leave out one recording after the other, and see whether the quadratic terms of the others correct it.
 
     Args:
         stretches: As of `fit_generative`.
-        prior: As of `fit_generative`.
-        assumptions: As of `fit_generative`.
-        variables: As of `fit_generative`.
-        drift: As of `fit_generative`.
+        refit: `fit_generative` with what is known of the sensor.
 
     Returns:
         The errors with and without.
@@ -173,10 +145,7 @@ def try_correction(
         others = [stretch for stretch in stretches if stretch.recording != recording]
         judged = [stretch for stretch in stretches if stretch.recording == recording]
         try:
-            fit, plain = (
-                fit_generative(others, prior, assumptions, variables=variables, drift=drift, quadratic=quadratic)
-                for quadratic in (True, False)
-            )
+            fit, plain = (refit(others, quadratic=quadratic) for quadratic in (True, False))
         except FitError as error:
             raise FitError(f"nonlinear: without recording {recording!r}: {error}; leave nonlinear out") from error
         linear, corrected = _held_out(corrected_fit(fit, others, HALVES).model, judged)
@@ -253,13 +222,12 @@ def generative_calibration(
     fit, trial, linearity = _fit(recordings, stretches, variables)
     moments = pooled(interval.moments for interval in intervals)
     sessions = _sessions(fit, intervals, first.prior)
-    errors = fit.posterior.coefficient_error(fit.model.coefficients)
     return Calibration(
         sensor=first.sensor,
         matrix=fit.model.matrix,
         offset=fit.model.offset,
         sessions=sessions,
-        variables=tuple(_variable(fit, recordings, k, variable, errors[:, k]) for k, variable in enumerate(variables)),
+        variables=_variables(fit, intervals, variables),
         quadratic=fit.model.quadratic,
         nonlinear=trial,
         linearity=linearity,
@@ -292,15 +260,16 @@ def _fit(
 ) -> tuple[GenerativeFit, NonlinearTrial | None, LinearityTest | None]:
     """The fit, widened by what known loads may err; whether quadratic terms won; and whether the sensor is linear."""
     first = recordings[0]
-    fit = fit_generative(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
-    trial = linearity = None
-    if not first.nonlinear and (first.prior is None or fit.model.matrix.shape[1] != LOADS):
-        fit, linearity = linear_if_evident(
-            fit, stretches, first.prior, first.assumptions, variables=variables, drift=first.drift
-        )
+    refit = partial(
+        fit_generative, prior=first.prior, assumptions=first.assumptions, variables=variables, drift=first.drift
+    )
+    fit, trial, linearity = refit(stretches), None, None
     if first.nonlinear:
-        trial = try_correction(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
+        trial = try_correction(stretches, refit)
         fit = corrected_fit(fit, stretches, trial.kept) if trial.kept else fit
+    elif first.prior is None or fit.model.matrix.shape[1] != LOADS:
+        noise_floor = first.assumptions.states_accuracy
+        fit, linearity = linear_if_evident(fit, stretches, refit, noise_floor=noise_floor)
     load_error = LoadError.largest(recording.load_error for recording in recordings)
     if load_error is not None and first.prior is not None:
         fit = replace(fit, posterior=load_error.widened(fit.posterior, first.prior))
@@ -370,19 +339,14 @@ def _prior_offset(intervals: Sequence[IntervalMoments], session: str, prior: Flo
     return measured_part(moments.reference_mean, measured_components(prior)) - prior @ moments.raw_mean
 
 
-def _variable(
-    fit: GenerativeFit, recordings: Sequence[RecordingMoments], k: int, variable: LinearVariable, error: FloatArray
-) -> CalibratedVariable:
-    intervals = [interval for recording in recordings for interval in recording.intervals]
-    return CalibratedVariable(
-        name=variable.name,
-        unit=variable.unit,
-        reference_value=float(fit.model.reference_values[k]),
-        coefficients=fit.model.coefficients[:, k],
-        standard_error=error,
-        prior=variable.prior,
-        minimum=min(float(interval.variable_minimum[k]) for interval in intervals),
-        maximum=max(float(interval.variable_maximum[k]) for interval in intervals),
+def _variables(
+    fit: GenerativeFit, intervals: Sequence[IntervalMoments], variables: Sequence[LinearVariable]
+) -> tuple[CalibratedVariable, ...]:
+    model, errors = fit.model, fit.posterior.coefficient_error(fit.model.coefficients)
+    ends = np.array([[one.variable_minimum, one.variable_maximum] for one in intervals])
+    return tuple(
+        CalibratedVariable.of(one, model.reference_values[k], model.coefficients[:, k], errors[:, k], ends[:, :, k])
+        for k, one in enumerate(variables)
     )
 
 

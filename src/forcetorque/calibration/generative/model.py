@@ -16,15 +16,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.noise.slow_noise import SlowNoise
 from forcetorque.calibration.generative.row_evidence import RowPrior, evidence_of
-from forcetorque.calibration.generative.shared_unknowns import RowProducts, SharedSolution, solve_together
+from forcetorque.calibration.generative.shared_unknowns import SharedSolution, in_unknowns, solve_together
 from forcetorque.calibration.generative.whitening import Whitened
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Scale, model_scale
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 _SWEEPS = 20
 _CHOICES = (0, 4, 10)
@@ -84,15 +86,7 @@ class _Row:
     def choose(self, shape: int) -> None:
         """Take a shape of the noise."""
         self.shape = shape
-        self.products = RowProducts.of(self.data[shape], self.basis, *self._place)
-
-    def take_noise(self, variance: float) -> None:
-        """Start with a known variance of the noise."""
-        self.variance = np.maximum(variance, self.least)
-
-    def take_all_as_noise(self) -> None:
-        """Start with the whole response as noise."""
-        self.variance = np.maximum(self.start * self.response / self.freedom, self.least)
+        self.products = in_unknowns(self.data[shape], self.basis, *self._place)
 
     def take_least_squares(self, used: IntArray) -> FloatArray:
         """Start with the residual of least squares on some unknowns as noise, and give these by the first shape."""
@@ -159,6 +153,12 @@ class Sizes:
     least: FloatArray
     """Sizes below which no evidence takes them; shape (sizes,)."""
 
+    @classmethod
+    def scaled(cls, scales: Sequence[Scale], size: IntArray, *, places: Sequence[IntArray], own: int) -> Self:
+        """Take the scales of the sizes; the others as of the class."""
+        expected, weight, least = np.array([(one.expected, one.weight, one.least) for one in scales]).T
+        return cls(places=places, own=own, size=size, expected=expected, weight=weight, least=least)
+
     @property
     def coupled(self) -> bool:
         """Whether rows share unknowns."""
@@ -196,6 +196,20 @@ class Sizes:
         free = np.isfinite(self.weight)
         square = (sizes[free] / self.expected[free]) ** 2
         return float((self.weight[free] * (np.log(square) + 1.0 / square)).sum())
+
+
+def sizes_of_terms(terms: Sequence[ErrorTerm], first: int) -> tuple[list[int], list[Scale]]:
+    """Give the terms of the robot model of one kind one size.
+
+    Args:
+        terms: The terms.
+        first: Number of the first of these sizes.
+
+    Returns:
+        Number of the size of every term, and the scales of these sizes.
+    """
+    kinds = list(dict.fromkeys(term.kind for term in terms))
+    return [first + kinds.index(term.kind) for term in terms], [model_scale(kind) for kind in kinds]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -276,10 +290,9 @@ def infer(
     """
     rows = [_Row(k, one, sizes) for k, one in enumerate(data)]
     of_cells = np.zeros(0, dtype=np.int64) if local is None else local
-    for row, known in zip(rows, start, strict=False):
-        row.take_noise(known.variance)
-    for row in () if start else rows:
-        row.take_all_as_noise()
+    for number, row in enumerate(rows):
+        of_start = start[number].variance if start else row.start * row.response / row.freedom
+        row.variance = np.maximum(of_start, row.least)
     best = _ascend(rows, sizes, sizes.of(start), of_cells, hold=bool(start))
     if start or sensor is None or rows[0].freedom <= LOADS or not _have_rank(data[0].data[0].columns[:LOADS, :LOADS]):
         return best

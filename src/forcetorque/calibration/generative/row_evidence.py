@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.calibration.generative.shared_unknowns import in_unknowns, solve_together
 from forcetorque.calibration.generative.whitening import Whitened
 
 
@@ -30,14 +30,6 @@ class EvidenceTerms:
     """`s^T (M + v)^-2 s`, the sum of squares of the unknowns; shape (k,)."""
     determined: FloatArray
     """Trace of `M (M + v)^-1`, the number of unknowns that the data determine; shape (k,)."""
-
-
-class RowEvidence(Protocol):
-    """The evidence of k rows or shapes of the noise."""
-
-    def at(self, variance: FloatArray) -> EvidenceTerms:
-        """Evaluate it for the variances of the noise; shape (k,)."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -68,22 +60,19 @@ class RowPrior:
         return cls(root=root, local=local)
 
 
-def evidence_of(data: Sequence[tuple[Whitened, RowPrior]]) -> RowEvidence:
+def evidence_of(data: Sequence[tuple[Whitened, RowPrior]]) -> _Tridiagonal | _Bordered:
     """Prepare the evidence of rows.
 
     Args:
         data: The data of k rows or shapes of the noise, each with the prior distribution of the row.
 
     Returns:
-        The evidence.
+        The evidence, whose `at` evaluates it at variances of the noise.
     """
+    if data[0][0].border.own.size:
+        return _Bordered(data)
     products = [prior.root.T @ one.columns @ prior.root for one, prior in data]
-    shared = [prior.root.T @ one.shared for one, prior in data]
-    if not data[0][0].border.own.size:
-        return _Tridiagonal(products, shared)
-    return _Bordered(
-        [_Border(*one, product, along) for one, product, along in zip(data, products, shared, strict=True)]
-    )
+    return _Tridiagonal(products, [prior.root.T @ one.shared for one, prior in data])
 
 
 class _Tridiagonal:
@@ -122,62 +111,23 @@ class _Tridiagonal:
         )
 
 
-class _Border:
-    """One shape: M with the terms of single cells in directions in which they are independent."""
-
-    def __init__(self, data: Whitened, prior: RowPrior, products: FloatArray, shared: FloatArray) -> None:
-        border = data.border
-        cells, width, _ = border.own.shape
-        size = prior.local.reshape(cells, width)
-        values, directions = np.linalg.eigh(border.own * (size[:, :, None] * size[:, None, :]))
-        self.values = np.maximum(values, 0.0).ravel()
-        turned = directions.transpose(0, 2, 1) * size[:, None, :]
-        columns = np.hstack([border.columns @ prior.root, border.free, border.response[:, None]])
-        columns = (turned @ columns.reshape(cells, width, -1)).reshape(cells * width, -1)
-        self.columns, self.along = columns[:, :-1], columns[:, -1]
-        self.known = len(products)  # unknowns with a prior distribution; those after are free
-        self.products = np.zeros((self.columns.shape[1], self.columns.shape[1]))
-        self.products[: self.known, : self.known] = products
-        self.products[self.known :, self.known :] = data.free
-        self.shared = np.r_[shared, np.zeros(len(data.free))]
-        self.of_free = float(np.linalg.slogdet(data.free)[1])
-
-    def at(self, variance: float) -> tuple[float, float, float, float]:
-        """Evaluate the evidence under one shape: log determinant, explained, squares, determined."""
-        from scipy.linalg.lapack import dtrtri
-
-        known = self.known
-        weight = 1.0 / (self.values + variance)
-        weighted = self.columns * weight[:, None]
-        left = self.products - self.columns.T @ weighted
-        left[np.arange(known), np.arange(known)] += variance
-        factor = np.linalg.cholesky(left)
-        inverse, _ = dtrtri(factor, lower=1)
-        shared = self.shared - weighted.T @ self.along
-        unknowns = (inverse @ shared) @ inverse
-        local = weight * self.along - weighted @ unknowns
-        total = known + len(weight)
-        trace = float((inverse[:, :known] ** 2).sum() + weight.sum() + ((weighted @ inverse.T) ** 2).sum())
-        return (
-            2.0 * float(np.log(np.diag(factor)).sum())
-            - self.of_free
-            + float(np.log(self.values + variance).sum())
-            - total * float(np.log(variance)),
-            float(weight @ self.along**2 + shared @ unknowns),
-            float((unknowns[:known] ** 2).sum() + (local**2).sum()),
-            total - variance * trace,
-        )
-
-
 class _Bordered:
-    """The evidence where there are terms of single cells."""
+    """The evidence where there are terms of single cells, which `solve_together` eliminates."""
 
-    def __init__(self, shapes: Sequence[_Border]) -> None:
-        self._shapes = shapes
+    def __init__(self, data: Sequence[tuple[Whitened, RowPrior]]) -> None:
+        self._rows = [(in_unknowns(one, prior.root, 0, 1, 0), prior.local) for one, prior in data]
 
     def at(self, variance: FloatArray) -> EvidenceTerms:
         """Evaluate the evidence."""
-        terms = [shape.at(float(v)) for shape, v in zip(self._shapes, variance, strict=True)]
+        terms = []
+        for (row, local), own in zip(self._rows, variance, strict=True):
+            known = np.arange(len(row.columns))
+            deviations = np.r_[np.ones(len(known)), local[local > 0.0]]
+            places = np.full(len(local), -1)
+            places[local > 0.0] = np.arange(len(known), len(deviations))
+            found = solve_together([row], [known], places, deviations, np.array([own]))
+            square = ((found.coefficients / deviations) ** 2).sum()
+            terms.append((found.log_determinant, own * found.explained, square, found.determined[0]))
         log_determinant, explained, squares, determined = np.array(terms).T
         return EvidenceTerms(
             log_determinant=log_determinant, explained=explained, squares=squares, determined=determined

@@ -8,7 +8,7 @@ have, or, where there are none, the unknowns that every row has for itself.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,70 +16,37 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.whitening import Border, Whitened
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RowProducts:
-    """Products of one row in unknowns: q that are in no block, and those of blocks, in the form of terms of cells."""
+def in_unknowns(data: Whitened, basis: FloatArray, row: int, rows: int, own: int) -> Whitened:
+    """Change products of columns to products of unknowns: of those in no block, and, as its border, those of blocks.
 
-    columns: FloatArray
-    """Products of the unknowns; shape (q, q)."""
-    shared: FloatArray
-    """Products of unknowns and response; shape (q,)."""
-    response: float
-    """Product of the response with itself."""
-    free: FloatArray
-    """As of `Whitened`."""
-    border: Border
-    """Products of the unknowns of blocks, w in each, and the others."""
+    Args:
+        data: Products of the columns of a row.
+        basis: What the columns without those of terms are worth in unknowns; shape (a, b).
+        row: Number of the row.
+        rows: Number of all rows.
+        own: Number of unknowns that the row has for itself, which are its first and are a block where no single cell
+            has terms.
 
-    @classmethod
-    def of(cls, data: Whitened, basis: FloatArray, row: int, rows: int, own: int) -> RowProducts:
-        """Change to unknowns.
-
-        Args:
-            data: Products of the columns.
-            basis: What the columns without those of terms are worth in unknowns; shape (a, b).
-            row: Number of the row.
-            rows: Number of all rows.
-            own: Number of unknowns that the row has for itself, which are its first and are a block where no single
-                cell has terms.
-
-        Returns:
-            The products.
-        """
-        a = len(basis)
-        half = np.hstack([data.columns[:, :a] @ basis, data.columns[:, a:]])
-        columns = np.vstack([basis.T @ half[:a], half[a:]])
-        shared = np.r_[basis.T @ data.shared[:a], data.shared[a:]]
-        border = data.border
-        if not border.own.size:
-            here = slice(row * own, (row + 1) * own)
-            blocks = Border(
-                own=np.zeros((rows, own, own)),
-                columns=np.zeros((rows * own, len(columns) - own)),
-                free=np.zeros((rows * own, 0)),
-                response=np.zeros(rows * own),
-            )
-            blocks.own[row], blocks.columns[here] = columns[:own, :own], columns[:own, own:]
-            blocks.response[here] = shared[:own]
-            return cls(
-                columns=columns[own:, own:],
-                shared=shared[own:],
-                response=data.response,
-                free=np.zeros((0, 0)),
-                border=blocks,
-            )
-        return cls(
-            columns=columns,
-            shared=shared,
-            response=data.response,
-            free=data.free,
-            border=Border(
-                own=border.own,
-                columns=np.hstack([border.columns[:, :a] @ basis, border.columns[:, a:]]),
-                free=border.free,
-                response=border.response,
-            ),
-        )
+    Returns:
+        The products; of blocks in the form of terms of cells.
+    """
+    a, border = len(basis), data.border
+    half = np.hstack([data.columns[:, :a] @ basis, data.columns[:, a:]])
+    columns = np.vstack([basis.T @ half[:a], half[a:]])
+    shared = np.r_[basis.T @ data.shared[:a], data.shared[a:]]
+    if border.own.size:
+        worth = np.hstack([border.columns[:, :a] @ basis, border.columns[:, a:]])
+        return replace(data, columns=columns, shared=shared, border=replace(border, columns=worth))
+    here = slice(row * own, (row + 1) * own)
+    blocks = Border(
+        own=np.zeros((rows, own, own)),
+        columns=np.zeros((rows * own, len(columns) - own)),
+        free=np.zeros((rows * own, 0)),
+        response=np.zeros(rows * own),
+    )
+    blocks.own[row], blocks.columns[here] = columns[:own, :own], columns[:own, own:]
+    blocks.response[here] = shared[:own]
+    return replace(data, columns=columns[own:, own:], shared=shared[own:], free=np.zeros((0, 0)), border=blocks)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -130,7 +97,7 @@ class SharedSolution:
 
 
 def solve_together(
-    rows: Sequence[RowProducts],
+    rows: Sequence[Whitened],
     places: Sequence[IntArray],
     local: IntArray,
     deviations: FloatArray,
@@ -139,7 +106,7 @@ def solve_together(
     """Infer all unknowns.
 
     Args:
-        rows: The data of every row.
+        rows: The data of every row in unknowns.
         places: Places among all u unknowns of those of every row that are in no block; shape (q,) each.
         local: Places of the unknowns of blocks, -1 for none; shape (blocks w,).
         deviations: Standard deviation of every unknown before any data; shape (u,).
@@ -226,7 +193,7 @@ def solve_together(
 
 
 def _of_row(
-    row: RowProducts,
+    row: Whitened,
     at: IntArray,
     at_free: IntArray,
     values: FloatArray,

@@ -15,7 +15,6 @@ from forcetorque.base.errors import EstimationError, ExperimentError, FitError, 
 from forcetorque.calibration.calibrate import (
     SensorCalibration,
     SensorCalibrations,
-    channel_names,
     data_doubts,
     fit_doubts,
 )
@@ -26,7 +25,6 @@ from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
 from forcetorque.calibration.joint.unknowns import JointFit, SensorPrior
 from forcetorque.calibration.joint.untouched_interval import JointInterval, joint_interval, required_prior
 from forcetorque.calibration.moments_of_samples import assumptions_of
-from forcetorque.calibration.summary import information_gains
 from forcetorque.experiment.calibration.calibration_file import Calibration, calibrations_in, read_calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice
 from forcetorque.experiment.calibration.robot_model_error import ModelTolerance, TermKind
@@ -90,7 +88,8 @@ class JointData:
                 touched.append((label, outcome))
         if not intervals:
             raise touched[0][1]
-        for sensor, variable in _variables(campaigns.values()):
+        pairs = ((name, one.linear.name) for name, own in campaigns.items() for one in own.sensor.variables)
+        for sensor, variable in pairs:
             if (sensor, variable) not in references and any(sensor in one.raw for one in intervals):
                 raise FitError(
                     f"sensor {sensor!r}: variable {variable!r} has no value in the calibration intervals; log it, or "
@@ -187,12 +186,6 @@ def _prior(campaign: Campaign, tolerance: ModelTolerance, intervals: Sequence[Jo
         return SensorPrior.of(required_prior(sensor), assumptions, extents)
     except FitError as error:
         raise FitError(f"sensor {sensor.name!r}: {error}") from error
-
-
-def _variables(campaigns: Iterable[Campaign]) -> Iterator[tuple[str, str]]:
-    """Sensor and name of every linear variable."""
-    for one in campaigns:
-        yield from ((one.sensor.name, variable.linear.name) for variable in one.sensor.variables)
 
 
 _FEW: Final = 1000
@@ -352,7 +345,12 @@ def calibrate_jointly(
     joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE), posterior)
     doubts = [
         *data.left_out,
-        *(_without_equation(name) for name in data.campaigns if name not in calibrations),
+        *(
+            f"{name}: beside no untouched part whose joints were logged, so not calibrated; its readings count by "
+            "their weight at most"
+            for name in data.campaigns
+            if name not in calibrations
+        ),
         *joint.doubts(urdf_of(experiments[0])),
         *(
             doubt
@@ -365,12 +363,10 @@ def calibrate_jointly(
     return SensorCalibrations(
         experiment="; ".join(dict.fromkeys(experiment.name for experiment in experiments)),
         calibrations=tuple(
-            SensorCalibration(
-                file=str(place / calibration_file(calibration.sensor.name, calibration.sensor.serial)),
-                calibration=calibration,
-                secondary_matrix=calibration.secondary_matrix(),
-                information_gain=information_gains(calibration),
-                channels=channel_names(data.campaigns[name]),
+            SensorCalibration.of(
+                place / calibration_file(calibration.sensor.name, calibration.sensor.serial),
+                calibration,
+                data.campaigns[name],
             )
             for name, calibration in calibrations.items()
         ),
@@ -421,13 +417,6 @@ def require_positive_masses(fit: JointFit) -> None:
             "if a sign were wrong; check gravity_direction of the support, and which side acts in the readings of the "
             "sensors beside this body (measure_direction)"
         )
-
-
-def _without_equation(sensor: str) -> str:
-    return (
-        f"{sensor}: beside no untouched part whose joints were logged, so not calibrated; its readings count by their "
-        "weight at most"
-    )
 
 
 def calibration_file(sensor: str, serial: str) -> str:

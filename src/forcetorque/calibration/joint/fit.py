@@ -29,11 +29,11 @@ import numpy as np
 from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import FitError
 from forcetorque.base.noise.slow_noise import CANDIDATES
-from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer
+from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer, sizes_of_terms
 from forcetorque.calibration.generative.whitening import Border, Whitened
 from forcetorque.calibration.joint.unknowns import CHANGES, EVEN, JointFit, Places, SensorPrior
 from forcetorque.calibration.joint.windows import PartWindows
-from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Scale, model_scale
+from forcetorque.experiment.calibration.expected_sensor_errors import LOADS, Scale
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
 
 _OFFSET: Final = Scale(expected=1e3, weight=np.inf)
@@ -108,30 +108,25 @@ class _Unknowns:
         return cls(places=places, priors=priors, starts=np.cumsum([0, *(prior.basis.shape[1] for prior in priors)]))
 
     @property
-    def _shift(self) -> int:
-        """What is to be added to a place of an offset or a term."""
-        return int(self.starts[-1]) - CHANGES * len(self.priors)
+    def basis(self) -> FloatArray:
+        """What the unknowns are worth at their places; shape (p, unknowns)."""
+        places = self.places
+        deviations = [self.priors[places.sensors.index(sensor)].slopes[name] for sensor, name in places.slopes]
+        of_terms = np.array([term.deviation for term in places.terms])
+        rest = np.concatenate([np.ones(LOADS * len(places.offsets)), *deviations, of_terms])
+        first = self.starts[-1]
+        basis = np.zeros((len(places), first + len(rest)))
+        for number, (name, prior) in enumerate(zip(places.sensors, self.priors, strict=True)):
+            basis[places.changes(name), self.starts[number] : self.starts[number + 1]] = prior.basis
+        basis[len(places) - len(rest) :, first:] = np.diag(rest)
+        return basis
 
     def of_part(self, windows: PartWindows) -> tuple[FloatArray, IntArray]:
-        """What changes, offsets and slopes of a part are in unknowns, and where these and its terms stand."""
-        numbers = [self.places.sensors.index(name) for name in windows.sensors]
-        sizes = [self.priors[number].basis.shape[1] for number in numbers]
-        k, added = len(numbers), LOADS * (len(numbers) + len(windows.slopes))
-        basis = np.zeros((CHANGES * k + added, sum(sizes) + added))
-        ends = np.cumsum([0, *sizes])
-        for place, number in enumerate(numbers):
-            basis[CHANGES * place : CHANGES * (place + 1), ends[place] : ends[place + 1]] = self.priors[number].basis
-        scales = [np.ones(LOADS * k), *(self.deviation(pair) for pair in windows.slopes)]
-        basis[CHANGES * k :, ends[-1] :] = np.diag(np.concatenate(scales))
-        rest = self.places.of_part(windows.sensors, windows.stretch.session, windows.slopes, windows.terms)
-        rest = rest[CHANGES * k :]
-        own = [np.arange(self.starts[number], self.starts[number + 1]) for number in numbers]
-        return basis, np.concatenate([*own, rest + self._shift])
-
-    def deviation(self, slope: tuple[str, str]) -> FloatArray:
-        """What a slope may be; shape (6,); in `UNITS` per unit."""
-        sensor, variable = slope
-        return self.priors[self.places.sensors.index(sensor)].slopes[variable]
+        """What the coefficients of a part without those of terms are worth in its unknowns, and places of these."""
+        own = self.places.of_part(windows.sensors, windows.stretch.session, windows.slopes, windows.terms)
+        basis, terms = self.basis[own], len(windows.terms)
+        used = np.flatnonzero(basis.any(axis=0))
+        return basis[: len(own) - terms, used[: len(used) - terms]], used
 
     def expected(self, slopes: Iterable[tuple[str, str]]) -> FloatArray:
         """What slopes are expected to be, one after the other; in `UNITS` per unit."""
@@ -148,17 +143,8 @@ class _Unknowns:
         size += [len(scales)] * (LOADS * len(self.places.offsets))
         size += [len(scales) + 1] * (LOADS * len(self.places.slopes))
         scales += [_OFFSET, _SLOPE]
-        kinds = list(dict.fromkeys(term.kind for term in self.places.terms))
-        size += [len(scales) + kinds.index(term.kind) for term in self.places.terms]
-        scales += [model_scale(kind) for kind in kinds]
-        return Sizes(
-            places=rows,
-            own=0,
-            size=np.array(size),
-            expected=np.array([scale.expected for scale in scales]),
-            weight=np.array([scale.weight for scale in scales]),
-            least=np.array([scale.least for scale in scales]),
-        )
+        of_terms, of_kinds = sizes_of_terms(self.places.terms, len(scales))
+        return Sizes.scaled([*scales, *of_kinds], np.array([*size, *of_terms]), places=rows, own=0)
 
     def of_sensors(self, sizes: Sizes) -> BoolArray:
         """Which sizes are those of sensors; shape (sizes,)."""
@@ -166,19 +152,7 @@ class _Unknowns:
 
     def fit(self, best: Maximum, deviations: FloatArray) -> JointFit:
         """Give what the places are of, if unknowns scatter by `deviations`, no less than taken."""
-        places = self.places
-        basis = np.zeros((len(places), len(deviations)))
-        for number, (name, prior) in enumerate(zip(places.sensors, self.priors, strict=True)):
-            basis[places.changes(name), self.starts[number] : self.starts[number + 1]] = prior.basis
-        first = self.starts[-1]
-        scales = np.concatenate(
-            [
-                np.ones(LOADS * len(places.offsets)),
-                *(self.deviation(pair) for pair in places.slopes),
-                [term.deviation for term in places.terms],
-            ]
-        )
-        basis[first - self._shift :, first:] = np.diag(scales)
+        places, basis = self.places, self.basis
         mean = basis @ best.solution.coefficients
         for pair in places.slopes:
             mean[places.slope(*pair)] += self.expected([pair])

@@ -23,7 +23,7 @@ from forcetorque.robot.mechanics.sub_model_equations import (
     joints_of_cuts,
     joints_of_part,
 )
-from forcetorque.robot.mechanics.wrench_derivatives import demand_derivatives
+from forcetorque.robot.mechanics.wrench_derivatives import PartDerivatives, demand_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_models import SubModel
 from forcetorque.robot.tree import BodyTree, Connection
@@ -121,13 +121,25 @@ def model_error_columns(tree: BodyTree, part: SubModel, joints: JointMotion, roo
     Returns:
         By the name of the term; shape (n, 6); N, N m per unit.
     """
-    found = demand_derivatives(tree, part, joints, root)
-    columns = {f"{ZERO}{joint}": values for joint, values in found.joints.items()}
-    for k, by_body in found.bodies.items():
-        mass, centre = by_body[0], np.tensordot(link_axes(tree, k).T, by_body[1:], 1)
-        columns |= dict(zip(terms_of_body(tree, k), (mass, *centre), strict=True))
-    columns |= dict(zip(terms_of_acceleration(tree), found.acceleration, strict=True))
-    return {name: -values.T for name, values in columns.items()}
+    axes = {k: link_axes(tree, k) for k in heavy_bodies(tree, part)}
+    found = demand_derivatives(tree, part, joints, root, axes=axes)
+    return {name: -values.T for name, values in columns_of_terms(tree, found).items()}
+
+
+def columns_of_terms(tree: BodyTree, derivatives: PartDerivatives) -> dict[str, FloatArray]:
+    """Name derivatives by the terms that they belong to.
+
+    Args:
+        tree: The robot.
+        derivatives: Those of a part, by centres along axes of the links that name them.
+
+    Returns:
+        By the name of the term; shape (6, n) each.
+    """
+    columns = {f"{ZERO}{joint}": values for joint, values in derivatives.joints.items()}
+    for k, by_body in derivatives.bodies.items():
+        columns |= dict(zip(terms_of_body(tree, k), by_body, strict=True))
+    return columns | dict(zip(terms_of_acceleration(tree), derivatives.acceleration, strict=True))
 
 
 def weight_error_columns(tree: BodyTree, part: SubModel, root: RootMotion, samples: int) -> dict[str, FloatArray]:

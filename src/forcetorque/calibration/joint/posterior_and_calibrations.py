@@ -215,7 +215,10 @@ def sensor_artefact(
     names = tuple(dict.fromkeys(one.session for one in data))
     rest = np.concatenate([one.rest for one in data])
     residual = np.sqrt((rest**2).mean(axis=0))
-    moments = {name: pooled(_moments(one) for one in data if one.session == name) for name in names}
+    moments = {
+        name: pooled(Moments.of(one.raw, one.reference) for one in data if one.interval.session == name)
+        for name in names
+    }
     posterior = sensor_posterior(
         fit,
         sensor,
@@ -226,7 +229,15 @@ def sensor_artefact(
         mean_loads=np.stack([moments[name].reference_mean for name in names]),
     )
     prior_offsets = {name: moments[name].reference_mean - prior @ moments[name].raw_mean for name in names}
-    sessions = tuple(_session(sensor, fit, posterior, name, offset) for name, offset in prior_offsets.items())
+    sessions = tuple(
+        SessionOffset(
+            name=name,
+            offset=(offset := fit.offset(sensor, name)),
+            standard_error=posterior.offset_error(offset, name),
+            prior_offset=before,
+        )
+        for name, before in prior_offsets.items()
+    )
     last = sessions[-1]
     raw = [one.raw[sensor] for one in own]
     return Calibration(
@@ -261,13 +272,6 @@ def sensor_artefact(
             inputs_sha256=campaign.inputs_sha256,
             added=campaign.added,
         ),
-    )
-
-
-def _session(sensor: str, fit: JointFit, posterior: Posterior, name: str, prior_offset: FloatArray) -> SessionOffset:
-    offset = fit.offset(sensor, name)
-    return SessionOffset(
-        name=name, offset=offset, standard_error=posterior.offset_error(offset, name), prior_offset=prior_offset
     )
 
 
@@ -310,16 +314,9 @@ def _variables(
 ) -> Iterator[CalibratedVariable]:
     """What variables add; `moved` are they less their reference values; shape (w, v)."""
     for k, (name, reference) in enumerate(references.items()):
-        linear, own = sensor.variable(name).linear, fit.places.slope(sensor.name, name)
-        yield CalibratedVariable(
-            name=name,
-            unit=linear.unit,
-            reference_value=reference,
-            coefficients=fit.slope(sensor.name, name),
-            standard_error=np.sqrt(np.diag(fit.covariance)[own]) * UNITS,
-            prior=linear.prior,
-            minimum=float(moved[:, k].min() + reference),
-            maximum=float(moved[:, k].max() + reference),
+        error = np.sqrt(np.diag(fit.covariance)[fit.places.slope(sensor.name, name)]) * UNITS
+        yield CalibratedVariable.of(
+            sensor.variable(name).linear, reference, fit.slope(sensor.name, name), error, moved[:, k] + reference
         )
 
 
@@ -334,7 +331,3 @@ def _rest(sensor: str, time_s: FloatArray, residuals: Sequence[PartResidual]) ->
     with np.errstate(invalid="ignore"):
         mean: FloatArray = total / np.where(count > 0.0, count, np.nan)[:, None]
     return mean
-
-
-def _moments(windows: SensorWindows) -> Moments:
-    return Moments.of(windows.raw, windows.reference)

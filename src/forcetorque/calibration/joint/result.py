@@ -14,8 +14,9 @@ from pydantic import Field
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.base.wrench import FORCE_AND_MOMENT
-from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual, Touch
+from forcetorque.calibration.joint.robust_fit import JointResult, PartResidual
 from forcetorque.calibration.joint.unknowns import JointFit
+from forcetorque.calibration.joint.windows import WINDOW_S
 from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import JointPosterior, place_in_urdf
 from forcetorque.experiment.calibration.posterior import Posterior
@@ -226,16 +227,23 @@ class ContactSpanRow(Row):
     """End; s."""
 
     @classmethod
-    def of(cls, touch: Touch) -> Self:
-        """Hold a span.
+    def all_of(cls, residual: PartResidual) -> Iterator[Self]:
+        """List the spans of a part that were left out of a fit.
 
         Args:
-            touch: The span.
+            residual: What is left of its equation.
 
-        Returns:
-            The row.
+        Yields:
+            Windows that follow each other, each from its start to its end.
         """
-        return cls(sub_model=touch.part, interval=touch.label, start_s=touch.start_s, end_s=touch.end_s)
+        edges = np.flatnonzero(np.diff(np.r_[True, residual.kept, True].astype(int)))
+        for start, end in zip(edges[::2], edges[1::2], strict=True):
+            yield cls(
+                sub_model=residual.part,
+                interval=residual.label,
+                start_s=float(residual.time_s[start]) - 0.5 * WINDOW_S,
+                end_s=float(residual.time_s[end - 1]) + 0.5 * WINDOW_S,
+            )
 
 
 _DOUBTFUL_SHARE = 0.1
@@ -296,7 +304,7 @@ class JointOutcome(Row):
             ),
             sub_models=tuple(SubModelRow.of(one) for one in result.residuals if one.kept.any()),
             model_errors=tuple(ModelErrorRow.of(*error) for error in result.fit.model_errors()),
-            contacts=tuple(map(ContactSpanRow.of, result.touches)),
+            contacts=tuple(span for one in result.residuals for span in ContactSpanRow.all_of(one)),
             left_out=result.left_out,
             without_windows=result.without_windows,
             fit=result.fit,
@@ -368,7 +376,8 @@ def _far_errors(errors: Sequence[ModelErrorRow], urdf: Path | None) -> Iterator[
 def _wide_errors(errors: Sequence[ModelErrorRow], roots: Sequence[str]) -> Iterator[str]:
     wide = [row for row in errors if row.is_wide]
     if wide:
-        kinds = ", ".join(_kind(unit, rows) for unit, rows in _by_unit(wide))
+        units = dict.fromkeys(row.unit for row in wide)
+        kinds = ", ".join(_kind(unit, [row for row in wide if row.unit == unit]) for unit in units)
         yield (
             f"errors of the robot model are by evidence far above their tolerances: {kinds}. "
             f"The model, or the motion, is not that of the robot. {_imu_question(roots)}"
@@ -377,11 +386,6 @@ def _wide_errors(errors: Sequence[ModelErrorRow], roots: Sequence[str]) -> Itera
 
 _KINDS = {"": "mass", "m": "centre of mass", "rad": "joint zero", "m/s2": "acceleration", "s": "delay"}
 """What a number of the model is, by its unit."""
-
-
-def _by_unit(rows: Sequence[ModelErrorRow]) -> Iterator[tuple[str, list[ModelErrorRow]]]:
-    for unit in dict.fromkeys(row.unit for row in rows):
-        yield unit, [row for row in rows if row.unit == unit]
 
 
 def _kind(unit: str, rows: Sequence[ModelErrorRow]) -> str:

@@ -27,20 +27,6 @@ _LEAST = 1e-3
 """Smallest scale of a residual, in `UNITS`: below that it is rounding."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Touch:
-    """A span of time in which a part was touched, or in which its equation does not hold for another reason."""
-
-    part: str
-    """Name of the part."""
-    label: str
-    """Label of the interval."""
-    start_s: float
-    """Start; s on the clock of the recording."""
-    end_s: float
-    """End; s."""
-
-
 def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
     """Give what is left of the equations of a part.
 
@@ -104,42 +90,6 @@ def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
         return np.ones(len(windows), dtype=bool)
     far = disagreeing(residuals(windows, fit)[:, windows.rows > 0.0], _LEAST)
     return ~minority(with_neighbours(far, _NEIGHBOURS))
-
-
-def touches_of(windows: PartWindows, kept: BoolArray) -> list[Touch]:
-    """List the spans that were left out.
-
-    Args:
-        windows: Windows of a part.
-        kept: Which of them agree; shape (w,).
-
-    Returns:
-        Spans of windows that follow each other.
-    """
-    edges = np.flatnonzero(np.diff(np.r_[True, kept, True].astype(int)))
-    half = 0.5 * WINDOW_S
-    return [
-        Touch(
-            part=windows.part,
-            label=windows.stretch.label,
-            start_s=float(windows.time_s[start]) - half,
-            end_s=float(windows.time_s[end - 1]) + half,
-        )
-        for start, end in zip(edges[::2], edges[1::2], strict=True)
-    ]
-
-
-def all_touches(windows: Sequence[PartWindows], kept: Sequence[BoolArray]) -> tuple[Touch, ...]:
-    """List the spans that were left out of all parts.
-
-    Args:
-        windows: Windows of the parts.
-        kept: Which of them agree.
-
-    Returns:
-        The spans, part by part.
-    """
-    return tuple(touch for one, marks in zip(windows, kept, strict=True) for touch in touches_of(one, marks))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -251,8 +201,6 @@ class JointResult:
     """The fit."""
     residuals: tuple[PartResidual, ...]
     """What is left of the equation of every part in every stretch, windows that disagree too."""
-    touches: tuple[Touch, ...]
-    """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
     """Parts that nothing touches, but whose joints were not logged, in words."""
     without_windows: tuple[str, ...]
@@ -307,7 +255,6 @@ def fit_stretches(
         residuals=tuple(
             PartResidual.of(one, residuals(one, fit), marks, expected) for one, marks in zip(windows, kept, strict=True)
         ),
-        touches=all_touches(windows, kept),
         left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
         without_windows=tuple(_without_windows(empty)),
     )

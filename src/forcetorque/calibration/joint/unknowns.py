@@ -10,7 +10,7 @@ from typing import Final, Self
 import numpy as np
 
 from forcetorque.base.arrays import FloatArray, IntArray, require_shape
-from forcetorque.calibration.generative.fit import FRAME_CHANGES
+from forcetorque.calibration.generative.fit import gain_and_frame_changes
 from forcetorque.experiment.calibration.expected_sensor_errors import (
     COEFFICIENTS_TOGETHER,
     GAIN,
@@ -309,9 +309,8 @@ class SensorPrior:
         coefficients = np.zeros((LOADS, LOADS, CHANGES))
         for row in range(LOADS):
             coefficients[row, :, LOADS * row : LOADS * (row + 1)] = own[row] * size[row] * sensor_root(response)
-        gains = np.einsum("kc,cd->kdc", scaled, response)
-        moved = FRAME_CHANGES.transpose(1, 2, 0)
-        basis = np.concatenate([coefficients, gains, moved], axis=2) * UNITS[:, None] / UNITS[:, None, None]
+        changes = gain_and_frame_changes(scaled, np.eye(LOADS), response)
+        basis = np.concatenate([coefficients, changes], axis=2) * UNITS[:, None] / UNITS[:, None, None]
         return cls(
             basis=basis.reshape(CHANGES, -1),
             scales=(expected, expected, GAIN, *mount_scales(assumptions.mount)),

@@ -188,29 +188,28 @@ def joint_interval(
     """
     setup = _Setup.of(experiment, interval, sensors, {} if references is None else references)
     parts = _parts(experiment, interval, setup, segments)
-    untouched, raw, counts = next(parts)
-    unusable = {sensor.name: [counts[sensor.name]] if sensor.name in counts else [] for sensor in setup.used}
+    stretch, raw, *unusable = next(parts)
     if segments:
-        rows = StretchRows(untouched.stretch, raw)
-        untouched = replace(untouched, stretch=untouched.stretch.samples(np.arange(0)))
+        rows, stretch = StretchRows(stretch, raw), stretch.samples(np.arange(0))
         for part, raw, counts in parts:
-            rows.append(part.stretch, raw)
-            for name, own in counts.items():
-                unusable[name].append(own)
+            rows.append(part, raw)
+            unusable.append(counts)
             del part, raw
         stretch, raw = rows.mapped()
-        untouched = replace(untouched, stretch=stretch)
     stretch = replace(
-        untouched.stretch,
+        stretch,
         label=interval.label if label is None else label,
         recording=experiment.session_names(None)[0] if recording is None else recording,
         session=experiment.session_names(interval.label)[0] if session is None else session,
     )
+    logged = setup.logged
     return JointInterval(
         interval=interval,
-        untouched=replace(untouched, stretch=stretch),
+        untouched=UntouchedStretch(
+            stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
+        ),
         raw={
-            name: RawWindows.of(name, stretch, values, UnusableCounts.total(unusable[name]))
+            name: RawWindows.of(name, stretch, values, UnusableCounts.total(counts[name] for counts in unusable))
             for name, values in raw.items()
         },
         variables={pair: window_means(stretch, values)[1][:, 0] for pair, values in stretch.variables.items()},
@@ -260,12 +259,8 @@ class _Setup(NamedTuple):
         return cls(support, touched, tree, logged, used, references)
 
 
-class _LoggedPart(NamedTuple):
-    untouched: UntouchedStretch
-    raw: dict[str, FloatArray]
-    """Raw readings at the instants of the stretch, by sensor; shape (n, c) each; counts; NaN in gaps."""
-    unusable: dict[str, UnusableCounts]
-    """Of the sensors with a sample in it."""
+_LoggedPart = tuple[Stretch, dict[str, FloatArray], dict[str, UnusableCounts]]
+"""A stretch, and by sensor raw readings at its instants, (n, c), counts, NaN in gaps, and how many are unusable."""
 
 
 def _parts(
@@ -327,13 +322,8 @@ def _part(experiment: Experiment, interval: Interval, setup: _Setup, read: Seque
         keeps_disagreeing="disagreeing" in experiment.processing.keep,
         variables=variables,
     )
-    return _LoggedPart(
-        untouched=UntouchedStretch(
-            stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
-        ),
-        raw=raw,
-        unusable={sensor.name: unusable_in(experiment, sensor, interval) for sensor in read},
-    )
+    unusable = {one.name: unusable_in(experiment, one, interval) if one in read else UnusableCounts() for one in used}
+    return stretch, raw, unusable
 
 
 def required_prior(sensor: ExperimentSensor) -> FloatArray:

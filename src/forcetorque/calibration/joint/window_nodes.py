@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
@@ -71,13 +71,35 @@ class Stretch(ArrayRecord):
         Returns:
             The same memory for a range.
         """
+        return self.with_rows(values[rows] for values in self.rows)
+
+    @property
+    def rows(self) -> list[FloatArray]:
+        """Arrays with a row per sample: instants, joints, root where it moves, readings, variables."""
+        of_joints = [getattr(self.joints, name) for name in _MOTION]
+        of_root = [values for name in _OF_ROOT if (values := getattr(self.root, name)).ndim == 2]
+        return [self.time_s, *of_joints, *of_root, *self.readings.values(), *self.variables.values()]
+
+    def with_rows(self, rows: Iterable[FloatArray]) -> Stretch:
+        """Take other arrays.
+
+        Args:
+            rows: Arrays in the order of `rows`.
+
+        Returns:
+            All else as it is.
+        """
+        own = iter(rows)
+        time_s = next(own)
+        of_joints: dict[str, Any] = {name: next(own) for name in _MOTION}
+        of_root = {name: next(own) for name in _OF_ROOT if getattr(self.root, name).ndim == 2}
         return replace(
             self,
-            time_s=self.time_s[rows],
-            joints=self.joints.samples(rows),
-            root=self.root.samples(rows),
-            readings={name: values[rows] for name, values in self.readings.items()},
-            variables={name: values[rows] for name, values in self.variables.items()},
+            time_s=time_s,
+            joints=replace(self.joints, **of_joints),
+            root=replace(self.root, **of_root),
+            readings={name: next(own) for name in self.readings},
+            variables={name: next(own) for name in self.variables},
         )
 
     def pieces(self, length_s: float) -> Iterator[Stretch]:
@@ -98,21 +120,11 @@ class Stretch(ArrayRecord):
             block = slice(int(first), int(last))
             if block.start < block.stop:
                 yield self.samples(block)
-                forget_pages(_columns(self).values())
+                forget_pages(self.rows)
 
 
 _MOTION: Final = ("position", "velocity", "acceleration")
 _OF_ROOT: Final = ("proper_acceleration", "angular_velocity", "angular_acceleration")
-
-
-def _columns(stretch: Stretch) -> dict[tuple[str, Any], FloatArray]:
-    """Arrays of a stretch with a row per sample, by what has them and their names."""
-    arrays: dict[tuple[str, Any], FloatArray] = {("time", ""): stretch.time_s}
-    arrays |= {("joints", name): getattr(stretch.joints, name) for name in _MOTION}
-    arrays |= {("root", name): getattr(stretch.root, name) for name in _OF_ROOT}
-    arrays |= {("readings", name): values for name, values in stretch.readings.items()}
-    arrays |= {("variables", name): values for name, values in stretch.variables.items()}
-    return {key: values for key, values in arrays.items() if key[0] == "time" or values.ndim == 2}
 
 
 class StretchRows:
@@ -126,7 +138,8 @@ class StretchRows:
             beside: What else was logged at its instants, by name; shape (n, c) each.
         """
         self._first = stretch.samples(np.arange(0))  # a copy, without the memory of the part
-        self._rows: dict[tuple[str, Any], RowsOnDisk] = {}
+        self._beside = tuple(beside)
+        self._rows = [RowsOnDisk(values.shape[1:]) for values in (*stretch.rows, *beside.values())]
         self.append(stretch, beside)
 
     def append(self, stretch: Stretch, beside: Mapping[str, FloatArray]) -> None:
@@ -136,9 +149,8 @@ class StretchRows:
             stretch: The part.
             beside: As of the first.
         """
-        columns = {**_columns(stretch), **{("beside", name): values for name, values in beside.items()}}
-        for key, values in columns.items():
-            self._rows.setdefault(key, RowsOnDisk(values.shape[1:])).append(values)
+        for own, values in zip(self._rows, (*stretch.rows, *beside.values()), strict=True):
+            own.append(values)
 
     def mapped(self) -> tuple[Stretch, dict[str, FloatArray]]:
         """Put the parts together.
@@ -146,18 +158,9 @@ class StretchRows:
         Returns:
             The stretch, and what else was logged at its instants.
         """
-        groups: dict[str, dict[Any, Any]] = {}
-        for (group, name), rows in self._rows.items():
-            groups.setdefault(group, {})[name] = rows.mapped()
-        stretch = replace(
-            self._first,
-            time_s=groups["time"][""],
-            joints=replace(self._first.joints, **groups["joints"]),
-            root=replace(self._first.root, **groups.get("root", {})),
-            readings=groups.get("readings", {}),
-            variables=groups.get("variables", {}),
-        )
-        return stretch, groups.get("beside", {})
+        rows = [own.mapped() for own in self._rows]
+        count = len(rows) - len(self._beside)
+        return self._first.with_rows(rows[:count]), dict(zip(self._beside, rows[count:], strict=True))
 
 
 NODES: Final = 3
@@ -227,26 +230,8 @@ class WindowNodes:
         Returns:
             Parabolas through its signals at the nodes; 3 w samples.
         """
-        root = (stretch.root.proper_acceleration, stretch.root.angular_velocity, stretch.root.angular_acceleration)
-        proper, velocity, rate = (values if values.size == 3 else self._at_nodes(values) for values in root)
-        return Stretch(
-            label=stretch.label,
-            recording=stretch.recording,
-            session=stretch.session,
-            time_s=(self.time_s[:, None] + self._half[:, None] * _PLACES).ravel(),
-            tree=stretch.tree,
-            joints=JointMotion(
-                names=stretch.joints.names,
-                position=self._at_nodes(stretch.joints.position),
-                velocity=self._at_nodes(stretch.joints.velocity),
-                acceleration=self._at_nodes(stretch.joints.acceleration),
-            ),
-            root=RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate),
-            readings={name: self._at_nodes(values) for name, values in stretch.readings.items()},
-            touched=stretch.touched,
-            keeps_disagreeing=stretch.keeps_disagreeing,
-            variables={name: self._at_nodes(values) for name, values in stretch.variables.items()},
-        )
+        time_s = (self.time_s[:, None] + self._half[:, None] * _PLACES).ravel()
+        return stretch.with_rows([time_s, *map(self._at_nodes, stretch.rows[1:])])
 
     def rates(self, values: FloatArray) -> FloatArray:
         """Differentiate a signal.

@@ -387,16 +387,14 @@ def artefact(
 
 def _variables(intervals: Sequence[CampaignInterval], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:
     values, model = np.concatenate([i.part.samples.variables for i in intervals]), result.fit.model
+    errors = None if result.standard_errors is None else result.standard_errors.coefficients.T
     return tuple(
-        CalibratedVariable(
-            name=variable.name,
-            unit=variable.unit,
-            reference_value=float(model.reference_values[k]),
-            coefficients=model.coefficients[:, k],
-            standard_error=None if result.standard_errors is None else result.standard_errors.coefficients[:, k],
-            prior=variable.prior,
-            minimum=float(values[:, k].min()),
-            maximum=float(values[:, k].max()),
+        CalibratedVariable.of(
+            variable,
+            model.reference_values[k],
+            model.coefficients[:, k],
+            None if errors is None else errors[k],
+            values[:, k],
         )
         for k, variable in enumerate(result.estimation.variables)
     )

@@ -7,7 +7,7 @@ import json
 import logging
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, Self
 
 import numpy as np
 from pydantic import (
@@ -25,7 +25,12 @@ from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.provenance import Lambda, Provenance, Selection, SensorIdentity, Validity
 from forcetorque.experiment.calibration.quadratic_correction import LinearityTest, NonlinearTrial, QuadraticCorrection
 from forcetorque.experiment.calibration.robot_model_error import ModelError
-from forcetorque.experiment.calibration.sensor_model import WrenchModel, measured_components, secondary_matrix
+from forcetorque.experiment.calibration.sensor_model import (
+    LinearVariable,
+    WrenchModel,
+    measured_components,
+    secondary_matrix,
+)
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.results.table import Table
 from forcetorque.results.table_rendering import html_table, html_warnings
@@ -76,6 +81,38 @@ class CalibratedVariable(StoredTable):
     """Smallest fitted value."""
     maximum: float
     """Largest fitted value."""
+
+    @classmethod
+    def of(
+        cls,
+        variable: LinearVariable,
+        reference_value: float,
+        coefficients: FloatArray,
+        standard_error: FloatArray | None,
+        values: FloatArray,
+    ) -> Self:
+        """Tell what was fitted of a variable.
+
+        Args:
+            variable: What is known of it beside the data.
+            reference_value: As of the class.
+            coefficients: As of the class.
+            standard_error: As of the class.
+            values: Its fitted values, or the least and the largest of every interval.
+
+        Returns:
+            The same for the artefact.
+        """
+        return cls(
+            name=variable.name,
+            unit=variable.unit,
+            reference_value=float(reference_value),
+            coefficients=coefficients,
+            standard_error=standard_error,
+            prior=variable.prior,
+            minimum=float(values.min()),
+            maximum=float(values.max()),
+        )
 
 
 class SessionOffset(StoredTable):

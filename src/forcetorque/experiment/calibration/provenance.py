@@ -6,10 +6,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, Self
 
 import numpy as np
-from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, model_validator
 
 from forcetorque.base.arrays import ArrayField, FloatArray
 from forcetorque.base.stored_table import StoredTable
@@ -272,3 +272,10 @@ class Validity(StoredTable):
     """Whether the loads move the direction more than anything else does."""
     loads: FittedLoads | None = None
     """Range of the fitted loads; None in files of earlier versions, where the ranges of the channels stand for it."""
+
+    @model_validator(mode="after")
+    def _of_one_length(self) -> Self:
+        count = len(self.variance_counts2)
+        if not len(self.explained) == len(self.excited) == count or self.directions.shape != (count, count):
+            raise ValueError(f"expected explained, excited and directions of {count} raw directions, as the variances")
+        return self

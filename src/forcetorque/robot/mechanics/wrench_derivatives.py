@@ -90,7 +90,9 @@ def part_derivatives(
     )
 
 
-def demand_derivatives(tree: BodyTree, part: SubModel, joints: JointMotion, root: RootMotion) -> PartDerivatives:
+def demand_derivatives(
+    tree: BodyTree, part: SubModel, joints: JointMotion, root: RootMotion, *, axes: dict[int, FloatArray]
+) -> PartDerivatives:
     """Differentiate the wrench that moves the bodies of a part.
 
     Args:
@@ -98,9 +100,10 @@ def demand_derivatives(tree: BodyTree, part: SubModel, joints: JointMotion, root
         part: Any part of it.
         joints: Motion of at least the joints that it needs (`joints_of_part`); n samples.
         root: Motion of the root link's frame; one sample or n.
+        axes: As of `part_derivatives`, of all its bodies with a mass.
 
     Returns:
-        The derivatives by its bodies, along axes of these, by all joints that it needs, and by the acceleration, along
+        The derivatives by its bodies, by all joints that it needs, and by the acceleration, along
         the axes of the root link and about its origin.
     """
     heavy, turned = heavy_bodies(tree, part), joints_of_part(tree, part)
@@ -108,7 +111,6 @@ def demand_derivatives(tree: BodyTree, part: SubModel, joints: JointMotion, root
         nothing = np.zeros((6, len(joints)))
         return PartDerivatives(bodies={}, joints=dict.fromkeys(turned, nothing), acceleration=np.stack([nothing] * 3))
     motions = _motions(tree, _paths(tree, heavy), joints, stacked_root(root, len(joints)).transpose(0, 2, 1))
-    axes = dict.fromkeys(heavy, np.eye(3))
     return _derivatives(tree, part, motions, tree, axes, turned, carried=frozenset())
 
 
