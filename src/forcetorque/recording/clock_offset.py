@@ -13,7 +13,7 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.base.errors import RecordingError
 from forcetorque.base.noise.slow_noise import half_width
 from forcetorque.recording.alignment import GAP_PERIODS
-from forcetorque.recording.clock_offset_and_drift import DelayEquation, even_means, smoothed
+from forcetorque.recording.delay_equation import DelayEquation, even_means, smoothed
 
 EVEN = 0.01
 """Deviation from even steps, in steps, that is no reason to interpolate."""
