@@ -270,10 +270,9 @@ def test_a_plan_beats_the_mix_of_the_thesis_and_a_grid_of_the_same_length(tmp_pa
         assert all(errors[f"stated, {k}", use].within >= 0.95 for k in (1, 2, 3))
     # what is picked matters, and not only which joints move
     assert (errors[f"plan for {PUSH}, 3", PUSH].median < 0.8 * errors["random", PUSH].median).all()
-    # negative control: one recording planned for the other use is worse at this one, by force and moment together
+    # negative control: one recording that is planned for the other use is worse at this one
     for use, other in ((PUSH, STAND), (STAND, PUSH)):
-        ratio = errors[f"plan for {use}, 1", use].median / errors[f"plan for {other}, 1", use].median
-        assert ratio.prod() < 1.0
+        assert (errors[f"plan for {use}, 1", use].median < errors[f"plan for {other}, 1", use].median).all()
 
 
 @pytest.mark.long

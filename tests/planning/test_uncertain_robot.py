@@ -13,7 +13,7 @@ import pytest
 from benchmarks.planned_errors import LIMBS, Trial, followed
 from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
-from forcetorque.experiment.calibration.expected_sensor_errors import QUADRATIC_WITHOUT_PRIOR, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import QUADRATIC_ALONE, Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.loading import Purpose, load_experiment
@@ -149,8 +149,8 @@ def _planning(folder: Path, robot: str) -> SensorRun:
 def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(
     arm: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """And the assumption is said; what the model makes of the error is in the rows."""
-    monkeypatch.setattr(information, "QUADRATIC", QUADRATIC_WITHOUT_PRIOR)  # as expected then
+    """And the assumption is said; what the model makes of the error is in the rows; for equal quadratic terms."""
+    monkeypatch.setattr(information, "quadratic_scale", lambda **_: QUADRATIC_ALONE)
     exact, usual = (
         plan(_planning(arm, robot), recordings=1, seconds=20.0, effort=SHORT) for robot in (EXACT, "tolerance = {}\n")
     )

@@ -14,9 +14,8 @@ from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import expected_sensor_errors as expected
 from forcetorque.experiment.calibration.expected_sensor_errors import (
     LOADS,
-    QUADRATIC,
-    QUADRATIC_WITHOUT_PRIOR,
     Assumptions,
+    quadratic_scale,
     rows_of,
 )
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
@@ -161,19 +160,20 @@ class Nuisance:
     """What each of the 21 products of these may add to a row, as a standard deviation; shape (rows,)."""
 
     @classmethod
-    def of(cls, matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -> Nuisance:
+    def of(cls, matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool, exact: bool = True) -> Nuisance:
         """Take what the generative model takes for granted.
 
         Args:
             matrix: Matrix of the sensor; shape (6, c).
             assumptions: What is known beside it.
             with_prior: Whether the rows of the posterior are components of the wrench.
+            exact: Whether the robot model is taken as exact.
 
         Returns:
             The terms.
         """
         rows = rows_of(matrix, assumptions, in_wrench=with_prior)
-        expected = (QUADRATIC if with_prior else QUADRATIC_WITHOUT_PRIOR).expected
+        expected = quadratic_scale(with_prior=with_prior, exact=exact).expected
         return cls(load_to_full_scale=rows.load_to_full_scale, deviation=expected * rows.unit)
 
     def columns(self, wrench: FloatArray, centre: FloatArray) -> FloatArray:

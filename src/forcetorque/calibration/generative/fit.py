@@ -109,9 +109,9 @@ class Layout:
         sensor = expected.COEFFICIENTS if terms else expected.SENSOR
         if assumptions.prior_size is not None:
             sensor = expected.STATED
-        quadratic = expected.QUADRATIC
         if not with_prior:  # nothing is known of the sensor: its deviations may be as large as they like
-            sensor, quadratic = Scale(expected=1e3, weight=np.inf), expected.QUADRATIC_WITHOUT_PRIOR
+            sensor = Scale(expected=1e3, weight=np.inf)
+        quadratic = expected.quadratic_scale(with_prior=with_prior, exact=not terms)
         own = (sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), quadratic, expected.FLATTENING)
         beside = (expected.GAIN, *expected.mount_scales(assumptions.mount)) if terms else ()
         scales = [*own * (int(group.max()) + 1), *beside]

@@ -69,12 +69,12 @@ MODEL: Final = Scale(expected=1.0, weight=4.0, least=1.0)
 MASS: Final = Scale(expected=1.0, weight=8.0, least=1.0)
 """The same of masses, for which evidence must be stronger: masses that all err alike read as a gain of the sensor."""
 QUADRATIC: Final = Scale(expected=0.02, weight=0.25)
-"""Quadratic terms, over full scale.
+"""Quadratic terms, over full scale, where the robot model may be wrong.
 
-Where 5 % are expected, which count for six coefficients, the feet of a real log err by 1.1 times as much.
+Where 5 % are expected, which count for six coefficients, legs and feet of a real log err by 1.1 times as much.
 """
-QUADRATIC_WITHOUT_PRIOR: Final = Scale(expected=0.05, weight=6.0)
-"""The same of a sensor without a prior matrix."""
+QUADRATIC_ALONE: Final = Scale(expected=0.05, weight=6.0)
+"""The same where nothing else covers creep taken for gain: of an exact robot model, or of a sensor without a prior."""
 FLATTENED: Final = 1.0 / 3.0
 """What the derivative window took from the reference, over what one of twice the length would take besides.
 
@@ -122,6 +122,11 @@ def variable_sizes(variable: LinearVariable, from_load: FloatArray, extent: floa
 def model_scale(kind: TermKind) -> Scale:
     """Give the expected size of errors of the robot model of one kind, over their tolerance."""
     return MASS if kind is TermKind.MASS else MODEL
+
+
+def quadratic_scale(*, with_prior: bool, exact: bool) -> Scale:
+    """Give the expected size of quadratic terms, of a sensor with a prior or of a robot model that is exact."""
+    return QUADRATIC if with_prior and not exact else QUADRATIC_ALONE
 
 
 def mount_scales(mount: MountTolerance) -> tuple[Scale, Scale]:
