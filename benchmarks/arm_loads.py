@@ -134,9 +134,9 @@ def _answer(log: Log) -> tuple[LoadRow, list[str]]:
     description = described_log(log.path, log.specified)
     if description.torques is not None:
         return load_of_torque_logs({log.path: description.torques}, log.specified).load, []
-    alone = experiment_of_description(log.path, description, log.specified, log.path.parent)
-    weighed = weigh_load([SensorRun(alone.experiment, alone.experiment.sensors[0])])
-    return weighed.loads[0], [*(row.name for row in weighed.hypotheses), *alone.arm.contradictions]
+    experiment, _, arm = experiment_of_description(log.path, description, log.specified, log.path.parent)
+    weighed = weigh_load([SensorRun(experiment, experiment.sensors[0])])
+    return weighed.loads[0], [*(row.name for row in weighed.hypotheses), *arm.contradictions]
 
 
 def run_case(arm: str, mistake: str, seed: int) -> ArmCase:

@@ -187,7 +187,7 @@ def dataset_logs(dataset: Dataset, command: str, sensors: Sequence[str]) -> Data
         sensors: Serial numbers or names; none for all.
 
     Returns:
-        The files.
+        The files, and the names of the chosen sensors, none where no sensor was chosen.
 
     Raises:
         ExperimentError: If a recording is a log to which an experiment file was applied.

@@ -12,7 +12,6 @@ from forcetorque.base.errors import ForceTorqueError
 from forcetorque.results.command import Option, command
 from forcetorque.results.terminal.command_output import Format, show, start_logging
 from forcetorque.results.terminal.options import DetailsOption, ExperimentsArgument, FormatOption
-from forcetorque.sensor.choice.load_case import three_numbers
 
 if TYPE_CHECKING:
     from forcetorque.experiment.calibrations_under_test import OneCalibration
@@ -215,6 +214,12 @@ def gains(
 _Three = tuple[float, float, float]
 
 
+def _three(option: str, text: str) -> _Three:
+    from forcetorque.sensor.choice.load_case import three_numbers
+
+    return three_numbers(option, text)
+
+
 @command("the share of every range that the loads use, and what each sensing principle reads")
 def choose_sensor(
     loads: Annotated[
@@ -227,17 +232,15 @@ def choose_sensor(
     *,
     force: Annotated[
         _Three | None,
-        Option("Force on the sensor, in its frame; N, as 0,0,500.", typed=str, reads=partial(three_numbers, "--force")),
+        Option("Force on the sensor, in its frame; N, as 0,0,500.", typed=str, reads=partial(_three, "--force")),
     ] = None,
     lever: Annotated[
         _Three | None,
-        Option(
-            "Point of the force from the origin of the sensor; m.", typed=str, reads=partial(three_numbers, "--lever")
-        ),
+        Option("Point of the force from the origin of the sensor; m.", typed=str, reads=partial(_three, "--lever")),
     ] = None,
     moment: Annotated[
         _Three | None,
-        Option("Moment beside that of the force; N m.", typed=str, reads=partial(three_numbers, "--moment")),
+        Option("Moment beside that of the force; N m.", typed=str, reads=partial(_three, "--moment")),
     ] = None,
     margin: Annotated[float, Option("Share of every range to keep free.")] = 0.2,
     catalogue: Annotated["Path | str | None", Option("Catalogue (TOML) of further sensors.", typed=Path)] = None,

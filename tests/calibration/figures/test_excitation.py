@@ -102,3 +102,20 @@ def test_directions_of_other_lengths_are_refused(damage: dict[str, Any]) -> None
     """Where what supports a calibration is made or read."""
     with pytest.raises(ValidationError, match="expected explained, excited and directions of 3 raw directions"):
         Validity(**(_leg().model_dump() | damage))
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "words"),
+    [
+        ("explained", 1.1, "explained: expected numbers of 0 to 1"),
+        ("explained", -0.1, "explained: expected numbers of 0 to 1"),
+        ("directions", -1.1, "directions: expected numbers of -1 to 1"),
+    ],
+)
+def test_shares_and_directions_beyond_one_are_refused(field: str, value: float, words: str) -> None:
+    """A share is between 0 and 1, a component of a direction between -1 and 1."""
+    made = _leg().model_dump()
+    wrong = np.array(made[field], dtype=float)
+    wrong.flat[0] = value
+    with pytest.raises(ValidationError, match=words):
+        Validity(**(made | {field: wrong}))

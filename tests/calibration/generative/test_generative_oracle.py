@@ -98,7 +98,7 @@ def _written_out(stretches: list[WindowMeans], row: int, result: GenerativeFit) 
 @pytest.fixture
 def _fixed_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Take the expected sizes of all deviations for given."""
-    for name, size in (("SENSOR", SENSOR), ("FRAME", FRAME), ("QUADRATIC", QUADRATIC)):
+    for name, size in (("SENSOR", SENSOR), ("FRAME", FRAME), ("QUADRATIC_ALONE", QUADRATIC)):
         monkeypatch.setattr(expected_sensor_errors, name, Scale(expected=size, weight=np.inf))
 
 

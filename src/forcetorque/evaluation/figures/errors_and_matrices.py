@@ -140,7 +140,7 @@ def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> 
     interquartile ranges beyond the quartiles of a candidate; what lies beyond is counted in the bins at the edges, and
     the title says how much it is. Right of each histogram is the autocorrelation over the logarithm of the lag, pooled
     over stretches without a pause. The legend states the root mean square and the effective number of independent
-    samples, see `evaluation.autocorrelation`.
+    samples, see `base.noise.autocorrelation`.
 
     Args:
         time_s: Instants, not falling; shape (n,); s.

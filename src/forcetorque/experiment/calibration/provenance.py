@@ -17,6 +17,8 @@ from forcetorque.base.wrench import MeasureDirection
 from forcetorque.recording.fingerprint import joined_fingerprint, kept_hashes, share_in
 from forcetorque.recording.frozen_and_saturated_samples import UnusableCounts
 
+_ROUNDING: Final = 1e-6
+"""By how much shares and components of directions may lie outside of their range."""
 _COPY: Final = 0.9
 """Share of readings from which a recording is called a copy: logs may be cut and rounded differently."""
 
@@ -278,4 +280,7 @@ class Validity(StoredTable):
         count = len(self.variance_counts2)
         if not len(self.explained) == len(self.excited) == count or self.directions.shape != (count, count):
             raise ValueError(f"expected explained, excited and directions of {count} raw directions, as the variances")
+        for name, values, least in (("explained", self.explained, 0.0), ("directions", self.directions, -1.0)):
+            if not np.all((least - _ROUNDING <= values) & (values <= 1.0 + _ROUNDING)):
+                raise ValueError(f"{name}: expected numbers of {least:g} to 1")
         return self

@@ -28,7 +28,7 @@ from forcetorque.recording.recording import Finding
 from forcetorque.recording.stream import QUANTITIES, Signal
 
 ANGLES = ("roll", "pitch", "yaw")
-"""Names of the numbers, whose meaning is `recording.ROLL_PITCH_YAW`."""
+"""Names of the numbers, whose meaning is `recording.orientation.ROLL_PITCH_YAW`."""
 
 
 def angles_of(orientation: Signal) -> FloatArray:
