@@ -8,10 +8,11 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.base.wrench import FORCE, MOMENT
+from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.generative.agreement import (
     disagreements,
     require_response,
+    require_same_sense,
     require_sensor,
     unmoved_directions,
 )
@@ -85,15 +86,21 @@ def test_a_sensor_answers_with_three_tenths_of_its_prior(gain: float, is_refused
 
 @pytest.mark.parametrize("part", [FORCE, MOMENT])
 def test_a_sensor_does_not_answer_in_reverse(part: slice) -> None:
-    """One or three reversed components are refused, a mount that is turned by half a turn is not."""
-    for sign, is_refused in (([-1, -1, -1], True), ([1, -1, 1], True), ([-1, -1, 1], False)):
+    """One or three reversed components are named, two exchanged ones refused; half a turn of the frame is not."""
+    x, y, z = WRENCH_COMPONENTS[part]
+    for block, words in (
+        (np.diag([-1, -1, -1]), f"answers to {x}, {y}, {z} with the reverse of what its prior says"),
+        (np.diag([1, -1, 1]), f"answers to {y} with the reverse of"),
+        (np.eye(3)[[1, 0, 2]], "as in a mirror, other than what its prior says"),
+        (np.diag([-1, -1, 1]), ""),
+    ):
         response = np.eye(6)
-        response[part, part] = np.diag(sign)
-        if is_refused:
-            with pytest.raises(FitError, match="with the reverse of what its prior says"):
-                require_sensor(response)
+        response[part, part] = block
+        if words:
+            with pytest.raises(FitError, match=words):
+                require_same_sense(response)
         else:
-            require_sensor(response)
+            require_same_sense(response)
 
 
 @pytest.mark.parametrize(("share", "is_refused"), [(0.49, False), (0.51, True)])

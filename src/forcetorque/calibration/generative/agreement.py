@@ -189,7 +189,7 @@ def require_response(
 
 
 def require_sensor(response: FloatArray) -> None:
-    """Refuse data by which a sensor would hardly answer to some load, or answer in reverse, other than its prior says.
+    """Refuse data by which a sensor would hardly answer to some load that its prior says it answers to.
 
     Args:
         response: Measured over prior response, in units of the size of every row; shape (6, 6).
@@ -202,9 +202,23 @@ def require_sensor(response: FloatArray) -> None:
         raise FitError(
             f"by the data the sensor answers to {direction_words(directions[-1])} with {strengths[-1]:.2f} of {_REMEDY}"
         )
+
+
+def require_same_sense(response: FloatArray) -> None:
+    """Refuse data by which a sensor answers to forces or to moments as in a mirror, which no mounting does.
+
+    Args:
+        response: Measured over prior response, or its inverse, in any units; shape (6, 6).
+
+    Raises:
+        FitError: If it is so.
+    """
     for part, name in zip(FORCE_AND_MOMENT, ("forces", "moments"), strict=True):
-        if np.linalg.det(response[part, part]) < 0.0:
-            raise FitError(f"by the data the sensor answers to {name} with the reverse of {_REMEDY}")
+        block = response[part, part]
+        if block.any(axis=1).all() and np.linalg.det(block) < 0.0:  # rows of components without a channel are zero
+            named = [axis for axis, own in zip(WRENCH_COMPONENTS[part], np.diag(block), strict=True) if own < 0.0]
+            which = f"{', '.join(named)} with the reverse of" if named else f"{name} as in a mirror, other than"
+            raise FitError(f"by the data the sensor answers to {which} {_REMEDY}")
 
 
 def _load_sizes(wrench: FloatArray) -> FloatArray:

@@ -16,6 +16,7 @@ from forcetorque.calibration.generative.agreement import (
     ALL_COMPONENTS,
     require_rank,
     require_response,
+    require_same_sense,
     require_sensor,
 )
 from forcetorque.calibration.generative.design_matrix import Design, cells_of, design_of
@@ -310,10 +311,14 @@ class SolvedRows:
         """The matrix, and what turns errors of rows into errors of wrenches."""
         rows, unit = self.rows, self.rows.unit
         if rows.space == "wrench":
-            require_sensor(np.eye(LOADS) + change * (unit / unit[:, None]))
+            measured_over_prior = np.eye(LOADS) + change * (unit / unit[:, None])
+            require_sensor(measured_over_prior)
+            require_same_sense(measured_over_prior)
             to_wrench = np.asarray(np.linalg.inv(np.eye(LOADS) + change), dtype=np.float64)
             return to_wrench @ self.matrix, to_wrench
         response = rows.from_load * unit[:, None] + change
+        if self.with_prior:
+            require_same_sense(self.matrix @ response)
         precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
         measured = measured_components(self.matrix)
         own: FloatArray = response[:, measured]
