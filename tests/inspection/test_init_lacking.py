@@ -336,7 +336,7 @@ def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pos
 
 @pytest.mark.parametrize("form", ["one line", "lines", "comment in it"])
 def test_signals_in_a_list_are_divided(tmp_path: Path, form: str) -> None:
-    """Also on several lines; where comments between them would be lost, it is left to a person."""
+    """Also on several lines; where comments between them would be lost, it is left to a person, as `inspect` says."""
     text = _late_wrist(tmp_path, 3)
     content = tomllib.loads(text)
     (stream,) = content["recording"]["stream"]
@@ -350,6 +350,13 @@ def test_signals_in_a_list_are_divided(tmp_path: Path, form: str) -> None:
     edit = division.edit(text, content)
     if form == "comment in it":
         assert edit is None
+        file = tmp_path / "experiment.toml"
+        file.write_text(text, encoding="utf-8")
+        (proposal,) = (one for one in proposals(file) if one.kind == "delay")
+        assert proposal.edit is None
+        assert "[[recording.stream]] of their own" in proposal.text
+        (delay,) = (one for one in inspect_experiment(load_experiment(file)) if one.kind == "delay")
+        assert "no comment stands within" in delay.message
         return
     assert edit is not None
     assert tomllib.loads(edit.applied(text)) == division.content(content, 0.12)

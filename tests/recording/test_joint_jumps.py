@@ -225,3 +225,19 @@ def test_a_joint_that_lies_where_its_reading_wraps_stays_there() -> None:
     np.testing.assert_allclose(off, np.rint(off[0]), rtol=0.0, atol=1e-12)
     assert finding.kind == "joint_spike"
     assert finding.count > 20
+
+
+@pytest.mark.parametrize("rate_hz", [50, 100, 1000])
+@pytest.mark.parametrize("step", [0.0, 1e-3, 0.0175, 0.05])
+def test_a_joint_that_rests_where_its_reading_wraps_moves_off_without_a_slip(rate_hz: int, step: float) -> None:
+    """Turns of moves from and to rest are taken off, at any written step; a slip of 6 rad at rest is named."""
+    part = np.linspace(0.0, 1.0, rate_hz)
+    move, rest = part**3 * (10.0 - 15.0 * part + 6.0 * part**2), np.zeros(2 * rate_hz)
+    angle = np.concatenate([rest, *(s * np.r_[move, rest + 1.0, move[::-1], rest] for s in (-0.6, 0.5, -0.3, 0.8))])
+    read = np.rint(angle / step) * step if step else angle
+    values, (finding,) = _repaired(read % TURN, period_ns=10**9 // rate_hz)
+    np.testing.assert_allclose(values, read, rtol=0.0, atol=1e-9)
+    assert finding.kind == "joint_spike"
+    if step < 0.01:  # coarser ones scatter too much to tell 6 rad from a turn
+        slipped = _with(read, slice(4 * rate_hz, None), 6.0)
+        assert {one.kind for one in _repaired(slipped, period_ns=10**9 // rate_hz)[1]} == {"joint_jump"}

@@ -205,7 +205,8 @@ def remedy(comparison: Comparison, one: Explanation) -> str:
         return (
             "of a table list the signals of the motion in a [[recording.stream]] of their own, name = "
             f'"{motion_name(late)}", with the same file and stamp, and {write}; `forcetorque init --resume` proposes '
-            "both, and writes them"
+            "both, and writes them where the stream has a header [[recording.stream]] and no comment stands within "
+            "signal = [...]"
         )
     return f"turn <origin rpy> of the fixed joint of {name!r} in the URDF, or mount the sensor as the URDF has it"
 

@@ -93,14 +93,19 @@ class _Joint:
         if is_angle:  # a joint that lies where its reading wraps has turns beside turns
             wraps = (np.abs(moved) > np.pi) & (np.abs(_beside_turns(moved)) < _OF_TURN)
             moved = np.where(wraps, _beside_turns(moved), moved)
-        usual, scatter = _movement_beside(moved, seconds, far)
-        beside = steps[changes[far]] - usual * seconds[far]
+        usual, scatter, apart = _movement_beside(moved, seconds, far)
+        change, lasting = steps[changes[far]], seconds[far]
+        # one that rested where its reading wraps moves by no more than between other changes
+        rested = np.abs(_beside_turns(change - usual * apart)) < np.abs(_beside_turns(change - usual * lasting))
+        rested &= is_angle & (np.abs(change) > np.pi)
+        lasting = np.where(rested, np.minimum(lasting, apart), lasting)
+        beside = change - usual * lasting
         size = np.abs(beside)
         rests = len(changes) <= 2 * _AROUND
         everywhere = 0.0 if rests else _OF_ALL * float(np.median(np.abs(np.diff(moved))))
         # a joint whose reading stops may change its speed meanwhile
-        possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * seconds[far]
-        own = np.maximum(np.maximum(_LEAST_OF_TURN, _STEPS * scatter), _OF_SPEED * np.abs(usual) * seconds[far])
+        possible = _SPEED * np.maximum(periods[changes[far]], np.median(periods)) * 1e-9 + np.abs(usual) * lasting
+        own = np.maximum(np.maximum(_LEAST_OF_TURN, _STEPS * scatter), _OF_SPEED * np.abs(usual) * lasting)
         off = np.where(size > possible, np.minimum(own, _OF_TURN), _OF_TURN)
         turns = is_angle & (np.abs(_beside_turns(beside)) < off) & (size > np.pi)
         jumps = (
@@ -130,16 +135,19 @@ class _Joint:
         return fixed
 
 
-def _movement_beside(steps: FloatArray, seconds: FloatArray, far: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Median speed of the changes about some, and of what they scatter about it; 0 of a reading that hardly changes."""
+def _movement_beside(
+    steps: FloatArray, seconds: FloatArray, far: IntArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Median speed of the changes about some, scatter about it, duration; speed 0 of a reading that hardly changes."""
     if len(steps) <= 2 * _AROUND:
-        return np.zeros(len(far)), np.zeros(len(far))
+        return np.zeros(len(far)), np.zeros(len(far)), seconds[far]
     beside = far[:, None] + np.r_[-_AROUND:0, 1 : _AROUND + 1]
     inside = (beside >= 0) & (beside < len(steps))
     beside = np.clip(beside, 0, len(steps) - 1)
     usual = np.nanmedian(np.where(inside, steps[beside] / seconds[beside], np.nan), axis=1)
     left = np.abs(steps[beside] - usual[:, None] * seconds[beside])
-    return usual, np.nanmedian(np.where(inside, left, np.nan), axis=1)
+    scatter, apart = (np.nanmedian(np.where(inside, one, np.nan), axis=1) for one in (left, seconds[beside]))
+    return usual, scatter, apart
 
 
 def _beside_turns(angles: FloatArray) -> FloatArray:
