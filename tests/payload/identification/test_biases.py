@@ -94,7 +94,7 @@ def _as_one(problem: LoadProblem) -> LoadProblem:
     ],
 )
 def test_the_chance_of_differences_is_that_of_draws(count: int, degrees: list[float]) -> None:
-    """Of normal differences over the noise of each axis, which is estimated by itself: few and many degrees and differences."""
+    """Of few and many normal differences over the noise of each axis, estimated by itself; also of one degree."""
     rng, draws = np.random.default_rng(9), 200_000
     own = np.array(degrees)
     noise = rng.chisquare(own, size=(draws, len(own))) / own
