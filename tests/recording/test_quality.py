@@ -200,6 +200,37 @@ def test_a_thermometer_that_fails_for_long_is_left_out(value: float, rows: slice
     assert glitched_values(np.where(np.arange(400) < 160, value, _WARMING), FAILED_TEMPERATURES)[1] == 160
 
 
+@pytest.mark.parametrize(
+    ("gives", "wrong"),
+    [
+        ((0.0, -1.0), (True, True)),
+        ((-127.0, 85.0), (True, True)),  # and what it gives after a reset
+        ((85.0, -127.0), (True, True)),
+        ((-127.0, 85.0, -127.0), (True, True, True)),
+        ((-127.0, 27.0, -127.0), (True, False, True)),  # it measures for a while
+        ((0.0, -127.0, 0.0), (True, True, True)),
+        ((60.0, 85.0), (False, False)),  # no value that stands for a failure is beside them
+    ],
+)
+def test_a_thermometer_that_fails_in_several_ways_is_left_out(
+    gives: tuple[float, ...], wrong: tuple[bool, ...]
+) -> None:
+    """Each for 20 samples, one after the other."""
+    failing, expected = _WARMING.copy(), np.zeros(400, dtype=bool)
+    rows = slice(100, 100 + 20 * len(gives))
+    failing[rows], expected[rows] = np.repeat(gives, 20), np.repeat(wrong, 20)
+    np.testing.assert_array_equal(glitched_values(failing, FAILED_TEMPERATURES)[0], expected)
+
+
+@pytest.mark.parametrize("levels", [(1.0, 0.0), (0.1, 0.0), (-0.0625, 0.0), (2.0, 0.0, -1.0, 0.0), (-2.0, -1.0)])
+def test_temperatures_near_zero_are_no_failures(levels: tuple[float, ...]) -> None:
+    """Which change by the resolution of the thermometer; control: it fails among them."""
+    values = np.repeat(np.tile(levels, 3), 100)
+    assert not glitched_values(values, FAILED_TEMPERATURES)[0].any()
+    values[20:60] = -127.0
+    assert set(np.flatnonzero(glitched_values(values, FAILED_TEMPERATURES)[0])) == set(range(20, 60))
+
+
 def test_glitches_that_are_too_many_to_tell_are_counted() -> None:
     """Every third value; not every fifth, which are found, nor steps of a reading that rests."""
     rows = np.arange(400)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Collection, Iterator
 from functools import partial
 
@@ -48,6 +49,8 @@ FAILED_TEMPERATURES = (0.0, -1.0, -127.0, -273.15)
 """What thermometers give where they fail, for as long as they do: no reading, error, disconnected, 0 K; degC."""
 _STEPS = 0.95
 """Quantile of the changes of other values that is the usual one."""
+_LEAST_FAILURE = 5.0
+"""By how much a thermometer that fails jumps at least; degC. One that rests near 0 degC changes by its resolution."""
 _SPARSE = ("skin_event",)
 """Quantities that are empty at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
@@ -161,19 +164,31 @@ def glitched_values(values: FloatArray, failed: Collection[float] = ()) -> tuple
 
 
 def _failing(known: FloatArray, failed: Collection[float]) -> BoolArray:
-    """Values that stand for no measurement, which come and go by a jump that no others make; shape (n,)."""
-    failing, others = np.zeros(len(known), dtype=bool), known[~np.isin(known, list(failed))]
-    changes = np.abs(np.diff(others))
-    if not failed or not len(others):
-        return failing
+    """Values that stand for no measurement, which come and go by a jump that no others make.
+
+    The jump is from the nearest values that are none of these. Values beside them that come and go by such a jump and
+    are as far from the median are none either: what a thermometer gives after a reset, such as 85 degC.
+
+    Returns:
+        Which they are; shape (n,).
+    """
+    coded = np.isin(known, list(failed))
+    others = known[~coded]
+    if not coded.any() or not len(others):
+        return np.zeros(len(known), dtype=bool)
+    changes = np.abs(np.diff(known))[~coded[1:] & ~coded[:-1]]
     usual = float(np.quantile(changes[changes > 0.0], _STEPS)) if changes.any() else 0.0
-    limit = max(_GLITCH_REACH * usual, _GLITCH_SIZE * abs(float(np.median(others))))
-    steps = np.abs(np.diff(known))
-    for value in failed:
-        for first, last in true_runs(known == value):
-            ends = [steps[k] for k in (first - 1, last) if 0 <= k < len(steps)]
-            if ends and min(ends) > limit:
-                failing[first : last + 1] = True
+    middle = float(np.median(others))
+    limit = max(_GLITCH_REACH * usual, _GLITCH_SIZE * abs(middle), _LEAST_FAILURE)
+    passed = np.cumsum(~coded)  # others up to each value
+    before, after = others[np.maximum(passed - 1, 0)], others[np.minimum(passed, len(others) - 1)]
+    failing: BoolArray = coded & (np.abs(known - before) > limit) & (np.abs(known - after) > limit)
+    kept = np.flatnonzero(~failing)
+    jumps = np.flatnonzero(np.abs(np.diff(known[kept])) > limit)
+    for first, last in itertools.pairwise(jumps.tolist()):
+        between = kept[first + 1 : last + 1]
+        beside = failing[between[0] - 1] or failing[between[-1] + 1]
+        failing[between] = beside and (np.abs(known[between] - middle) > limit).all()
     return failing
 
 

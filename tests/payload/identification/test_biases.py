@@ -87,10 +87,14 @@ def _as_one(problem: LoadProblem) -> LoadProblem:
         (2, [6.0, 6.0, 6.0, 100.0, 100.0, 100.0]),
         (2, [2.0] * 3 + [1.0] * 3),
         (1, [0.7]),
+        (25, [1000.0] * 6),
+        (50, [300.0] * 2),
+        (200, [1000.0]),
+        (200, [40.0] * 3 + [1000.0] * 3),
     ],
 )
 def test_the_chance_of_differences_is_that_of_draws(count: int, degrees: list[float]) -> None:
-    """Of normal differences over the noise of each axis, which is estimated by itself; also of one or two degrees."""
+    """Of few and many normal differences over the noise of each axis, estimated by itself; also of one degree."""
     rng, draws = np.random.default_rng(9), 200_000
     own = np.array(degrees)
     noise = rng.chisquare(own, size=(draws, len(own))) / own
@@ -102,11 +106,13 @@ def test_the_chance_of_differences_is_that_of_draws(count: int, degrees: list[fl
 
 @pytest.mark.parametrize("chance", [0.5, 1e-3, 1e-6])
 def test_the_chance_of_one_axis_is_that_of_an_f_distribution(chance: float) -> None:
-    """And of six of many degrees that of chi-squared; what is smaller than can be computed is 1e-9."""
+    """And of six of many degrees that of chi-squared, for few and many differences; the least is 1e-9."""
     for count, degrees in ((1, 0.5), (2, 2.0), (3, 40.0)):
         square = float(f_distribution.isf(chance, count, degrees)) * count
         assert _chance(square, count, np.array([degrees])) == pytest.approx(chance, rel=1e-4)
-    assert _chance(float(chi2.isf(chance, 18)), 3, np.full(6, 1e6)) == pytest.approx(chance, rel=1e-4)
+    for count, error in ((3, 2e-4), (50, 3e-3), (200, 1e-2)):
+        square = float(chi2.isf(chance, 6 * count))
+        assert _chance(square, count, np.full(6, 1e8)) == pytest.approx(chance, rel=error)
     assert _chance(1e9, 1, np.full(6, 50.0)) == 1e-9
 
 

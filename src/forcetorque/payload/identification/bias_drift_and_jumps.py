@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of biases: whether one would do, whether they drift, whether one jumps within a power cycle.
-
-References:
-[1] J. Abate, P. P. Valko, Multi-precision Laplace transform inversion, International Journal for Numerical Methods in
-    Engineering 60, 2004.
-"""
+"""Checks of biases: whether one would do, whether they drift, whether one jumps within a power cycle."""
 
 from __future__ import annotations
 
@@ -111,18 +106,16 @@ def _degrees_of_axes(fitted: Fit) -> FloatArray:
 _LEAST_IN_SLOW_NOISE = 4.2
 """Degrees of freedom of an axis of many rows at least: what slow noise leaves is a rough figure, and may be none."""
 _LEAST_CHANCE = 1e-9
-"""To which a probability is computed."""
-_NODES = 24
-"""Points of the path on which a transform is inverted: the error falls to 1e-10, beyond it rounding grows."""
-_STEP, _REACH = 0.05, 40.0
-"""Of the logarithm of a variance, and the exponent of its density beyond which nothing counts."""
+"""What a probability is said to be at least: tails of noise are not known as far out."""
+_STEPS = 2048
+"""Of the sum: a probability of 1e-6 is right to 1 % for 200 differences of 6 axes, to 6 % for 2000."""
 
 
 def _chance(square: float, count: int, degrees: FloatArray) -> float:
     """Probability of a larger sum of squares of differences of biases, if there are none.
 
-    The noise of every axis is estimated by itself, so the sum is one of F distributions: its Laplace transform is a
-    product of theirs, and is inverted along the path of [1].
+    The noise of every axis is estimated by itself, so the sum is one of F distributions, which are put together axis by
+    axis: either the next one alone is beyond a value, or the others are beyond what it leaves.
 
     Args:
         square: Sum of the squares over their variances.
@@ -132,22 +125,17 @@ def _chance(square: float, count: int, degrees: FloatArray) -> float:
     Returns:
         The probability, at least 1e-9.
     """
+    from scipy.special import fdtrc  # here because importing it takes longer than most commands
+
     if square <= 0.0:
         return 1.0
-    angle = np.pi * (np.arange(_NODES) + 0.5) / _NODES
-    cotangent = 1.0 / np.tan(angle)
-    radius = 0.4 * _NODES
-    path = radius * angle * (cotangent + 1j)
-    turn = radius * (cotangent - angle / np.sin(angle) ** 2 + 1j)
-    transform = np.ones(_NODES, dtype=np.complex128)
+    sums = np.linspace(0.0, square / count, _STEPS + 1)
+    beyond = np.zeros(_STEPS + 1)
     for own in degrees:
-        half = 0.5 * own
-        logarithm = np.arange(-_REACH / min(half, 1.0) - 2.0, np.log(_REACH / min(half, 1.0) + 2.0) + 2.0, _STEP)
-        density = np.exp(half * (logarithm - np.exp(logarithm) + 1.0))
-        density /= density.sum()
-        transform *= (1.0 + 2.0 * path[:, None] / (square * np.exp(logarithm))) ** (-0.5 * count) @ density
-    within = float(np.imag(np.exp(path) * transform / path * turn).sum()) / _NODES
-    return min(max(1.0 - within, _LEAST_CHANCE), 1.0)
+        alone = fdtrc(count, own, sums)
+        beyond[1:] = alone[1:] + np.convolve(-np.diff(alone), 0.5 * (beyond[1:] + beyond[:-1]))[:_STEPS]
+        beyond[0] = 1.0
+    return min(max(float(beyond[-1]), _LEAST_CHANCE), 1.0)
 
 
 def _plain_masses(problem: LoadProblem, *, drift: bool) -> tuple[float | None, ...]:
