@@ -18,7 +18,7 @@ from forcetorque.experiment.calibration.posterior import Posterior
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.planning import information
+from forcetorque.planning import planning
 from forcetorque.planning.information import Knowledge, PlannedLoads, unfitted_posterior
 from forcetorque.planning.planning import plan
 from forcetorque.planning.posture_search import Choices, Criterion, pick
@@ -150,7 +150,7 @@ def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(
     arm: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And the assumption is said; what the model makes of the error is in the rows; for equal quadratic terms."""
-    monkeypatch.setattr(information, "quadratic_scale", lambda **_: QUADRATIC_ALONE)
+    monkeypatch.setattr(planning, "quadratic_scale", lambda **_: QUADRATIC_ALONE)
     exact, usual = (
         plan(_planning(arm, robot), recordings=1, seconds=20.0, effort=SHORT) for robot in (EXACT, "tolerance = {}\n")
     )

@@ -14,8 +14,9 @@ from forcetorque.base.noise.slow_noise import SlowNoise, Timeline
 from forcetorque.experiment.calibration import expected_sensor_errors as expected
 from forcetorque.experiment.calibration.expected_sensor_errors import (
     LOADS,
+    QUADRATIC_ALONE,
     Assumptions,
-    quadratic_scale,
+    Scale,
     rows_of,
 )
 from forcetorque.experiment.calibration.posterior import ModelPart, Posterior, RowNoise
@@ -160,21 +161,22 @@ class Nuisance:
     """What each of the 21 products of these may add to a row, as a standard deviation; shape (rows,)."""
 
     @classmethod
-    def of(cls, matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool, exact: bool = True) -> Nuisance:
+    def of(
+        cls, matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool, size: Scale = QUADRATIC_ALONE
+    ) -> Nuisance:
         """Take what the generative model takes for granted.
 
         Args:
             matrix: Matrix of the sensor; shape (6, c).
             assumptions: What is known beside it.
             with_prior: Whether the rows of the posterior are components of the wrench.
-            exact: Whether the robot model is taken as exact.
+            size: Expected size of the terms, of full scale.
 
         Returns:
             The terms.
         """
         rows = rows_of(matrix, assumptions, in_wrench=with_prior)
-        expected = quadratic_scale(with_prior=with_prior, exact=exact).expected
-        return cls(load_to_full_scale=rows.load_to_full_scale, deviation=expected * rows.unit)
+        return cls(load_to_full_scale=rows.load_to_full_scale, deviation=size.expected * rows.unit)
 
     def columns(self, wrench: FloatArray, centre: FloatArray) -> FloatArray:
         """Compute the products.

@@ -15,7 +15,7 @@ from forcetorque.base.errors import ExperimentError, FitError, require_known
 from forcetorque.evaluation.load_cases.load_case import LoadCase, operating_load_cases
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError, predict_from_posterior
 from forcetorque.experiment.calibration.calibration_file import Calibration
-from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, Assumptions
+from forcetorque.experiment.calibration.expected_sensor_errors import ACCURACY_SHARE, Assumptions, quadratic_scale
 from forcetorque.experiment.calibration.robot_model_error import EXACT
 from forcetorque.experiment.calibrations_under_test import OneCalibration, one_named
 from forcetorque.experiment.campaign import Campaign, Runs
@@ -221,7 +221,8 @@ def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -
     errors = [predict_from_posterior(posterior, case) for case in cases]
     place = _chosen(cases, errors, load_case)
     exact = own[0].experiment.fit_options.tolerance == EXACT
-    nuisance = Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench", exact=exact)
+    size = quadratic_scale(with_prior=own[0].sensor.prior is not None, exact=exact)
+    nuisance = Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench", size=size)
     known = Knowledge.of(posterior, seconds=seconds, nuisance=nuisance)
     return _Start(runs=own, known=known, case=cases[place], error=errors[place])
 

@@ -12,8 +12,8 @@ from forcetorque.base.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 from forcetorque.calibration.generative.agreement import (
     disagreements,
     require_response,
-    require_same_sense,
     require_sensor,
+    require_unmirrored,
     unmoved_directions,
 )
 from forcetorque.experiment.calibration.moments import WindowMeans
@@ -98,9 +98,9 @@ def test_a_sensor_does_not_answer_in_reverse(part: slice) -> None:
         response[part, part] = block
         if words:
             with pytest.raises(FitError, match=words):
-                require_same_sense(response)
+                require_unmirrored(response)
         else:
-            require_same_sense(response)
+            require_unmirrored(response)
 
 
 @pytest.mark.parametrize(("share", "is_refused"), [(0.49, False), (0.51, True)])

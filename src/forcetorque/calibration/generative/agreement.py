@@ -204,7 +204,7 @@ def require_sensor(response: FloatArray) -> None:
         )
 
 
-def require_same_sense(response: FloatArray) -> None:
+def require_unmirrored(response: FloatArray) -> None:
     """Refuse data by which a sensor answers to forces or to moments as in a mirror, which no mounting does.
 
     Args:

@@ -16,8 +16,8 @@ from forcetorque.calibration.generative.agreement import (
     ALL_COMPONENTS,
     require_rank,
     require_response,
-    require_same_sense,
     require_sensor,
+    require_unmirrored,
 )
 from forcetorque.calibration.generative.design_matrix import Design, cells_of, design_of
 from forcetorque.calibration.generative.model import RowData, Sizes, Unknowns, infer, sizes_of_terms
@@ -313,12 +313,12 @@ class SolvedRows:
         if rows.space == "wrench":
             measured_over_prior = np.eye(LOADS) + change * (unit / unit[:, None])
             require_sensor(measured_over_prior)
-            require_same_sense(measured_over_prior)
+            require_unmirrored(measured_over_prior)
             to_wrench = np.asarray(np.linalg.inv(np.eye(LOADS) + change), dtype=np.float64)
             return to_wrench @ self.matrix, to_wrench
         response = rows.from_load * unit[:, None] + change
         if self.with_prior:
-            require_same_sense(self.matrix @ response)
+            require_unmirrored(self.matrix @ response)
         precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
         measured = measured_components(self.matrix)
         own: FloatArray = response[:, measured]

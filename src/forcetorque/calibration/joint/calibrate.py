@@ -19,7 +19,7 @@ from forcetorque.calibration.calibrate import (
     fit_doubts,
 )
 from forcetorque.calibration.corrected_urdf import urdf_of
-from forcetorque.calibration.generative.agreement import require_same_sense
+from forcetorque.calibration.generative.agreement import require_unmirrored
 from forcetorque.calibration.joint.posterior_and_calibrations import joint_posterior, sensor_artefact
 from forcetorque.calibration.joint.result import JointOutcome
 from forcetorque.calibration.joint.robust_fit import JointResult, fit_stretches
@@ -336,7 +336,7 @@ def calibrate_jointly(
     require_positive_masses(result.fit)
     for name in result.fit.places.sensors:
         try:
-            require_same_sense(result.fit.change(name))
+            require_unmirrored(result.fit.change(name))
         except FitError as error:
             raise FitError(f"sensor {name!r}: {error}") from error
     calibrations = data.calibrations(data.intervals, result, code_version=code_version, created=created)
