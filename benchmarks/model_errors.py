@@ -9,7 +9,9 @@ row (or as the name of the family has it), some 9 N and 0.13 N m of a push of 50
 the structure of the sensor. In "turned alone" it is right but for the frame. "together" has small errors of many kinds.
 Link masses and joint zeros are normal with the stated deviation, for all links and joints; the turn and shift of
 a frame, the tilt of the base, and the delay of the sensor's stamps are exactly what is stated, in random directions. A
-contact is 3 s long, of constant direction, and comes once in a recording of `grid` and of `tz`. Pushes and their truth
+contact is 3 s long, of constant direction, and comes once in a recording of `grid` and of `tz`. A cable pulls on the
+limb in proportion to every joint's position, with a force of constant direction in the sensor's frame per joint and a
+moment over 0.05 m; the fit has no unknown for it. Pushes and their truth
 are in the sensor's frame as the URDF has it; offsets play no part in them.
 """
 
@@ -101,6 +103,8 @@ class Family:
     contact_N: tuple[float, float] | None = None
     quadratic: float = 0.0
     """Spread of every product of two components at full scale, in full scales of the converter."""
+    cable_N_rad: float = 0.0
+    """Force of a cable per joint and rad."""
 
 
 MODEL, MATRIX = "model errors", "matrix and noise"
@@ -118,6 +122,7 @@ FAMILIES = {
     "contact": Family(group="contact", contact_N=(5.0, 20.0)),
     **{f"delay {ms} ms": Family(group="delay", delay_s=ms / 1000) for ms in (10, 50)},
     "quadratic 2 %": Family(group="quadratic", quadratic=0.02),
+    "cable 1 N/rad": Family(group="cable", cable_N_rad=1.0),
     "together": Family(
         group="together",
         robot=Robot(mass=0.02, zero_deg=0.5, tilt_deg=0.5),
@@ -126,9 +131,10 @@ FAMILIES = {
         delay_s=0.01,
     ),
 }
-_ROBOT, _MOTION, _SENSOR, _MATRIX, _NOISE, _CONTACT, _PUSHES = range(7)
+_ROBOT, _MOTION, _SENSOR, _MATRIX, _NOISE, _CONTACT, _PUSHES, _CABLE = range(8)
 """What a stream of random numbers is for."""
 CONTACT_S, RAMP_S, LEVER_M, PUSH_N, PUSHES = 3.0, 0.2, 0.3, 50.0, 300
+CABLE_LEVER_M = 0.05
 ERROR_LEVER_M = 0.07
 WORSE = 1.05
 """Ratio of force or moment errors above which a calibration is worse than the prior."""
@@ -241,6 +247,8 @@ def _recorded(seed: int, family: str, limb: str, one: Specimen, trace: Trace) ->
     if kind.contact_N is not None and name in MOTIONS:
         rng = np.random.default_rng([seed, _CONTACT, number, *name.encode()])
         trace = _touched(trace, limb, rng.uniform(*kind.contact_N), rng)
+    if kind.cable_N_rad:
+        trace = _pulled(trace, limb, kind.cable_N_rad, np.random.default_rng([seed, _CABLE, number]))
     noise = np.random.default_rng([seed, _NOISE, number, *name.encode()])
     recording = trace.recorded({limb: sensor}, rng=noise)
     stream = recording.stream(limb)
@@ -255,6 +263,15 @@ def _touched(trace: Trace, limb: str, force_N: float, rng: np.random.Generator) 
     since = (trace.stamp_ns[limb] - trace.start_ns) * 1e-9 - start_s
     strength = np.clip(np.minimum(since, CONTACT_S - since) / RAMP_S, 0.0, 1.0)
     return replace(trace, loads={limb: trace.loads[limb] + strength[:, None] * push})
+
+
+def _pulled(trace: Trace, limb: str, stiffness_N_rad: float, rng: np.random.Generator) -> Trace:
+    """Let a cable pull beyond the sensor as the joints move; the same cable in every recording of a draw."""
+    joints = trace.joints.signal("position")
+    at = np.column_stack([np.interp(trace.stamp_ns[limb], trace.joints.stamp_ns, own) for own in joints.values.T])
+    forces, moments = (_directions(rng, len(joints.columns)) for _ in range(2))
+    per_rad = stiffness_N_rad * np.hstack([forces, CABLE_LEVER_M * moments])
+    return replace(trace, loads={limb: trace.loads[limb] + at @ per_rad})
 
 
 def _written(

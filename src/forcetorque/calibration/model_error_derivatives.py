@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -14,11 +15,15 @@ from forcetorque.calibration.joint.model_error_columns import (
     delay_terms,
     error_terms,
     link_axes,
+    sliding_joints,
     terms_of_body,
 )
 from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.robot_model_error import (
+    CABLE_LEVER_M,
     EXACT,
+    PULL,
+    TWIST,
     ZERO,
     ErrorTerm,
     ModelTolerance,
@@ -27,7 +32,7 @@ from forcetorque.experiment.calibration.robot_model_error import (
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.mechanics.root_motion import imu_frame
-from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
+from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_cuts, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_models import SubModel, sub_models
@@ -35,6 +40,8 @@ from forcetorque.robot.tree import BodyTree, build_tree
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
+_CABLES_BEFORE: Final = 3
+"""Joints before the sensor whose cables reach across it, with all joints beyond it."""
 _BLOCK: Final = 4096
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
@@ -54,7 +61,8 @@ class UncertainPart:
     tolerance: ModelTolerance
     """How far the model may be off."""
     terms: tuple[ErrorTerm, ...]
-    """Masses and centres of its links, zeros of the joints between the root and these, acceleration of the root."""
+    """Masses and centres of its links, zeros of the joints between the root and these, acceleration of the root, and
+    what cables and covers pull as joints near the sensor move."""
 
     @classmethod
     def of(cls, tree: BodyTree, bare: BodyTree, sensor: str, tolerance: ModelTolerance) -> UncertainPart | None:
@@ -74,7 +82,7 @@ class UncertainPart:
         part = next((part for part in sub_models(tree, [sensor]) if part.sensor == sensor), None)
         if part is None or not heavy_bodies(tree, part):
             return None
-        terms = error_terms(bare, [part], tolerance)
+        terms = (*error_terms(bare, [part], tolerance), *_cable_terms(tree, part, tolerance))
         return cls(tree=tree, bare=bare, part=part, tolerance=tolerance, terms=terms)
 
     @property
@@ -82,13 +90,13 @@ class UncertainPart:
         """Joints that the expected wrench depends on."""
         return joints_of_part(self.tree, self.part)
 
-    def without(self, kind: TermKind) -> UncertainPart:
-        """Leave out the terms of a kind.
+    def without(self, *kinds: TermKind) -> UncertainPart:
+        """Leave out the terms of some kinds.
 
         Returns:
             The part with the others.
         """
-        return replace(self, terms=tuple(term for term in self.terms if term.kind is not kind))
+        return replace(self, terms=tuple(term for term in self.terms if term.kind not in kinds))
 
     def terms_in(self, recording: str) -> tuple[ErrorTerm, ...]:
         """Name the terms, and the delay of the readings, in a recording.
@@ -130,6 +138,12 @@ class UncertainPart:
     def _differentiate(self, joints: JointMotion, root: RootMotion, out: FloatArray) -> None:
         """Fill in derivatives by `terms`; shape (terms, 6, n)."""
         places = {term.name: place for place, term in enumerate(self.terms)}
+        out[:] = 0.0
+        for name in list(places):
+            if (kind := next((own for own in (PULL, TWIST) if own in name), None)) is not None:
+                axis, _, joint = name.partition(kind)
+                component = "xyz".index(axis) + (3 if kind == TWIST else 0)
+                out[places.pop(name), component] = joints.position[:, joints.names.index(joint)]
         of_joints = {f"{ZERO}{joint}": joint for joint in self.joints}
         bodies = {k: terms_of_body(self.bare, k) for k in heavy_bodies(self.tree, self.part)}
         bodies = {k: names for k, names in bodies.items() if not places.keys().isdisjoint(names)}
@@ -147,11 +161,27 @@ class UncertainPart:
             out[place] = columns[name]
 
 
+def _cable_terms(tree: BodyTree, part: SubModel, tolerance: ModelTolerance) -> Iterator[ErrorTerm]:
+    """What cables and covers across a sensor may pull per rad of the joints near it; not of joints that slide."""
+    if not tolerance.cable_N_rad:
+        return
+    before = joints_of_cuts(tree, part)
+    sliding = sliding_joints(tree)
+    beyond = [joint for joint in joints_of_part(tree, part) if joint not in before]
+    for joint in (*before[-_CABLES_BEFORE:], *beyond):
+        if joint not in sliding:
+            for axis in "xyz":
+                yield ErrorTerm(name=f"{axis}{PULL}{joint}", kind=TermKind.PULL, deviation=tolerance.cable_N_rad)
+                twist = CABLE_LEVER_M * tolerance.cable_N_rad
+                yield ErrorTerm(name=f"{axis}{TWIST}{joint}", kind=TermKind.TWIST, deviation=twist)
+
+
 def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
     """Differentiate the expected wrenches of a sensor by what the robot model may have wrong.
 
     The numbers are masses and centres of the links beyond the sensor, zeros of the joints between the support and
-    these, the acceleration of the support frame, and the delay of the readings. Tolerances are those of the experiment.
+    these, the acceleration of the support frame, the delay of the readings, and what cables and covers add as the
+    joints near the sensor move, in proportion to their positions. Tolerances are those of the experiment.
     Attached loads are taken as they were specified or identified.
 
     Args:
@@ -174,7 +204,13 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> tuple[tu
 
 
 def derivatives_at(
-    run: SensorRun, interval: Interval, recording: str, at_ns: IntArray, rates: FloatArray
+    run: SensorRun,
+    interval: Interval,
+    recording: str,
+    at_ns: IntArray,
+    rates: FloatArray,
+    *,
+    without: Sequence[TermKind] = (),
 ) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
     """Differentiate the expected wrench of a sensor at instants by what the robot model may have wrong.
 
@@ -184,6 +220,7 @@ def derivatives_at(
         recording: Name of the recording, as `UncertainPart.terms_in` takes it.
         at_ns: Instants; shape (n,); ns.
         rates: Rates of change of the expected wrench at these; shape (n, 6); N/s, N m/s.
+        without: Kinds of numbers that are left out.
 
     Returns:
         The numbers, and derivatives by them; shape (n, 6, terms); N, N m per unit of the term; NaN in gaps. No terms in
@@ -200,8 +237,8 @@ def derivatives_at(
     uncertain = UncertainPart.of(tree, bare, run.sensor.name, tolerance)
     if uncertain is None:
         return nothing
-    if not _measured_at_root(run, support, tree):
-        uncertain = uncertain.without(TermKind.ACCELERATION)
+    left_out = () if _measured_at_root(run, support, tree) else (TermKind.ACCELERATION,)
+    uncertain = uncertain.without(*without, *left_out)
     terms = uncertain.terms_in(recording)
     if not terms:
         return nothing

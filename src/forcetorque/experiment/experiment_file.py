@@ -60,6 +60,9 @@ class Tolerance(MountToleranceTable):
     """Of gravity in the support frame, or of what an accelerometer reads, along each axis, as a tilt; deg."""
     delay_s: NotNegative = _TOLERANCE.delay_s
     """Of the time by which the readings come later than the joints; s."""
+    cable_N_rad: NotNegative = _TOLERANCE.cable_N_rad
+    """Of what cables and covers add to the load per rad of each joint near the sensor, along each axis; N/rad; of their
+    moment as much over 0.05 m."""
     links: dict[Text, NotNegative] = {}
     """Of the mass of single links, relative, by their names."""
     joints: dict[Text, NotNegative] = {}
@@ -85,6 +88,7 @@ class Tolerance(MountToleranceTable):
             joint_zero_rad=float(np.radians(self.joint_zero_deg)),
             acceleration=STANDARD_GRAVITY * float(np.radians(self.tilt_deg)),
             delay_s=self.delay_s,
+            cable_N_rad=self.cable_N_rad,
             links=dict(self.links),
             joints={name: float(np.radians(value)) for name, value in self.joints.items()},
             mounts={name: one.mount_tolerance() for name, one in self.sensors.items()},

@@ -64,11 +64,7 @@ def _terms(
                 yield ErrorTerm(
                     name=f"{axis}{CENTRE}{name}", kind=TermKind.CENTRE, deviation=tolerance.centre_m, nominal=mass
                 )
-    sliding = {
-        body.coordinate.joint
-        for body in tree.bodies
-        if body.coordinate is not None and body.connection is Connection.PRISMATIC
-    }
+    sliding = sliding_joints(tree)
     of_cuts = (joint for part in weighed for joint in joints_of_cuts(tree, part))
     for joint in dict.fromkeys((*_joints(tree, parts), *of_cuts)):
         yield ErrorTerm(
@@ -78,6 +74,22 @@ def _terms(
         )
     for axis in "xyz":
         yield ErrorTerm(name=_acceleration(axis, tree), kind=TermKind.ACCELERATION, deviation=tolerance.acceleration)
+
+
+def sliding_joints(tree: BodyTree) -> set[str]:
+    """Name the joints that slide.
+
+    Args:
+        tree: The robot.
+
+    Returns:
+        Their names.
+    """
+    return {
+        body.coordinate.joint
+        for body in tree.bodies
+        if body.coordinate is not None and body.connection is Connection.PRISMATIC
+    }
 
 
 def _mass_term(tree: BodyTree, k: int, tolerance: ModelTolerance) -> ErrorTerm:

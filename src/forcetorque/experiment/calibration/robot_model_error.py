@@ -22,6 +22,12 @@ ACCELERATION: Final = " of acceleration of "
 """What the name of the error of an acceleration has between axis and frame."""
 DELAY: Final = "delay of the readings of "
 """How the name of the delay of a recording begins."""
+PULL: Final = " pull of cables at "
+"""What the name of the force of cables per rad has between axis and joint."""
+TWIST: Final = " twist of cables at "
+"""The same of their moment."""
+CABLE_LEVER_M: Final = 0.05
+"""Moment of cables over their force; m."""
 SUSPICIOUS: Final = 3.0
 """Error of the model over its tolerance from which a warning names it."""
 
@@ -35,6 +41,8 @@ class TermKind(StrEnum):
     POSITION = "joint position"
     ACCELERATION = "acceleration"
     DELAY = "delay"
+    PULL = "pull of cables"
+    TWIST = "twist of cables"
 
     @property
     def unit(self) -> str:
@@ -49,6 +57,8 @@ _UNITS: Final = {
     TermKind.POSITION: "m",
     TermKind.ACCELERATION: "m/s2",
     TermKind.DELAY: "s",
+    TermKind.PULL: "N/rad",
+    TermKind.TWIST: "N m/rad",
 }
 
 
@@ -76,6 +86,9 @@ class ModelTolerance:
     """Of every component of what an accelerometer reads at rest, or of gravity in a still frame; m/s2."""
     delay_s: float = 0.005
     """Of the time by which the readings of a recording come later than the joints; s."""
+    cable_N_rad: float = 1.0
+    """Of what cables and covers pull along each axis per rad of a joint near the sensor; N/rad, and of their moment as
+    much over `CABLE_LEVER_M`. Data may find it smaller."""
     links: Mapping[str, float] = field(default_factory=dict)
     """Of the mass of single links, relative, by their names."""
     joints: Mapping[str, float] = field(default_factory=dict)
@@ -99,7 +112,9 @@ class ModelTolerance:
         return self.mounts.get(sensor, self.mount)
 
 
-EXACT: Final = ModelTolerance(mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0, delay_s=0.0)
+EXACT: Final = ModelTolerance(
+    mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0, delay_s=0.0, cable_N_rad=0.0
+)
 """A model that is taken to be exact."""
 
 
