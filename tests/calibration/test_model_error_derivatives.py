@@ -90,7 +90,8 @@ def test_columns_are_differences_between_robots(
 
 def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
     """Stated as exact, and with 0 for all, there are none; for one link or joint, its columns alone are missing."""
-    none = "tolerance = { mass_relative = 0, centre_m = 0, joint_zero_deg = 0, tilt_deg = 0, delay_s = 0 }\n"
+    zero = "mass_relative = 0, centre_m = 0, joint_zero_deg = 0, tilt_deg = 0, delay_s = 0, cable_N_rad = 0"
+    none = f"tolerance = {{ {zero} }}\n"
     for text in (EXACT, none):
         run = _run(arm, text)
         (samples,) = run.samples(Use.CALIBRATION)
