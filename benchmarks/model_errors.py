@@ -11,7 +11,8 @@ Link masses and joint zeros are normal with the stated deviation, for all links 
 a frame, the tilt of the base, and the delay of the sensor's stamps are exactly what is stated, in random directions. A
 contact is 3 s long, of constant direction, and comes once in a recording of `grid` and of `tz`. A cable pulls on the
 limb in proportion to every joint's position, with a force of constant direction in the sensor's frame per joint and a
-moment over 0.05 m; the fit has no unknown for it. Pushes and their truth
+moment over 0.05 m. A cover catches on the limb: it pushes one way or the other, by which side of its mean position the
+joint that moves most is on, and changes over within 0.1 rad. Pushes and their truth
 are in the sensor's frame as the URDF has it; offsets play no part in them.
 """
 
@@ -105,6 +106,8 @@ class Family:
     """Spread of every product of two components at full scale, in full scales of the converter."""
     cable_N_rad: float = 0.0
     """Force of a cable per joint and rad."""
+    cover_N: float = 0.0
+    """Force of a cover that catches."""
 
 
 MODEL, MATRIX = "model errors", "matrix and noise"
@@ -123,6 +126,7 @@ FAMILIES = {
     **{f"delay {ms} ms": Family(group="delay", delay_s=ms / 1000) for ms in (10, 50)},
     "quadratic 2 %": Family(group="quadratic", quadratic=0.02),
     "cable 1 N/rad": Family(group="cable", cable_N_rad=1.0),
+    "cover 2 N": Family(group="cover", cover_N=2.0),
     "together": Family(
         group="together",
         robot=Robot(mass=0.02, zero_deg=0.5, tilt_deg=0.5),
@@ -134,7 +138,7 @@ FAMILIES = {
 _ROBOT, _MOTION, _SENSOR, _MATRIX, _NOISE, _CONTACT, _PUSHES, _CABLE = range(8)
 """What a stream of random numbers is for."""
 CONTACT_S, RAMP_S, LEVER_M, PUSH_N, PUSHES = 3.0, 0.2, 0.3, 50.0, 300
-CABLE_LEVER_M = 0.05
+CABLE_LEVER_M, COVER_RAD = 0.05, 0.1
 ERROR_LEVER_M = 0.07
 WORSE = 1.05
 """Ratio of force or moment errors above which a calibration is worse than the prior."""
@@ -247,8 +251,8 @@ def _recorded(seed: int, family: str, limb: str, one: Specimen, trace: Trace) ->
     if kind.contact_N is not None and name in MOTIONS:
         rng = np.random.default_rng([seed, _CONTACT, number, *name.encode()])
         trace = _touched(trace, limb, rng.uniform(*kind.contact_N), rng)
-    if kind.cable_N_rad:
-        trace = _pulled(trace, limb, kind.cable_N_rad, np.random.default_rng([seed, _CABLE, number]))
+    if kind.cable_N_rad or kind.cover_N:
+        trace = _pulled(trace, limb, kind, np.random.default_rng([seed, _CABLE, number]))
     noise = np.random.default_rng([seed, _NOISE, number, *name.encode()])
     recording = trace.recorded({limb: sensor}, rng=noise)
     stream = recording.stream(limb)
@@ -265,13 +269,16 @@ def _touched(trace: Trace, limb: str, force_N: float, rng: np.random.Generator) 
     return replace(trace, loads={limb: trace.loads[limb] + strength[:, None] * push})
 
 
-def _pulled(trace: Trace, limb: str, stiffness_N_rad: float, rng: np.random.Generator) -> Trace:
-    """Let a cable pull beyond the sensor as the joints move; the same cable in every recording of a draw."""
+def _pulled(trace: Trace, limb: str, kind: Family, rng: np.random.Generator) -> Trace:
+    """Let a cable or a cover pull beyond the sensor as the joints move; the same one in every recording of a draw."""
     joints = trace.joints.signal("position")
     at = np.column_stack([np.interp(trace.stamp_ns[limb], trace.joints.stamp_ns, own) for own in joints.values.T])
     forces, moments = (_directions(rng, len(joints.columns)) for _ in range(2))
-    per_rad = stiffness_N_rad * np.hstack([forces, CABLE_LEVER_M * moments])
-    return replace(trace, loads={limb: trace.loads[limb] + at @ per_rad})
+    load = np.hstack([forces, CABLE_LEVER_M * moments])
+    most = int(np.argmax(at.std(axis=0)))
+    caught = np.tanh((at[:, most] - at[:, most].mean()) / COVER_RAD)
+    added = kind.cable_N_rad * at @ load + kind.cover_N * np.outer(caught, load[most])
+    return replace(trace, loads={limb: trace.loads[limb] + added})
 
 
 def _written(
@@ -320,12 +327,14 @@ def expected_errors(family: str, robot: str) -> Iterator[str]:
         "COEFFICIENTS": coefficients,
         "GAIN": gain,
         "MODEL": Scale(expected=1.0, weight=np.inf),
+        "CABLE": Scale(expected=1.0, weight=np.inf),
         "mount_scales": lambda _: tuple(mount),
     }
     tilt = kind.robot.tilt_deg or 1e-3  # without any term the fit would be that of an exact model
     of_model = f"mass_relative = {kind.robot.mass}, joint_zero_deg = {kind.robot.zero_deg}, tilt_deg = {tilt}"
     with patch.multiple(expected_sensor_errors, **changed):
-        yield f"tolerance = {{ {of_model}, delay_s = {kind.delay_s}, centre_m = 0 }}\n"
+        rest = f"delay_s = {kind.delay_s}, centre_m = 0, cable_N_rad = {kind.cable_N_rad}"
+        yield f"tolerance = {{ {of_model}, {rest} }}\n"
 
 
 def sensor_runs(
