@@ -88,6 +88,57 @@ def test_columns_are_differences_between_robots(
     assert all(np.abs(other - difference).max() > 3.0 * close * size for other in by_name.values())
 
 
+def _positions(run: SensorRun, samples: IntervalSamples) -> dict[str, FloatArray]:
+    """Mean position of every logged joint in windows; shape (w,) each; rad."""
+    stream = run.experiment.recording.stream("joints")
+    logged, at_s = stream.signal("position"), samples.data_set.time_s
+    of_samples = np.column_stack([np.interp(at_s, stream.stamp_ns * 1e-9, own) for own in logged.values.T])
+    return dict(zip(logged.columns, means_over(at_s, of_samples)[1].T, strict=True))
+
+
+def test_cables_pull_and_twist_in_proportion_to_positions(arm: Path) -> None:
+    """Along one axis each; of the joints near the sensor, and of none where the file says that there are no cables."""
+    run = _run(arm)
+    (samples,) = run.samples(Use.CALIBRATION)
+    of_cables = {name: own for name, own in _columns(run, samples).items() if " of cables at " in name}
+    positions = _positions(run, samples)
+    assert {name.rpartition(" ")[2] for name in of_cables} <= positions.keys()
+    for name, column in of_cables.items():
+        component = "xyz".index(name[0]) + (3 if "twist" in name else 0)
+        np.testing.assert_allclose(column[:, component], positions[name.rpartition(" ")[2]], atol=SAMPLED)
+        assert not np.delete(column, component, axis=1).any()
+    without = _run(arm, "tolerance = { cable_N_rad = 0 }\n")
+    assert _columns(without, samples).keys() == _columns(run, samples).keys() - of_cables.keys()
+
+
+def test_a_cable_does_not_pass_for_response(arm: Path) -> None:
+    """Cables of 2 N/rad change the matrix by a third of what they change where they are no unknowns, and are named."""
+    run = _run(arm)
+    (samples,) = run.samples(Use.CALIBRATION)
+    (moments,) = recording_moments(run)
+    (clean,) = moments.intervals
+    prior = run.sensor.prior
+    assert prior is not None
+    to_raw, rng = np.linalg.inv(prior), np.random.default_rng(3)
+    pulls = [np.outer(own, rng.normal(size=6) * ([2.0] * 3 + [0.1] * 3)) for own in _positions(run, samples).values()]
+    changes, named = [], []
+    for known in (True, False):
+        used = [k for k, term in enumerate(clean.terms) if known or term.kind not in (TermKind.PULL, TermKind.TWIST)]
+        assert clean.model is not None
+        columns = clean.model.reshape(len(clean.time_s), 6, -1)[:, :, used]
+        matrices = []
+        for load in (np.zeros_like(pulls[0]), np.sum(pulls, axis=0)):
+            one = clean.model_copy(update={"raw": clean.raw + load @ to_raw.T})
+            one = one.with_model(tuple(clean.terms[k] for k in used), columns)
+            stored = moments.model_copy(update={"intervals": (one,)})
+            fit = calibrate_sensor(None, moments=[stored], code_version="1", created="now")
+            matrices.append((fit.matrix @ to_raw)[:3, :3])
+        changes.append(np.abs(matrices[1] - matrices[0]).max())
+        named.append(any(error.is_suspicious and "cables" in error.name for error in fit.model_errors))
+    assert changes[0] < changes[1] / 3.0
+    assert named == [True, False]
+
+
 def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:
     """Stated as exact, and with 0 for all, there are none; for one link or joint, its columns alone are missing."""
     zero = "mass_relative = 0, centre_m = 0, joint_zero_deg = 0, tilt_deg = 0, delay_s = 0, cable_N_rad = 0"
