@@ -11,8 +11,9 @@ import typer
 
 from forcetorque.app.wrapped_commands import with_datasets, with_live_view, with_view
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.lazy import named
 from forcetorque.base.run_files import files_of_one_run
-from forcetorque.results.capability import all_named, named
+from forcetorque.results.capability import all_named
 from forcetorque.results.terminal.command_from_signature import command_function
 from forcetorque.results.terminal.command_output import print_messages, report_error, spell_missing_letters
 from forcetorque.results.terminal.options import WholeSentences

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.lazy import named
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
-from forcetorque.results.capability import named
 from forcetorque.results.command import Command, Option, Saved, command_of
 from forcetorque.results.terminal.command_output import (
     Format,
