@@ -42,7 +42,6 @@ from forcetorque.experiment.seen_and_outside_samples import (
     sentences,
 )
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
@@ -302,7 +301,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
                 require_unseen(name, calibration, run)
             wrenches[campaign.recording(run)] = evaluated_wrenches(run, calibrations)
         doubts = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
-        doubts += circular_loads(run)
+        doubts += run.circular_loads()
         warnings += (
             [f"{campaign.recording(run)}: {sentence}" for sentence in doubts] if len(campaign.runs) > 1 else doubts
         )

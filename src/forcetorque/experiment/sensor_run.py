@@ -100,6 +100,15 @@ class SensorRun:
         """
         return tuple(sorted(self._known_intervals(use), key=lambda interval: interval.start_ns))
 
+    def circular_loads(self) -> tuple[str, ...]:
+        """Name loads that the sensor itself weighed before, as if its matrix were right.
+
+        Returns:
+            A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
+        """
+        loads = self.experiment.loads
+        return () if loads is None else tuple(loads.circular(self.sensor.serial))
+
     def touched_beyond(self, interval: Interval) -> tuple[str, ...]:
         """Name what touches a robot on the move beyond the sensor, seen from the support, and nobody knows how.
 
