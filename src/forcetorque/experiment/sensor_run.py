@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from typing import TypeVar, cast
+from typing import ParamSpec, TypeVar, cast
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, path_to_root
 
 _Answer = TypeVar("_Answer")
+_Options = ParamSpec("_Options")
 
 
 class SensorRun:
@@ -122,7 +123,7 @@ class SensorRun:
         support = interval.support
         if not present or not isinstance(support, MovingSupport):
             return ()
-        return self.once(("touched", _key(interval)), lambda: self._beyond(support, present))
+        return self.once(("touched", _key(interval)), self._beyond, support, present)
 
     def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
         """Name the contacts beyond the sensor that may come while the support stands still.
@@ -220,7 +221,11 @@ class SensorRun:
         names = self._in_order(variables)
         return self.once(
             ("readings", _key(interval), names),
-            lambda: readings_over(self.experiment, self.sensor, interval, variables=names),
+            readings_over,
+            self.experiment,
+            self.sensor,
+            interval,
+            variables=names,
         )
 
     def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[IntervalSamples]:
@@ -356,7 +361,7 @@ class SensorRun:
             SerialNumberError: If a calibration is of another sensor.
             ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
         """
-        return self.once(("candidates", calibrations_key(calibrations)), lambda: self._candidates(calibrations))
+        return self.once(("candidates", calibrations_key(calibrations)), self._candidates, calibrations)
 
     def _candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[CalibrationUnderTest, ...]:
         if not calibrations:
@@ -389,18 +394,26 @@ class SensorRun:
     def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
         return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
 
-    def once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
+    def once(
+        self,
+        key: Hashable,
+        compute: Callable[_Options, _Answer],
+        *arguments: _Options.args,
+        **options: _Options.kwargs,
+    ) -> _Answer:
         """Compute what several analyses need of the sensor, when it is first needed.
 
         Args:
             key: What it is, other than all else that is kept.
             compute: Computes it.
+            *arguments: What `compute` takes.
+            **options: What it takes by name.
 
         Returns:
             What was computed.
         """
         if key not in self._known:
-            self._known[key] = compute()
+            self._known[key] = compute(*arguments, **options)
         return cast("_Answer", self._known[key])
 
 
