@@ -17,13 +17,7 @@ from forcetorque.calibration.joint.model_error_columns import (
     terms_of_body,
 )
 from forcetorque.experiment.calibration.moments import DataSet
-from forcetorque.experiment.calibration.robot_model_error import (
-    EXACT,
-    ZERO,
-    ErrorTerm,
-    ModelTolerance,
-    TermKind,
-)
+from forcetorque.experiment.calibration.robot_model_error import EXACT, ZERO, ErrorTerm, ModelTolerance, TermKind
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.mechanics.root_motion import imu_frame

@@ -26,11 +26,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts, with_predicted_errors
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice
-from forcetorque.experiment.calibrations_under_test import (
-    CalibrationUnderTest,
-    EvaluatedRow,
-    wrench_errors,
-)
+from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest, EvaluatedRow, wrench_errors
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.interval_samples import logged_content

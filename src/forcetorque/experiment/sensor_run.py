@@ -13,11 +13,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
-from forcetorque.experiment.calibrations_under_test import (
-    PRIOR,
-    CalibrationUnderTest,
-    tested_calibrations,
-)
+from forcetorque.experiment.calibrations_under_test import PRIOR, CalibrationUnderTest, tested_calibrations
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
 from forcetorque.experiment.interval_samples import IntervalSamples, readings_over, samples_over

@@ -24,11 +24,7 @@ from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
 from forcetorque.calibration.joint.window_nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import DELAY, ZERO, ErrorTerm
-from forcetorque.robot.mechanics.sub_model_equations import (
-    PartEquation,
-    part_equations,
-    weight_equations,
-)
+from forcetorque.robot.mechanics.sub_model_equations import PartEquation, part_equations, weight_equations
 from forcetorque.robot.sub_models import SubModel
 
 WINDOW_S: Final = 0.25
