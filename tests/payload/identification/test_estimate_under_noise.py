@@ -110,6 +110,36 @@ def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
     np.testing.assert_array_equal(noise_sizes(np.empty((0, 6))), np.ones(6))
 
 
+@pytest.mark.parametrize("sessions", [(0, 1, 2), (0, 0, 0)])
+def test_forces_and_moments_are_stacked_axis_by_axis_in_time(sessions: tuple[int, ...]) -> None:
+    """Every value once, over its size; time counts in the usual step within a power-up, whatever lies between them."""
+    rng = np.random.default_rng(4)
+    session = np.tile(sessions, 5)  # rows of three power-ups in turn, as logs of several sensors are
+    step = np.array([0.0, 0.0, 0.0, 2.0, 4.0])  # rows at one instant have no step
+    time = np.repeat(step, 3) + 1000.0 * session if any(sessions) else np.arange(0.0, 30.0, 2.0)
+    count = len(session)
+    values, design = rng.normal(size=(count, 6)), rng.normal(size=(count, 6, 4))
+    sizes, weight, share = rng.uniform(0.5, 2.0, 6), rng.uniform(0.1, 1.0, count), rng.uniform(0.5, 1.0, count)
+    rows = LoadRows.of_poses(
+        np.zeros((count, 6)), rng.normal(size=(count, 3)), session=session.tolist(), time_s=time, share=share
+    )
+    groups = groups_of(rows, design, values, sizes, weight)
+    for first, group in zip((0, 3), groups, strict=True):
+        axis = np.repeat([first, first + 1, first + 2], count)
+        assert sorted(zip(axis, group.order, strict=True)) == [
+            (a, row) for a in range(first, first + 3) for row in range(count)
+        ]
+        np.testing.assert_allclose(group.values, values[group.order, axis] / sizes[axis])
+        np.testing.assert_allclose(group.design, design[group.order, axis] / sizes[axis][:, None])
+        np.testing.assert_allclose(group.line.share, (share * weight)[group.order])
+        np.testing.assert_allclose(2.0 * group.line.time_s, time[group.order])
+        # slow noise goes on within one axis of one power-up, whose rows stand together
+        chains = list(zip(axis, session[group.order], strict=True))
+        for k, chain in enumerate(group.line.recording):
+            assert [other == chain for other in group.line.recording] == [other == chains[k] for other in chains]
+        assert np.count_nonzero(np.diff(group.line.recording)) == 3 * len(set(sessions)) - 1
+
+
 @pytest.mark.long
 def test_the_unit_of_time_does_not_change_what_slow_noise_makes_of_a_load() -> None:
     """Rows a second apart and rows an hour apart, in two power-ups, of which the second may be much later."""
