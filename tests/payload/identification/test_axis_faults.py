@@ -99,6 +99,21 @@ def test_the_forces_that_a_turned_mount_leaves_are_those_of_its_fit() -> None:
     assert f": residual {before:.2g} -> {after:.2g} N; " in row.description
 
 
+@pytest.mark.parametrize("fault", FAULTS[:3])
+def test_the_size_of_the_loads_changes_no_name(fault: str) -> None:
+    """Wrenches with their noise, a thousand times as large, leave the same share."""
+    problem, words = _problem(fault, FIRST_SEED)
+    shares = []
+    for factor in (1.0, 1e3):
+        rows = replace(problem.rows, wrench=factor * problem.rows.wrench)
+        fitted = fit(replace(problem, rows=rows), drift=False)
+        (row,) = axis_errors(fitted, permuted=True, drift=False)
+        assert row.name == fault
+        assert words == 'set mount = "unknown"' or words in row.description
+        shares.append(row.residual_share)
+    assert shares[1] == pytest.approx(shares[0], rel=1e-6)
+
+
 @pytest.mark.long
 def test_fault_free_poses_have_no_name() -> None:
     """Negative control: neither an account nor a row."""
