@@ -23,6 +23,8 @@ from forcetorque.payload.load_from_result_file import (
     read_load_from_file,
     read_wrist_load_from_file,
 )
+from forcetorque.payload.load_tables import LinkLoad
+from forcetorque.payload.loads_on_robot_links import read_link_loads
 
 INERTIAL = [1.5, 0.03, 0.0, 0.15, 4e-3, 0.0, 0.0, 4e-3, 0.0, 3e-3]
 
@@ -105,3 +107,31 @@ def test_a_rigid_body_has_no_moment_above_the_sum_of_the_others(moments: tuple[f
     else:
         with pytest.raises(FormatError, match="tool: expected an inertia of a rigid body"):
             require_rigid(inertia, "tool")
+
+
+def test_each_load_of_an_experiment_is_that_of_its_own_result(tmp_path: Path) -> None:
+    """Two of results, with a specified one between them, stay in the order of the file."""
+    for name, mass in (("gripper", 0.8), ("weight", 5.0)):
+        inertial = [mass, *INERTIAL[1:]]
+        load = {"load": name, "estimated": True, "mass_kg": mass, "link": "hand", "inertial": inertial}
+        content = {"schema": SCHEMA, "serial": "FT1", "loads": [load | {"covariance": np.zeros((10, 10)).tolist()}]}
+        (tmp_path / f"{name}.json").write_text(json.dumps(content), encoding="utf-8")
+    tables = [
+        LinkLoad.model_validate({"name": "gripper", "link": "hand", "from": "gripper.json"}),
+        LinkLoad.model_validate({"name": "plate", "link": "hand", "mass_kg": 2.0}),
+        LinkLoad.model_validate({"name": "weight", "link": "hand", "from": "weight.json"}),
+    ]
+    loading: Any = SimpleNamespace(
+        file=tmp_path / "experiment.toml",
+        model=SimpleNamespace(name="arm", links={"hand": None}),
+        sensors=(),
+        inputs=SimpleNamespace(file=lambda name: tmp_path / name),
+        parsed=SimpleNamespace(interval=[]),
+        recording=SimpleNamespace(intervals=[]),
+    )
+    loads = read_link_loads(tables, loading)
+    assert loads is not None
+    assert [load.name for load in loads.loads] == ["gripper", "plate", "weight"]
+    known = [None if load.expected is None else float(load.expected[0]) for load in loads.loads]
+    assert (known, loads.loads[1].mass) == ([0.8, None, 5.0], 2.0)
+    assert [file.load.name for file in loads.weighed] == ["gripper", "weight"]
