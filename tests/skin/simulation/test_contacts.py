@@ -115,6 +115,29 @@ def test_the_skin_carries_the_object(leg: SkinBody, thing: SkinObject) -> None:
     assert truth.on_skin > 0.9  # corners of modules leave bare spots
 
 
+@pytest.mark.parametrize("spin", [0.0, 0.5, 2.0, -1.0])
+def test_an_object_is_turned_right_handed_about_the_normal(leg: SkinBody, spin: float) -> None:
+    """The centre of pressure follows what stands out of its lower side; at spin 0 it lies along the limb, then across.
+
+    Within a tenth of a radian for a bulge of a palm; the cylinder turns that of a tilted weight towards its own axis.
+    """
+    place = leg.surface.chart(LEG.positions).mean(axis=0)
+    touch, axis = leg.surface.at(place), leg.surface.link_R_axis[:, 2]
+    along = axis - touch.normals * (axis @ touch.normals)
+    tangents = np.stack([along, np.cross(touch.normals, along)])
+
+    def pressed(thing: SkinObject) -> np.ndarray:
+        truth = leg.press(SkinContact(thing=thing, mass_kg=0.3, place=place, spin=spin))
+        return tangents @ (truth.centre - touch.positions)
+
+    bulge = pressed(Palm(half_lengths_m=(0.03, 0.03), bend_per_m=0.0, bulges=np.array([[0.01, 0.0, 0.006, 0.004]])))
+    assert np.arctan2(bulge[1], bulge[0]) == pytest.approx(spin, abs=0.1)
+    assert 0.004 < np.hypot(*bulge) < 0.01
+    ends = np.array([[np.cos(spin), np.sin(spin)], [-np.sin(spin), np.cos(spin)]])
+    for tilt, end in zip(((-0.1, 0.0), (0.0, -0.1)), ends, strict=True):
+        assert pressed(FlatWeight(radius_m=0.02, tilt=tilt)) @ end > 0.002
+
+
 def test_a_ball_presses_as_hertz_would_on_springs(leg: SkinBody) -> None:
     """Springs under a paraboloid of radii a and b: depth d carries pi k sqrt(a b) d^2, and the peak is k d."""
     place = leg.surface.chart(LEG.positions).mean(axis=0)
