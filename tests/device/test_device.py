@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 from forcetorque.base.units import STANDARD_GRAVITY
+from forcetorque.device.components import device_load
 from forcetorque.device.demands import DeviceDemands
-from forcetorque.device.design import DeviceDesign, design_device
+from forcetorque.device.design import DeviceDesign, _load_row, design_device
 from forcetorque.device.device_file import read_device
 from forcetorque.device.excitation_and_predicted_errors import DeviceSpan
 from forcetorque.device.figures import innermost_wrenches
@@ -51,6 +55,18 @@ def test_peaks_are_weights_on_levers(design: DeviceDesign) -> None:
     lightest = design.loads[0]
     assert heaviest.force_N - lightest.force_N == pytest.approx(STANDARD_GRAVITY * 33.0, rel=BALL)
     assert lightest.force_N > STANDARD_GRAVITY * 2.0
+
+
+def test_the_largest_of_a_load_is_of_norms_at_the_innermost_sensor() -> None:
+    """By hand: 3, 4, 12 have the norm 13, and 2, 3, 6 the norm 7; torques of motors count either way."""
+    device = read_device().with_sensors(3)
+    wrenches = {name: np.zeros((2, 6)) for name in device.sensor_names}
+    wrenches["ft_1"] = np.array([[3.0, 4.0, 12.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 2.0, -3.0, 6.0]])
+    torques = {"pitch": np.array([1.0, -9.0]), "yaw": np.array([5.0, 2.0]), "hinge": np.array([-0.5, 0.0])}
+    response: Any = SimpleNamespace(wrenches=SimpleNamespace(of_name=wrenches.__getitem__), torque=torques.__getitem__)
+    row = _load_row(device, device_load(device, 5.0), response)
+    assert (row.force_N, row.moment_Nm) == pytest.approx((13.0, 7.0))
+    assert (row.pitch_Nm, row.yaw_Nm, row.hinge_Nm) == (9.0, 5.0, 0.5)
 
 
 def test_motions_have_the_heaviest_load_and_reach_the_largest_speeds(design: DeviceDesign) -> None:

@@ -110,13 +110,15 @@ def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
     np.testing.assert_array_equal(noise_sizes(np.empty((0, 6))), np.ones(6))
 
 
-@pytest.mark.parametrize("sessions", [(0, 1, 2), (0, 0, 0)])
-def test_forces_and_moments_are_stacked_axis_by_axis_in_time(sessions: tuple[int, ...]) -> None:
-    """Every value once, over its size; time counts in the usual step within a power-up, whatever lies between them."""
+@pytest.mark.parametrize(("sessions", "step_s"), [((0, 1, 2), 0.5), ((0, 0, 0), 0.5), ((0, 1, 2), 0.0)])
+def test_forces_and_moments_are_stacked_axis_by_axis_in_time(sessions: tuple[int, ...], step_s: float) -> None:
+    """Every value once, over its size; time counts in the usual step within a power-up, whatever lies between them.
+
+    Rows at one instant have no step, and a usual step of all of them is none.
+    """
     rng = np.random.default_rng(4)
     session = np.tile(sessions, 5)  # rows of three power-ups in turn, as logs of several sensors are
-    step = np.array([0.0, 0.0, 0.0, 2.0, 4.0])  # rows at one instant have no step
-    time = np.repeat(step, 3) + 1000.0 * session if any(sessions) else np.arange(0.0, 30.0, 2.0)
+    time = step_s * np.repeat([0.0, 0.0, 0.0, 1.0, 2.0], 3) + 1000.0 * session
     count = len(session)
     values, design = rng.normal(size=(count, 6)), rng.normal(size=(count, 6, 4))
     sizes, weight, share = rng.uniform(0.5, 2.0, 6), rng.uniform(0.1, 1.0, count), rng.uniform(0.5, 1.0, count)
@@ -132,7 +134,7 @@ def test_forces_and_moments_are_stacked_axis_by_axis_in_time(sessions: tuple[int
         np.testing.assert_allclose(group.values, values[group.order, axis] / sizes[axis])
         np.testing.assert_allclose(group.design, design[group.order, axis] / sizes[axis][:, None])
         np.testing.assert_allclose(group.line.share, (share * weight)[group.order])
-        np.testing.assert_allclose(2.0 * group.line.time_s, time[group.order])
+        np.testing.assert_allclose((step_s or 1.0) * group.line.time_s, time[group.order])
         # slow noise goes on within one axis of one power-up, whose rows stand together
         chains = list(zip(axis, session[group.order], strict=True))
         for k, chain in enumerate(group.line.recording):
