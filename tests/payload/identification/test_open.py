@@ -70,6 +70,28 @@ def test_an_unknown_has_part_in_a_direction_by_its_share_of_the_largest(bias: fl
     assert words.split(":")[0] == f"the mass of 'tool'{tilt} and the bias along x are told only together"
 
 
+@pytest.mark.parametrize("kind", [Kind.BIAS, Kind.DRIFT])
+@pytest.mark.parametrize("sessions", [["morning"], ["morning", "noon"]])
+def test_an_open_bias_is_named_by_its_axes_and_power_up(kind: Kind, sessions: list[str]) -> None:
+    """A force along and a moment about its axis; several at once as forces, as moments, or as both."""
+    owner = len(sessions) - 1
+    listed = [Parameter(kind=kind, owner=owner, component=k, name=f"{kind} {k}") for k in range(6)]
+    problem = SimpleNamespace(loads=[], sessions=sessions)
+    session = " of session 'noon'" if owner else ""
+    for components, words in (
+        *(((k,), f"along {axis}") for k, axis in enumerate("xyz")),
+        *(((3 + k,), f"about {axis}") for k, axis in enumerate("xyz")),
+        ((0, 2), "in force"),
+        ((3, 4), "in moment"),
+        ((2, 3), "in force and moment"),
+    ):
+        fitted = SimpleNamespace(
+            guess=SimpleNamespace(parameters=listed), problem=problem, unobservable=np.eye(6)[:, components]
+        )
+        (text,) = _untold(cast("Fit", fitted))
+        assert text.startswith(f"the {kind}{session} {words} is not told: ")
+
+
 def test_poses_that_turn_leave_nothing_open() -> None:
     """Negative control; about one level axis is enough."""
     angle = np.linspace(0.0, 5.0, 12)
