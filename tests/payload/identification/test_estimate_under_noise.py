@@ -102,6 +102,22 @@ def test_what_no_row_tells_has_no_degree_of_freedom() -> None:
     assert second == np.inf
 
 
+@pytest.mark.parametrize(("noise", "least"), [(0.0, True), (1e-8, False)])
+def test_exact_rows_have_noise_of_a_ten_billionth_of_their_size(noise: float, least: bool) -> None:
+    """So that they have a covariance; noise above it is what 30 values less two unknowns say."""
+    rng = np.random.default_rng(9)
+    design, truth = rng.normal(size=(COUNT, 6, 2)), np.array([1.0, 2.0])
+    error = noise * rng.normal(size=(COUNT, 6))
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)))
+    groups = groups_of(rows, design, design @ truth + error, np.ones(6), np.ones(COUNT))
+    result = estimate(groups, np.eye(2), (np.zeros((2, 2)), np.zeros(2)), (WHITE,))
+    np.testing.assert_allclose(result.mean, truth, atol=max(noise, 1e-14))
+    for axes, variance in zip((slice(3), slice(3, 6)), result.variances, strict=True):
+        columns, own = design[:, axes].reshape(-1, 2), error[:, axes].ravel()
+        left = own - columns @ np.linalg.lstsq(columns, own, rcond=None)[0]
+        assert variance == pytest.approx((30 * 1e-20 if least else left @ left) / 28, rel=1e-6)
+
+
 def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
     """Forces and moments apart; exact rows have the size 1."""
     residual = np.array([[3.0, 0.1, 1.0, 0.0, 0.0, 0.0], [-3.0, 0.1, -1.0, 0.0, 0.0, 0.0]])
