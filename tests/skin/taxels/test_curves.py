@@ -14,7 +14,7 @@ from scipy.optimize import least_squares
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.skin.taxels.curve_comparison import calibrated_taxel
+from forcetorque.skin.taxels.curve_comparison import HeldOutErrors, calibrated_taxel
 from forcetorque.skin.taxels.taxel_curve import CurveKind, _capacitor, _logarithmic, _slope, fit_curve
 
 FALL = np.arange(0.0, 61.0)
@@ -180,3 +180,14 @@ def test_least_squares_weigh_each_message_alike() -> None:
         best = least_squares(left, [wanted.max(), 0.5], x_scale=[wanted.max(), 1.0], xtol=1e-14, ftol=1e-14).x
         np.testing.assert_allclose(curve.coefficients, best, rtol=1e-4)
         assert best[1] > 0.05
+
+
+def test_a_taxel_that_is_left_out_has_no_error_and_adds_none() -> None:
+    """By hand, inside and above the fitted pressures: no root mean square of its own, and no share of that of a sum."""
+    errors = HeldOutErrors(squares=np.array([[4.0, 9.0], [16.0, 50.0]]), numbers=np.array([[1.0, 1.0], [4.0, 2.0]]))
+    np.testing.assert_allclose(errors.rmse, [[2.0, 3.0], [2.0, 5.0]])
+    left = errors.of(np.array([True, False]))
+    np.testing.assert_allclose(left.rmse, [[2.0, np.nan], [2.0, np.nan]])
+    np.testing.assert_allclose((left + errors).rmse, errors.rmse)
+    assert left.median() == (2.0, 2.0)
+    assert errors.of(np.array([False, False])).median() == (None, None)
