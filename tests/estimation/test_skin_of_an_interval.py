@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is said of contacts on skin over an interval: rows, warnings, and estimates that hold them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.base.arrays import FloatArray
+from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.estimation.result import skin_rows, skin_warnings
+from forcetorque.estimation.skin_contacts import SkinSource, with_skin
+from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates
+from forcetorque.estimation.uncertain.sub_model_posterior import Undetermined
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.offsets import corrections_of
+from forcetorque.recording.recording import Use
+from forcetorque.robot.contacts import Contact, ContactType
+from tests.scenes.experiments import TWO
+
+
+def _on_skin(name: str, there: list[bool], force: list[list[float]], **fields: Any) -> SkinSource:
+    """A contact at the origin of the hand where it is there; moments of 100 N m, which no force counts."""
+    touches = np.array(there)
+    return SkinSource(
+        contact=Contact(link="hand", name=name, type=ContactType.KNOWN),
+        wrench=np.hstack([force, np.full((len(there), 3), 100.0)]),
+        covariance=np.zeros((len(there), 6, 6)),
+        tangents=None,
+        centre=np.where(touches[:, None], np.zeros((len(there), 3)), np.nan),
+        **{"beyond_range": np.zeros(len(there), dtype=np.bool_), "identity": touches.astype(np.int64), **fields},
+    )
+
+
+def _uncertain(names: tuple[str, ...], force: FloatArray, sd: FloatArray) -> UncertainEstimates:
+    """Forces of contacts and their standard deviations, moments of 100 N m; one joint and its torque."""
+    n, count = force.shape[:2]
+    deviations = np.concatenate([sd, np.full((n, count, 3), 100.0)], axis=2)
+    return UncertainEstimates(
+        contacts=names,
+        contact_wrenches=np.concatenate([force, np.full((n, count, 3), 100.0)], axis=2),
+        contact_covariance=deviations[:, :, :, None] ** 2 * np.eye(6),
+        joints=("shoulder_yaw",),
+        torques=np.arange(float(n))[:, None],
+        torque_covariance=np.ones((n, 1, 1)),
+        torque_lasting=np.zeros((n, 1, 0)),
+        parts=(),
+        residual=np.zeros((n, 0, 6)),
+        rank=np.zeros(n, dtype=np.int64),
+        condition=np.full(n, np.nan),
+        undetermined=(Undetermined(contacts=names, samples=np.arange(n) == 1, directions=("1 N at 'palm'",)),),
+    )
+
+
+def _span(skin: tuple[SkinSource, ...], uncertain: UncertainEstimates | None, use: Use = Use.CALIBRATION) -> Any:
+    n = 4
+    return SimpleNamespace(
+        interval=SimpleNamespace(label="push", use=use), stamp_ns=np.arange(n), skin=skin, uncertain=uncertain
+    )
+
+
+def test_the_row_of_a_contact_on_skin_by_hand() -> None:
+    """Norms of 5, 2 and 10 N where it touches, of which the second is not determined with its tangential part."""
+    beyond, identity = np.array([True, False, True, True]), np.array([7, 7, 0, 3])
+    force = [[3.0, 4.0, 0.0], [0.0, 0.0, 2.0], [0.0, 0.0, 0.0], [0.0, 6.0, 8.0]]
+    palm = _on_skin("palm", [True, True, False, True], force, beyond_range=beyond, identity=identity)
+    told = np.array([[6.0, 8.0, 0.0], [np.nan] * 3, [1.0, 1.0, 1.0], [0.0, 0.0, 20.0]])[:, None]
+    sd = np.array([[1.0, 2.0, 2.0], [np.nan] * 3, [9.0, 9.0, 9.0], [3.0, 4.0, 0.0]])[:, None]
+    (row,) = skin_rows(_span((palm,), _uncertain(("palm",), told, sd)))
+    assert (row.interval, row.contact, row.identities, row.samples) == ("push", "palm", (3, 7), 3)
+    assert row.beyond_range == 2
+    assert row.push_mean_N == pytest.approx(17.0 / 3.0)
+    assert (row.force_mean_N, row.force_sd_N) == (pytest.approx(15.0), pytest.approx(np.sqrt((9.0 + 25.0) / 2.0)))
+    (row,) = skin_rows(_span((palm,), _uncertain(("palm",), np.nan * told, np.nan * sd)))
+    assert (row.push_mean_N, row.force_mean_N, row.force_sd_N) == (pytest.approx(17.0 / 3.0), None, None)
+    # one that never touches has no row, nor has any without covariances
+    away = _on_skin("shin", 4 * [False], 4 * [[0.0, 0.0, 0.0]])
+    both = _uncertain(("shin", "palm"), np.repeat(told, 2, axis=1), np.repeat(sd, 2, axis=1))
+    assert [row.contact for row in skin_rows(_span((away, palm), both))] == ["palm"]
+    assert list(skin_rows(_span((palm,), None))) == []
+
+
+def test_warnings_about_skin_count_samples_of_any_contact() -> None:
+    """By hand: of four samples one contact touches in two, another in one of them and in a third."""
+    force = 4 * [[0.0, 0.0, 1.0]]
+    palm = _on_skin("palm", [True, True, False, False], force)
+    back = _on_skin("back", [False, True, True, False], force, beyond_range=np.array([False, True, False, False]))
+    uncertain = _uncertain(("palm", "back"), np.ones((4, 2, 3)), np.ones((4, 2, 3)))
+    hidden, beyond, rest, exact = skin_warnings(_span((palm, back), uncertain), ("tool_ft",), ("arm",))
+    assert hidden.startswith("push: not determined in 1 of 4 samples: no reading changes with 1 N at 'palm'")
+    assert beyond.startswith("push: 'back' presses a taxel beyond what it was calibrated for in 1 of 4 samples")
+    assert rest.startswith("push: skin is touched in 3 of 4 samples of a calibration interval, and the offset of arm")
+    assert exact.startswith("push: readings of tool_ft count as exact")
+    judged = skin_warnings(_span((palm, back), uncertain, Use.VALIDATION), (), ("arm",))
+    assert list(judged) == [hidden, beyond]
+    assert list(skin_warnings(_span((palm, back), None), ("tool_ft",), ("arm",))) == []
+
+
+def test_skin_takes_the_place_of_contacts_and_torques_by_name(intact: Path) -> None:
+    """In the order of the plain estimates, and nothing else changes."""
+    experiment = load_experiment(intact / TWO)
+    plain = estimate_experiment(experiment, corrections_of(experiment, {}))[0].estimates
+    names, n = plain.layout.contacts, len(plain)
+    assert len(names) > 1
+    order = (*names[::-1], "palm")
+    force = np.random.default_rng(3).normal(size=(n, len(order), 3))
+    uncertain = replace(_uncertain(order, force, force), joints=plain.layout.joints, torques=plain.torques + 1.0)
+    together = with_skin(plain, uncertain)
+    for name in names:
+        np.testing.assert_array_equal(together.contact(name), uncertain.contact(name))
+    np.testing.assert_array_equal(together.torques, plain.torques + 1.0)
+    for name in ("expected", "residual", "rank"):
+        np.testing.assert_array_equal(getattr(together, name), getattr(plain, name))
