@@ -9,19 +9,23 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.estimation.estimate import estimate_experiment
+from forcetorque.estimation.estimates_file import write_estimates
 from forcetorque.estimation.result import skin_rows, skin_warnings
-from forcetorque.estimation.skin_contacts import SkinSource, with_skin
+from forcetorque.estimation.skin_contacts import SkinSource, uncertainty_of, with_skin
 from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates
+from forcetorque.estimation.uncertain.input_errors import Tangents
 from forcetorque.estimation.uncertain.sub_model_posterior import Undetermined
+from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.offsets import corrections_of
 from forcetorque.recording.recording import Use
-from forcetorque.robot.contacts import Contact, ContactType
-from tests.scenes.experiments import TWO
+from forcetorque.robot.contacts import Contact, ContactType, Wrenches
+from tests.scenes.experiments import PARQUET, TWO
 
 
 def _on_skin(name: str, there: list[bool], force: list[list[float]], **fields: Any) -> SkinSource:
@@ -30,10 +34,14 @@ def _on_skin(name: str, there: list[bool], force: list[list[float]], **fields: A
     return SkinSource(
         contact=Contact(link="hand", name=name, type=ContactType.KNOWN),
         wrench=np.hstack([force, np.full((len(there), 3), 100.0)]),
-        covariance=np.zeros((len(there), 6, 6)),
         tangents=None,
         centre=np.where(touches[:, None], np.zeros((len(there), 3)), np.nan),
-        **{"beyond_range": np.zeros(len(there), dtype=np.bool_), "identity": touches.astype(np.int64), **fields},
+        **{
+            "covariance": np.zeros((len(there), 6, 6)),
+            "beyond_range": np.zeros(len(there), dtype=np.bool_),
+            "identity": touches.astype(np.int64),
+            **fields,
+        },
     )
 
 
@@ -116,3 +124,54 @@ def test_skin_takes_the_place_of_contacts_and_torques_by_name(intact: Path) -> N
     np.testing.assert_array_equal(together.torques, plain.torques + 1.0)
     for name in ("expected", "residual", "rank"):
         np.testing.assert_array_equal(getattr(together, name), getattr(plain, name))
+
+
+def test_columns_of_a_contact_on_skin(intact: Path, tmp_path: Path) -> None:
+    """Wrench, place and number where it touches, and every standard deviation but those of zero."""
+    experiment = load_experiment(intact / PARQUET)
+    span = estimate_experiment(experiment, corrections_of(experiment, {}))[0]
+    n, names = len(span.stamp_ns), ("palm", "base")
+    touches, number = np.arange(n) % 3 > 0, np.arange(n, dtype=np.int64) + 5
+    force, sd = np.random.default_rng(4).normal(size=(2, n, 2, 3))
+    palm = _on_skin("palm", touches.tolist(), force[:, 0].tolist(), identity=touches * number)
+    variances = np.where(np.arange(n) < 2, 0.0, 4.0)[:, None, None]
+    uncertain = replace(_uncertain(names, force, np.abs(sd)), torque_covariance=variances)
+    write_estimates(tmp_path / "out.parquet", experiment, [replace(span, skin=(palm,), uncertain=uncertain)])
+    table = pq.read_table(tmp_path / "out.parquet")
+    for k, axis in enumerate("xyz"):
+        np.testing.assert_array_equal(table.column(f"contact.palm.f{axis}").to_numpy(), force[:, 0, k])
+        np.testing.assert_array_equal(np.isnan(table.column(f"centre.palm.{axis}").to_numpy()), ~touches)
+        for contact, name in enumerate(names):
+            column = table.column(f"sd.contact.{name}.f{axis}").to_numpy()
+            np.testing.assert_allclose(column, np.abs(sd[:, contact, k]), rtol=1e-12)
+    assert table.column("identity.palm").to_pylist() == [5 + k if k % 3 else None for k in range(n)]
+    assert table.column("sd.torque.shoulder_yaw").to_pylist() == [None, None, *(n - 2) * [2.0]]
+    assert table.column("determined").to_pylist() == [k != 1 for k in range(n)]
+
+
+def test_readings_are_as_uncertain_as_the_calibration_predicts_for_them(intact: Path) -> None:
+    """Sample by sample with the offset of their session, a gap for a gap; a sensor without a posterior is exact."""
+    experiment = load_experiment(intact / TWO)
+    fitted = read_calibration(intact / "fitted.json")
+    corrections = corrections_of(experiment, {"fitted.json": fitted})
+    posterior = fitted.posterior
+    assert posterior is not None
+    readings = 10.0 * np.random.default_rng(5).normal(size=(4, 2, 6))
+    readings[1, 0, 2] = np.nan
+    measured = Wrenches(names=("arm_ft", "tool_ft"), values=readings)
+    palm = _on_skin("palm", 4 * [True], 4 * [[0.0, 0.0, 1.0]], covariance=np.arange(4.0)[:, None, None] * np.eye(6))
+    slipping = replace(palm, contact=Contact(link="hand", name="back"), tangents=Tangents(maps=np.ones((4, 6, 2))))
+    uncertainty = uncertainty_of(experiment, corrections, (palm, slipping), measured, label="fit")
+    (name,) = uncertainty.measured
+    assert name == "arm_ft"
+    (session,) = posterior.sessions
+    for k in (0, 2, 3):
+        predicted = posterior.error_covariance(readings[k, 0], session=session)
+        np.testing.assert_allclose(uncertainty.measured[name][k], predicted, rtol=1e-12)
+        # negative control: a session that the calibration does not know has no error of its offset
+        unknown = posterior.error_covariance(readings[k, 0])
+        assert np.trace(predicted - unknown) > 1e-6 * np.trace(predicted)
+    assert np.isnan(uncertainty.measured[name][1]).all()
+    assert list(uncertainty.known) == ["palm", "back"]
+    np.testing.assert_array_equal(uncertainty.known["palm"], palm.covariance)
+    assert list(uncertainty.tangents) == ["back"]
