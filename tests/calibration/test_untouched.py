@@ -13,7 +13,13 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration import contact_windows
-from forcetorque.calibration.contact_windows import Disagreeing, _loses_direction, _mean_variance, agreeing_samples
+from forcetorque.calibration.contact_windows import (
+    Disagreeing,
+    _loses_direction,
+    _mean_variance,
+    _residual,
+    agreeing_samples,
+)
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
@@ -245,3 +251,28 @@ def test_noise_of_a_window_is_that_of_its_quarters_on_any_clock(start_s: float) 
     data = DataSet(label="log", raw=error, reference=error, time_s=time_s, session="day", recording="log")
     variance = _mean_variance(data, error, data.window)
     np.testing.assert_allclose(variance, np.tile(quarters.var(axis=0, ddof=1) / 4.0, (30, 1)), rtol=1e-9)
+
+
+def test_what_a_window_may_leave_for_errors_of_the_model_by_hand() -> None:
+    """A quarter of a degree of force and moment, and a millimetre of lever; what is left is about 21 windows around."""
+    time_s, force, moment = np.arange(40.0 * 4) / 4.0, np.array([3.0, 4.0, 12.0]), np.array([0.6, 0.0, 0.8])
+    size = 1.0 + np.floor(time_s)[:, None] / 10.0
+    loads, slope = size * np.concatenate([force, moment]), np.arange(1.0, 7.0)
+    flattening = np.tile([0.3, 0.0, 0.0, 0.0, 0.0, 0.6], (len(time_s), 1))
+    error = np.floor(time_s)[:, None] * slope
+    data = DataSet(
+        label="log",
+        raw=(loads + flattening / 3.0 + error) @ np.linalg.inv(PRIOR).T,
+        reference=loads,
+        flattening=flattening,
+        time_s=time_s,
+        session="day",
+        recording="log",
+    )
+    left, least = _residual(data, WindowMeans.of(data), None, PRIOR)
+    # the medians of 21 windows of a ramp are those of its middle, and at the ends those of the first and last 21
+    middle = np.clip(np.arange(40), 10, 29)
+    np.testing.assert_allclose(left, (np.arange(40) - middle)[:, None] * slope, atol=1e-9)
+    turned = np.radians(0.25)
+    of_window = size[::4] * np.repeat([13.0 * turned, 1.0 * turned + 13.0 * 0.001], 3)
+    np.testing.assert_allclose(least, of_window, rtol=1e-9)
