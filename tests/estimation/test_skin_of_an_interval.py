@@ -13,10 +13,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.base.errors import ExperimentError
 from forcetorque.estimation.estimate import estimate_experiment
 from forcetorque.estimation.estimates_file import write_estimates
 from forcetorque.estimation.result import skin_rows, skin_warnings
-from forcetorque.estimation.skin_contacts import SkinSource, uncertainty_of, with_skin
+from forcetorque.estimation.skin_contacts import SkinSource, clock_stream, uncertainty_of, with_skin
 from forcetorque.estimation.uncertain.estimate_with_covariance import UncertainEstimates
 from forcetorque.estimation.uncertain.input_errors import Tangents
 from forcetorque.estimation.uncertain.sub_model_posterior import Undetermined
@@ -124,6 +125,25 @@ def test_skin_takes_the_place_of_contacts_and_torques_by_name(intact: Path) -> N
     np.testing.assert_array_equal(together.torques, plain.torques + 1.0)
     for name in ("expected", "residual", "rank"):
         np.testing.assert_array_equal(getattr(together, name), getattr(plain, name))
+
+
+def test_the_first_patch_with_a_table_keeps_time_where_there_is_no_sensor() -> None:
+    """Its taxels are the stream at whose instants is estimated; a patch without a table feels no force."""
+
+    def stream(sensors: list[str], **tables: str | None) -> Any:
+        patches = [SimpleNamespace(counts=f"taxels of {name}", table=table) for name, table in tables.items()]
+        experiment: Any = SimpleNamespace(
+            name="leg",
+            sensors=[SimpleNamespace(stream=name) for name in sensors],
+            recording=SimpleNamespace(stream=str.upper),
+            section=lambda key: SimpleNamespace(patches=patches),
+        )
+        return clock_stream(experiment)
+
+    assert stream([], shin=None, calf="calf.json", foot="foot.json") == "TAXELS OF CALF"
+    assert stream(["foot_ft", "hip_ft"], calf="calf.json") == "FOOT_FT"
+    with pytest.raises(ExperimentError, match=r"'leg': expected \[\[sensor\]\], or a \[\[patch\]\] with a table"):
+        stream([], shin=None)
 
 
 def test_columns_of_a_contact_on_skin(intact: Path, tmp_path: Path) -> None:
