@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -149,3 +150,17 @@ def test_a_share_of_full_scale_is_of_what_channels_read_where_none_is_stated(arm
             np.sqrt((case.wrench**2).mean(axis=0)), 0.05 * scale / np.sqrt(3.0), rtol=STATISTICAL
         )
         assert case.words == "up to 5 % of full scale in all components at once"
+
+
+@pytest.mark.parametrize("share", [1.37, 4.9, 23.0])
+def test_pushes_that_the_sensor_can_read_are_the_strongest_of_two_digits(intact: Path, share: float) -> None:
+    """Where the default ones are beyond its full scale: two digits that are at most a tenth below what it can read."""
+    run = SensorRun(load_experiment(intact / PARQUET), "arm_ft")
+    (usual,) = operating_load_cases([run])
+    sensor = replace(run.sensor, full_scale=np.abs(usual.wrench).max(axis=0) / share)
+    (case,) = operating_load_cases([SensorRun(replace(run.experiment, sensors=(sensor,)), "arm_ft")])
+    (table,) = tomllib.loads(case.readable)["load_case"]
+    assert (table["name"], table["radius_m"]) == ("push", 0.3)
+    force, largest = table["force_N"], usual.force_N / share
+    assert force == float(f"{force:.1e}")
+    assert force <= largest < 1.1 * force

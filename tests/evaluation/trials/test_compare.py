@@ -205,6 +205,15 @@ def test_what_is_not_known_stands_in_brackets() -> None:
     assert not any("(" in cells for cells in tables[DRIFT].rows[0][2:])
 
 
+def test_a_trial_without_the_model_has_dashes_in_its_place() -> None:
+    """One dash for each error and for the index with the model; the index without it is there."""
+    force = _trial(np.random.default_rng(9), 3.0).sphere.force
+    alone = replace(_trial(np.random.default_rng(9), 3.0), sphere=sphere_of(force, None))
+    result, tables, _ = _compared(alone)
+    (row,) = tables["every trial; errors with the model, index with and without it"].rows
+    assert row == ("leg_ft", "SN1", "-", "-", "-", "-", f"{result.trials[0].without_model.index_kg:.4f}")
+
+
 def test_conditions_stand_beside_each_other_and_are_ranked() -> None:
     """The less even sensor comes last; a shorter column ends in dashes, and an only trial has no pooled fit."""
     rng = np.random.default_rng(8)
