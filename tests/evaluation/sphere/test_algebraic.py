@@ -192,6 +192,7 @@ def test_a_part_of_a_cloud_is_fitted_about_any_middle(fit: object) -> None:
     np.testing.assert_allclose(found.centre, alone.centre, rtol=AGREEMENT)
     form, same = (one.shape if isinstance(one, Quadrics) else one.bend for one in (found, alone))
     np.testing.assert_allclose(form, same, rtol=0.0, atol=AGREEMENT * np.abs(same).max())
+    assert np.abs(same).max() > 0.0
     # negative control: the other half has another middle
     other = fit(whole(moments.sums[len(moments.sums) // 2 :]), moments)  # type: ignore[operator]
     assert np.abs(other.centre - alone.centre).max() > 0.01
