@@ -70,6 +70,20 @@ def test_calibrations_show_themselves(warm_log: Path, variables: tuple[str, ...]
     assert ("what one unit of a variable adds" in calibrations.text(120)) is bool(variables)
 
 
+def test_the_first_sentence_has_the_largest_accuracy_of_force_and_of_moment(intact: Path) -> None:
+    """Of the reference; without any, as with known loads, the repeatability stands alone."""
+    fitted = read_calibration(intact / "fitted.json")
+    assert fitted.posterior is not None
+    for accuracy, words in (
+        ([0.1, 0.3, 0.2, 0.9, 0.05, 0.4], "accuracy of the reference 0.3 N and 0.9 N m, repeatability 0.002"),
+        (np.zeros(6), "generative model, repeatability 0.002"),
+    ):
+        posterior = fitted.posterior.model_copy(update={"accuracy": np.array(accuracy), "repeatability": 0.002})
+        sentence = next(iter(calibration_blocks(fitted.model_copy(update={"posterior": posterior}))))
+        assert isinstance(sentence, str)
+        assert sentence.endswith(words)
+
+
 def test_tables_of_a_calibration_are_its_numbers(intact_warm: Path) -> None:
     """Read back from their cells: matrix per 1000 counts, what a degree adds, drift per hour, and raw directions.
 

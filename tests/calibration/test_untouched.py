@@ -21,6 +21,7 @@ from forcetorque.calibration.contact_windows import (
     agreeing_samples,
 )
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.moments_of_samples import _within
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.study.candidate_errors import push_error
@@ -276,3 +277,24 @@ def test_what_a_window_may_leave_for_errors_of_the_model_by_hand() -> None:
     turned = np.radians(0.25)
     of_window = size[::4] * np.repeat([13.0 * turned, 1.0 * turned + 13.0 * 0.001], 3)
     np.testing.assert_allclose(least, of_window, rtol=1e-9)
+
+
+def test_spans_end_where_the_samples_of_their_interval_do() -> None:
+    """Of another interval they are not cut; a span without any of its samples is none."""
+    short, long = (
+        DataSet(label=label, raw=np.zeros((11, 6)), reference=np.zeros((11, 6)), time_s=np.linspace(*ends, 11))
+        for label, ends in (("short", (10.0, 20.0)), ("long", (0.0, 90.0)))
+    )
+    spans = [
+        Disagreeing(label=label, start_s=start_s, end_s=end_s, force_N=1.0, moment_Nm=0.1)
+        for label, start_s, end_s in (
+            ("short", 8.0, 12.0),
+            ("short", 14.0, 15.0),
+            ("short", 20.0, 22.0),
+            ("short", 20.5, 22.0),
+            ("short", 8.0, 9.5),
+            ("long", 8.0, 95.0),
+        )
+    ]
+    cut = [(span.label, span.start_s, span.end_s) for span in _within([short, long], spans)]
+    assert cut == [("short", 10.0, 12.0), ("short", 14.0, 15.0), ("short", 20.0, 20.0), ("long", 8.0, 90.0)]
