@@ -110,12 +110,6 @@ class PartWindows:
         return means.reshape(len(self), LOADS, LOADS * len(self.slopes))
 
     @property
-    def spread(self) -> FloatArray:
-        """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
-        weighted = (WEIGHTS / self.counts[:, None])[:, :, None, None, None] * self.transmission
-        return np.einsum("wnkia,wnkib->wkiab", weighted, self.transmission)
-
-    @property
     def columns(self) -> FloatArray:
         """Coefficients of all that is unknown: changes, offsets, slopes, errors of the model; shape (w, 6, p)."""
         return np.concatenate([self.changes, self.offsets, self.of_slopes, self.errors], axis=2)
