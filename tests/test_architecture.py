@@ -17,7 +17,8 @@ from pathlib import Path
 import pytest
 
 import forcetorque
-from forcetorque.results.capability import all_named, named
+from forcetorque.base.lazy import named
+from forcetorque.results.capability import all_named
 
 KERNEL = ("base", "recording", "robot", "formats", "experiment", "results")
 """What every capability stands on."""

@@ -21,6 +21,9 @@ import pytest
 
 from forcetorque.app.python.experiment import load_experiment
 from forcetorque.experiment.calibration.calibration_file import write_calibration
+from forcetorque.formats import registry
+from forcetorque.formats.registry import LOG_FORMATS
+from tests.scenes.experiments import PARQUET, YARP, write_experiments
 
 ROOT = Path(__file__).resolve().parents[1]
 RUNS = 3
@@ -33,6 +36,10 @@ atexit.register(lambda: sys.stderr.write("MODULES " + " ".join(sys.modules) + "\
 """
 UNUSED = ("matplotlib", "pandas", "scipy.signal", "scipy.spatial", "scipy.stats", "scipy.optimize", "numba")
 """What neither of the commands below has a use for."""
+
+
+MOST_MODULES = 172
+"""Modules of the library that an evaluation may load; 257 when all log formats were loaded."""
 
 
 @pytest.fixture(scope="module")
@@ -109,6 +116,30 @@ def test_a_first_log_is_drafted_without_what_it_does_not_use(bytecode: dict[str,
     _command(
         bytecode, unused, "init", tutorial / "log.csv", "--urdf", tutorial / "robot.urdf", "-o", tmp_path / "new.toml"
     )
+
+
+def _format_modules(modules: set[str]) -> set[str]:
+    """Modules of log formats, that of the registry apart."""
+    return modules.intersection(reference.partition(":")[0] for reference in LOG_FORMATS.values()) - {registry.__name__}
+
+
+@pytest.mark.parametrize(("file", "formats"), [(YARP, {"forcetorque.formats.yarp.log_format"}), (PARQUET, set())])
+def test_an_evaluation_loads_one_log_format(
+    bytecode: dict[str, str], tmp_path: Path, file: str, formats: set[str]
+) -> None:
+    """That of the log, and of the whole library no more modules than `MOST_MODULES`."""
+    write_experiments(tmp_path)
+    arm = tmp_path / "arm.json"
+    write_calibration(arm, load_experiment(tmp_path / file)["arm_ft"].calibrate())
+    _, modules = _run(_START, bytecode, "evaluate", tmp_path / file, "-c", arm)
+    assert _format_modules(modules) == formats
+    assert sum(module.startswith("forcetorque.") for module in modules) <= MOST_MODULES
+
+
+def test_a_schema_loads_all_log_formats(bytecode: dict[str, str]) -> None:
+    """Negative control: what has the tables of all formats loads them."""
+    _, modules = _run(_START, bytecode, "schema", "experiment")
+    assert len(_format_modules(modules)) == len({*LOG_FORMATS.values()}) - 3  # three share a file, one is the project's
 
 
 @pytest.mark.long

@@ -14,31 +14,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment.experiment_file import ExperimentFile, experiment_file
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.formats import registry as formats
 from forcetorque.recording.storage import read_recording
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, YARP, edit
-from tests.toys.log import FILE, ToyFormat, write_toy
+from tests.toys.log import FILE, write_toy
 
 TOY = 'format = "toy"\npath = "toy"\nstream = ["arm_ft", "joints"]\n'
 
 
 @pytest.fixture
 def added(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """The line of the registry; schemas are built once, with the import of their module, so here once more."""
+    """The line of the registry."""
     with monkeypatch.context() as patch:
-        patch.setattr(formats, "LOG_FORMATS", (*formats.LOG_FORMATS, ToyFormat()))
-        _rebuild()
+        patch.setattr(formats, "LOG_FORMATS", {**formats.LOG_FORMATS, "toy": "tests.toys.log:ToyFormat"})
         yield
-    _rebuild()
-
-
-def _rebuild() -> None:
-    ExperimentFile.model_rebuild(force=True)
-    experiment_file.cache_clear()
 
 
 @pytest.fixture
@@ -70,7 +62,7 @@ def test_the_schema_has_its_table(run: Run, toy: Path) -> None:
     """Files of the new format fit, damaged ones do not, and those of the other formats still do."""
     schema = run("schema", "experiment").result()
     known = set(schema["properties"]["recording"]["discriminator"]["mapping"])
-    assert known == {*map(formats.format_name, formats.LOG_FORMATS)} >= {"yarp", "matlab", "toy"}
+    assert known == {*formats.LOG_FORMATS} >= {"yarp", "matlab", "toy"}
     content = tomllib.loads(toy.read_text(encoding="utf-8"))
     assert faults(content, schema) == []
     assert faults({**content, "recording": {**content["recording"], "stream": []}}, schema) != []
@@ -90,7 +82,7 @@ def test_it_is_inspected(run: Run, toy: Path, log: str) -> None:
 def test_messages_name_it(run: Run, toy: Path, arm: Path) -> None:
     """An unknown format, an unknown key of its table, a folder of no log and one of two."""
     edit(arm / YARP, 'format = "yarp"', 'format = "rosbag"')
-    names = ", ".join(repr(formats.format_name(known)) for known in formats.LOG_FORMATS)
+    names = ", ".join(map(repr, formats.LOG_FORMATS))
     assert names.endswith(", 'toy'")
     assert names in run("inspect", arm / YARP).error()
     (arm / "empty").mkdir()

@@ -14,7 +14,7 @@ import pytest
 from forcetorque.app.command_line import whole_program
 from forcetorque.base.errors import ForceTorqueError
 from forcetorque.experiment.named_files import Inputs
-from forcetorque.formats.registry import LOG_FORMATS, format_name
+from forcetorque.formats.registry import LOG_FORMATS, format_named
 from forcetorque.formats.ros.log_format import RosFormat
 from tests.app.commands import typed_commands
 from tests.app.outcome import typed
@@ -46,11 +46,11 @@ def test_no_command_waits_for_its_file(pipe: Path, command: str) -> None:
     assert "Traceback" not in outcome.err
 
 
-@pytest.mark.parametrize("name", [*map(format_name, LOG_FORMATS)])
+@pytest.mark.parametrize("name", LOG_FORMATS)
 def test_no_format_waits_for_a_log(pipe: Path, name: str) -> None:
     """Where the user says which it is; in a folder with an index or a port beside it too."""
     assert typed("inspect", pipe, "--log-format", name).error()
-    (known,) = (known for known in LOG_FORMATS if format_name(known) == name)
+    known = format_named(name)
     assert not known.recognises(pipe)
 
 

@@ -21,11 +21,11 @@ import pytest
 
 from forcetorque.app.command_line import commands, whole_program
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.lazy import named
 from forcetorque.fleet.added_and_failed_recordings import add_recordings
 from forcetorque.fleet.sensor_record import AddOptions
 from forcetorque.plates.simulated_plates import SimulatedPlate, write_pole_trial, write_standing
 from forcetorque.results.answer import MOST_LINES
-from forcetorque.results.capability import named
 from forcetorque.results.command import command_of
 from forcetorque.results.result import Result
 from forcetorque.results.terminal import command_output as output

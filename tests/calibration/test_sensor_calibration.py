@@ -14,6 +14,7 @@ from forcetorque.app.python.experiment import load_experiment as interactive_exp
 from forcetorque.app.python.experiment_of_arrays import experiment_of_arrays
 from forcetorque.base.errors import FitError
 from forcetorque.calibration.calibrate import SensorCalibrations, calibrate_for_file, calibrate_sensor, data_doubts
+from forcetorque.calibration.summary import calibration_blocks
 from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -21,6 +22,7 @@ from forcetorque.formats.icub_matrix import encode_matrix, read_matrix_file, wri
 from forcetorque.inspection.findings import unreliable_intervals
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording
+from forcetorque.results.table import Table
 from tests.app.python.arrays import arrays_of
 from tests.results.showing import require_shown
 from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, add, edit, edit_lines, snapshot
@@ -66,6 +68,50 @@ def test_calibrations_show_themselves(warm_log: Path, variables: tuple[str, ...]
     calibrations = _calibrated(path, warm_log / "new.json")
     require_shown(calibrations)
     assert ("what one unit of a variable adds" in calibrations.text(120)) is bool(variables)
+
+
+def test_the_first_sentence_has_the_largest_accuracy_of_force_and_of_moment(intact: Path) -> None:
+    """Of the reference; without any, as with known loads, the repeatability stands alone."""
+    fitted = read_calibration(intact / "fitted.json")
+    assert fitted.posterior is not None
+    for accuracy, words in (
+        ([0.1, 0.3, 0.2, 0.9, 0.05, 0.4], "accuracy of the reference 0.3 N and 0.9 N m, repeatability 0.002"),
+        (np.zeros(6), "generative model, repeatability 0.002"),
+    ):
+        posterior = fitted.posterior.model_copy(update={"accuracy": np.array(accuracy), "repeatability": 0.002})
+        sentence = next(iter(calibration_blocks(fitted.model_copy(update={"posterior": posterior}))))
+        assert isinstance(sentence, str)
+        assert sentence.endswith(words)
+
+
+def test_tables_of_a_calibration_are_its_numbers(intact_warm: Path) -> None:
+    """Read back from their cells: matrix per 1000 counts, what a degree adds, drift per hour, and raw directions.
+
+    A direction is shown as the wrench of one standard deviation: their products add up to the covariance of wrenches.
+    """
+    warm = read_calibration(intact_warm / "warm.json")
+    (session,), validity = warm.sessions, warm.validity
+    drifting = session.model_copy(update={"name": "later", "drift_per_s": np.arange(1.0, 7.0) / 3600.0})
+    warm = warm.model_copy(update={"sessions": (session, drifting)})
+    matrix, variables, sessions, excitation = (one for one in calibration_blocks(warm) if isinstance(one, Table))
+    columns = len(warm.matrix.T)
+    cells = np.array([[float(cell) for cell in row[1 : columns + 1]] for row in matrix.rows])
+    np.testing.assert_allclose(cells, 1000.0 * warm.matrix, rtol=1e-3)
+    shown = np.array([[float(cell) for cell in row[-3::2]] for row in matrix.rows])
+    np.testing.assert_allclose(shown, np.column_stack([warm.offset, warm.residual_rms]), atol=5.1e-4)
+    (temperature,) = warm.variables
+    (row,) = variables.rows
+    assert row[2] == f"{temperature.minimum:.2f} to {temperature.maximum:.2f}"
+    np.testing.assert_allclose([float(cell.split()[0]) for cell in row[3:]], temperature.coefficients, atol=5.1e-5)
+    assert [row[0] for row in sessions.rows] == [session.name, "later", "later, added per hour"]
+    np.testing.assert_allclose([float(cell) for cell in sessions.rows[2][1:]], np.arange(1.0, 7.0), atol=5.1e-4)
+    wrenches = np.array([[float(cell) for cell in row[3:]] for row in excitation.rows])
+    raw = validity.directions.T @ np.diag(validity.variance_counts2) @ validity.directions
+    covariance = warm.matrix @ raw @ warm.matrix.T
+    np.testing.assert_allclose(wrenches.T @ wrenches, covariance, atol=1e-3 * np.abs(covariance).max())
+    np.testing.assert_allclose([float(row[2]) ** 2 for row in excitation.rows], validity.variance_counts2, rtol=0.02)
+    np.testing.assert_allclose([float(row[1][:-2]) for row in excitation.rows], 100 * validity.explained, atol=0.51)
+    assert {row[0] for row in excitation.rows} == {"yes" if excited else "NO" for excited in validity.excited}
 
 
 def test_sensors_are_put_together(arm: Path) -> None:

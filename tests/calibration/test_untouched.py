@@ -13,8 +13,15 @@ import pytest
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
 from forcetorque.calibration import contact_windows
-from forcetorque.calibration.contact_windows import Disagreeing, _loses_direction, _mean_variance, agreeing_samples
+from forcetorque.calibration.contact_windows import (
+    Disagreeing,
+    _loses_direction,
+    _mean_variance,
+    _residual,
+    agreeing_samples,
+)
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
+from forcetorque.calibration.moments_of_samples import _within
 from forcetorque.experiment.calibration.expected_sensor_errors import Assumptions
 from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.study.candidate_errors import push_error
@@ -245,3 +252,49 @@ def test_noise_of_a_window_is_that_of_its_quarters_on_any_clock(start_s: float) 
     data = DataSet(label="log", raw=error, reference=error, time_s=time_s, session="day", recording="log")
     variance = _mean_variance(data, error, data.window)
     np.testing.assert_allclose(variance, np.tile(quarters.var(axis=0, ddof=1) / 4.0, (30, 1)), rtol=1e-9)
+
+
+def test_what_a_window_may_leave_for_errors_of_the_model_by_hand() -> None:
+    """A quarter of a degree of force and moment, and a millimetre of lever; what is left is about 21 windows around."""
+    time_s, force, moment = np.arange(40.0 * 4) / 4.0, np.array([3.0, 4.0, 12.0]), np.array([0.6, 0.0, 0.8])
+    size = 1.0 + np.floor(time_s)[:, None] / 10.0
+    loads, slope = size * np.concatenate([force, moment]), np.arange(1.0, 7.0)
+    flattening = np.tile([0.3, 0.0, 0.0, 0.0, 0.0, 0.6], (len(time_s), 1))
+    error = np.floor(time_s)[:, None] * slope
+    data = DataSet(
+        label="log",
+        raw=(loads + flattening / 3.0 + error) @ np.linalg.inv(PRIOR).T,
+        reference=loads,
+        flattening=flattening,
+        time_s=time_s,
+        session="day",
+        recording="log",
+    )
+    left, least = _residual(data, WindowMeans.of(data), None, PRIOR)
+    # the medians of 21 windows of a ramp are those of its middle, and at the ends those of the first and last 21
+    middle = np.clip(np.arange(40), 10, 29)
+    np.testing.assert_allclose(left, (np.arange(40) - middle)[:, None] * slope, atol=1e-9)
+    turned = np.radians(0.25)
+    of_window = size[::4] * np.repeat([13.0 * turned, 1.0 * turned + 13.0 * 0.001], 3)
+    np.testing.assert_allclose(least, of_window, rtol=1e-9)
+
+
+def test_spans_end_where_the_samples_of_their_interval_do() -> None:
+    """Of another interval they are not cut; a span without any of its samples is none."""
+    short, long = (
+        DataSet(label=label, raw=np.zeros((11, 6)), reference=np.zeros((11, 6)), time_s=np.linspace(*ends, 11))
+        for label, ends in (("short", (10.0, 20.0)), ("long", (0.0, 90.0)))
+    )
+    spans = [
+        Disagreeing(label=label, start_s=start_s, end_s=end_s, force_N=1.0, moment_Nm=0.1)
+        for label, start_s, end_s in (
+            ("short", 8.0, 12.0),
+            ("short", 14.0, 15.0),
+            ("short", 20.0, 22.0),
+            ("short", 20.5, 22.0),
+            ("short", 8.0, 9.5),
+            ("long", 8.0, 95.0),
+        )
+    ]
+    cut = [(span.label, span.start_s, span.end_s) for span in _within([short, long], spans)]
+    assert cut == [("short", 10.0, 12.0), ("short", 14.0, 15.0), ("short", 20.0, 20.0), ("long", 8.0, 90.0)]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from forcetorque.device.components import Hinge, Turn, device_load, part_inertia
+from forcetorque.base.errors import SensorError
+from forcetorque.device.components import AttachedLoad, Hinge, Turn, device_load, part_inertia
 from forcetorque.device.device_file import read_device
 from forcetorque.device.robot_model import BASE, device_model
 from forcetorque.robot.dynamics import link_pose
@@ -101,3 +102,15 @@ def test_loads_are_stated_once() -> None:
     simulation = DEVICE.simulation.model_copy(update={"validation_kg": (35.0,)})
     with pytest.raises(ValidationError, match="expected each load once in loads_kg and validation_kg"):
         DEVICE.changed(simulation=simulation)
+
+
+@pytest.mark.parametrize(
+    ("mass_kg", "distance_m"),
+    [(0.0, 0.1), (-1.0, 0.1), (np.inf, 0.1), (np.nan, 0.1), (1.0, 0.0), (1.0, -0.1), (1.0, np.inf), (1.0, np.nan)],
+)
+def test_a_point_mass_is_in_front_of_the_hinge(mass_kg: float, distance_m: float) -> None:
+    """At the hinge it would hang at no position; the lightest and nearest one does."""
+    with pytest.raises(SensorError, match="expected a mass of more than 0 kg in front of the hinge, got"):
+        AttachedLoad.point(mass_kg, distance_m)
+    load = AttachedLoad.point(1e-3, 1e-3)
+    assert (load.mass_kg, load.centre_of_mass_m.tolist()) == (1e-3, [0.0, 0.0, 1e-3])

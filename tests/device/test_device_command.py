@@ -9,11 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.base.units import STANDARD_GRAVITY
 from forcetorque.device.commands import design_device
 from forcetorque.device.design import DeviceDesign
 from forcetorque.device.device_file import DEFAULT_DEVICE, read_device
 from forcetorque.device.excitation_and_predicted_errors import PLACEMENTS, predicted_rms
 from forcetorque.device.excitation_options import SAMPLES, sample_noise, workbench_loads
+from forcetorque.device.expected_wrench import device_response
 from forcetorque.device.simulated_recordings import write_device
 from forcetorque.experiment.calibration.calibration_file import read_calibration
 from forcetorque.robot.urdf import read_urdf
@@ -33,6 +35,10 @@ STACK = _TEXT[_TEXT.index("[[sensor]]") : _TEXT.index("[hinge]")]
 MOTIONS = ("12_steps", "12_steps_axes_swapped", "third_lock", "optimised")
 NOISE_N = 0.5
 """Mean norm of white noise of 3 counts of some 40 N per 1000 counts on three components, with a margin; N."""
+
+
+INERTIA = 0.01
+"""Share of the torques at rest that inertia adds at the speeds of the device, at most."""
 
 
 @pytest.fixture(scope="module")
@@ -100,6 +106,20 @@ def test_the_page_has_the_figures_of_the_options(design: DeviceDesign) -> None:
         assert cells[0] == f"24 positions, placed to {degrees:g} degree and {millimetres:g} mm"
         force, moment = predicted_rms(workbench_loads(placement, SAMPLES).matrix_error(sample_noise()))
         assert cells[4] == f"{force:#.2g} N, {moment:#.2g} N m"
+
+
+def test_compared_motions_have_the_torques_of_their_load(design: DeviceDesign) -> None:
+    """By hand: level, 25 kg turn yaw by their centre of mass; pitch holds what it holds at rest."""
+    third, optimised = design.span.motions
+    trajectory = design.span.trajectories["third lock"]
+    load, device = trajectory.load, trajectory.device
+    assert load.mass_kg == pytest.approx(25.0)
+    assert third.yaw_Nm == pytest.approx(STANDARD_GRAVITY * 25.0 * load.centre_of_mass_m[2], rel=INERTIA)
+    at_rest = device_response(device, load, trajectory.sequence.still_poses(device, load))
+    assert third.pitch_Nm == pytest.approx(np.abs(at_rest.torque("pitch")).max(), rel=INERTIA)
+    assert optimised.duration_s <= third.duration_s == trajectory.sampled(10.0)[0][-1]
+    (row,) = (row for row in design.span.options if row.motion == "third lock")
+    assert (third.force_N, third.moment_Nm) == pytest.approx((row.force_N, row.moment_Nm), rel=1e-9)
 
 
 @pytest.mark.long

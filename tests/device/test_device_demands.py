@@ -15,7 +15,7 @@ from forcetorque.device.demands import DeviceDemands, device_demands
 from forcetorque.device.device_file import DeviceHeat, DeviceMotion, DevicePosture, DeviceSimulation, read_device
 from forcetorque.device.error_budget import load_errors
 from forcetorque.device.motors_hinge_and_envelope import ARM_RADIUS_M, average_torque
-from forcetorque.device.requirements import RequirementRow, Verdict, _heat, requirement_rows
+from forcetorque.device.requirements import RequirementRow, Verdict, _heat, _time_to, requirement_rows
 from forcetorque.device.tolerances import Tolerance
 
 DEVICE = read_device()
@@ -260,3 +260,29 @@ def test_heat_reaches_what_is_put_in_over_what_is_lost(demands: DeviceDemands) -
     # the device of the thesis describes no heat
     (absent,) = _requirement(demands, 12)
     assert absent.verdict is Verdict.NOT_COMPUTED
+
+
+@pytest.mark.parametrize(
+    ("start_degC", "end_degC", "limit_degC"),
+    [(20.0, 60.0, 55.0), (55.0, 10.0, 15.0), (20.0, 55.01, 55.0), (54.99, 65.0, 55.0), (15.01, 10.0, 15.0)],
+)
+def test_at_the_time_to_a_limit_the_temperature_is_the_limit(
+    start_degC: float, end_degC: float, limit_degC: float
+) -> None:
+    """Up or down, also where start or end is a hundredth of a kelvin from it; time is printed with three digits."""
+    heat = DeviceHeat(heating_W=40.0, cooling_W=10.0, loss_W_per_K=2.0, capacity_J_per_K=600.0, ambient_degC=20.0)
+    time = re.fullmatch(r"there in (\S+) min", _time_to("there", heat, start_degC, end_degC, limit_degC))
+    assert time is not None
+    constants = 60.0 * float(time[1]) * 2.0 / 600.0
+    reached = end_degC + (start_degC - end_degC) * np.exp(-constants)
+    assert reached == pytest.approx(limit_degC, abs=0.005 * constants * abs(limit_degC - end_degC))
+
+
+def test_a_limit_that_is_not_on_the_way_is_never_reached() -> None:
+    """It lies beyond the end, or behind the start; where it is the start, it is reached already."""
+    heat = DeviceHeat(heating_W=40.0, cooling_W=10.0, loss_W_per_K=2.0, capacity_J_per_K=600.0, ambient_degC=20.0)
+    for start_degC, end_degC in ((20.0, 54.0), (56.0, 70.0), (70.0, 56.0), (54.0, 20.0), (20.0, 20.0)):
+        assert _time_to("there", heat, start_degC, end_degC, 55.0) == "never there", (start_degC, end_degC)
+    for end_degC in (20.0, 55.0, 70.0):
+        assert _time_to("there", heat, 55.0, end_degC, 55.0) == "there from the start"
+    assert _time_to("there", heat, 20.0, 55.0, 55.0) == "there only in the limit, ever slower"

@@ -22,6 +22,7 @@ from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.robot.contacts import Wrenches
 from tests.results.showing import require_shown
 from tests.scenes.experiments import MOUNTED, PARQUET, TWO, add, edit
 
@@ -321,3 +322,18 @@ def test_what_cannot_be_estimated_is_a_warning_of_the_summary(arm: Path) -> None
     assert offset.startswith("arm_ft: no offset removed")
     assert left_out == [f"left out: {sentence}" for sentence in summary.left_out]
     assert "warnings" not in summary.json_text()
+
+
+def test_a_data_set_names_the_sensors_of_what_was_measured(intact: Path) -> None:
+    """One axis of sensors where all are expected, and one of their own where the model expects fewer."""
+    pytest.importorskip("xarray")
+    experiment = load_experiment(intact / TWO)
+    span = estimate_experiment(experiment, corrections_of(experiment, {}))[0]
+    for names, dim in ((("arm_ft", "tool_ft"), "sensor"), (("tool_ft",), "measured_sensor")):
+        measured = Wrenches.of({name: span.measured.of_name(name) for name in names})
+        labelled = replace(span, measured=measured).to_xarray()
+        assert (labelled.expected.dims[1], labelled.measured.dims[1]) == ("sensor", dim)
+        assert labelled[dim].values.tolist() == list(names)
+        assert labelled.sensor.values.tolist() == ["arm_ft", "tool_ft"]
+        np.testing.assert_array_equal(labelled.measured.values, measured.values)
+        np.testing.assert_array_equal(labelled.expected.values, span.estimates.expected)

@@ -20,6 +20,7 @@ from forcetorque.formats.registry import (
     ParquetFormat,
     ParquetLog,
     format_name,
+    log_formats,
     not_recognised,
     read_log,
     recognised_format,
@@ -130,9 +131,8 @@ def test_a_port_whose_name_is_no_text_is_described(tmp_path: Path) -> None:
 
 def test_names_are_unique_and_signs_told() -> None:
     """The name is the one word that `format` of the table may have; what is recognised says by what."""
-    names = [format_name(known) for known in LOG_FORMATS]
-    assert len(set(names)) == len(names)
-    for known in LOG_FORMATS:
+    assert [format_name(known) for known in log_formats()] == [*LOG_FORMATS]
+    for known in log_formats():
         assert get_args(known.table.model_fields["format"].annotation) == (format_name(known),)
         assert known.sign is None or known.sign in str(not_recognised(Path("log")))
 

@@ -11,7 +11,13 @@ import pytest
 
 from forcetorque.formats.arm_log import FLANGE
 from forcetorque.payload.identification.load_estimates import BiasTestRow
-from forcetorque.payload.load_warnings import behind_flange, payload_doubts, torque_doubt
+from forcetorque.payload.load_warnings import (
+    behind_flange,
+    payload_doubts,
+    reason_to_withhold,
+    samples_disagree,
+    torque_doubt,
+)
 from forcetorque.payload.result import LoadRow
 
 
@@ -73,3 +79,39 @@ def test_biases_of_intervals_that_differ_by_a_chance_of_one_in_hundred_are_named
         validation=(),
     )
     assert any("one bias for a session is wrong" in words for words in payload_doubts(weighed)) == named
+
+
+def _withheld(**changes: Any) -> str | None:
+    """Why a result of 100 samples without a fault, but for the changes, is not to be told to a robot."""
+    load = SimpleNamespace(estimated=True)
+    fields = {"hypotheses": (), "disagreements": (), "disagreeing": (), "undetermined": (), "loads": (load,)}
+    weighed: Any = SimpleNamespace(observations=100, **(fields | changes))
+    return reason_to_withhold(weighed)
+
+
+@pytest.mark.parametrize(("count", "disagree"), [(0, False), (5, False), (6, True)])
+def test_samples_disagree_from_a_twentieth_on(count: int, disagree: bool) -> None:
+    """Which withholds the load, with their number."""
+    weighed: Any = SimpleNamespace(disagreements=(), disagreeing=("row",) * count, observations=100)
+    assert samples_disagree(weighed) == disagree
+    expected = f"{count} of 100 samples disagree with the others" if disagree else None
+    assert _withheld(disagreeing=("row",) * count) == expected
+
+
+def test_a_load_is_withheld_for_the_first_reason() -> None:
+    """Hypotheses before samples, samples before what is undetermined; of several of a kind, the first."""
+    hypotheses = tuple(SimpleNamespace(name=name, description="words") for name in ("no load", "turned mount"))
+    rest: dict[str, Any] = {
+        "disagreements": ("morning and noon differ", "noon and night differ"),
+        "undetermined": ("mass", "centre"),
+    }
+    assert _withheld() is None
+    assert _withheld(undetermined=rest["undetermined"]) == "mass"
+    assert _withheld(**rest) == "morning and noon differ"
+    both = "morning and noon differ; 2 of 100 samples disagree with the others"
+    assert _withheld(**rest, disagreeing=("row", "row")) == both
+    assert _withheld(**rest, hypotheses=hypotheses) == "no load: words"
+    # a specified load may be nothing
+    specified = (SimpleNamespace(estimated=False),)
+    assert _withheld(**rest, hypotheses=hypotheses, loads=specified) == "turned mount: words"
+    assert _withheld(hypotheses=hypotheses[:1], loads=specified) is None

@@ -23,6 +23,9 @@ from forcetorque.payload.load_from_result_file import (
     read_load_from_file,
     read_wrist_load_from_file,
 )
+from forcetorque.payload.load_tables import LinkLoad
+from forcetorque.payload.loads_on_robot_links import read_link_loads
+from forcetorque.robot.urdf import read_urdf_text
 
 INERTIAL = [1.5, 0.03, 0.0, 0.15, 4e-3, 0.0, 0.0, 4e-3, 0.0, 3e-3]
 
@@ -105,3 +108,78 @@ def test_a_rigid_body_has_no_moment_above_the_sum_of_the_others(moments: tuple[f
     else:
         with pytest.raises(FormatError, match="tool: expected an inertia of a rigid body"):
             require_rigid(inertia, "tool")
+
+
+def test_each_load_of_an_experiment_is_that_of_its_own_result(tmp_path: Path) -> None:
+    """Two of results, with a specified one between them, stay in the order of the file."""
+    for name, mass in (("gripper", 0.8), ("weight", 5.0)):
+        inertial = [mass, *INERTIAL[1:]]
+        load = {"load": name, "estimated": True, "mass_kg": mass, "link": "hand", "inertial": inertial}
+        content = {"schema": SCHEMA, "serial": "FT1", "loads": [load | {"covariance": np.zeros((10, 10)).tolist()}]}
+        (tmp_path / f"{name}.json").write_text(json.dumps(content), encoding="utf-8")
+    tables = [
+        LinkLoad.model_validate({"name": "gripper", "link": "hand", "from": "gripper.json"}),
+        LinkLoad.model_validate({"name": "plate", "link": "hand", "mass_kg": 2.0}),
+        LinkLoad.model_validate({"name": "weight", "link": "hand", "from": "weight.json"}),
+    ]
+    loading: Any = SimpleNamespace(
+        file=tmp_path / "experiment.toml",
+        model=SimpleNamespace(name="arm", links={"hand": None}),
+        sensors=(),
+        inputs=SimpleNamespace(file=lambda name: tmp_path / name),
+        parsed=SimpleNamespace(interval=[]),
+        recording=SimpleNamespace(intervals=[]),
+    )
+    loads = read_link_loads(tables, loading)
+    assert loads is not None
+    assert [load.name for load in loads.loads] == ["gripper", "plate", "weight"]
+    known = [None if load.expected is None else float(load.expected[0]) for load in loads.loads]
+    assert (known, loads.loads[1].mass) == ([0.8, None, 5.0], 2.0)
+    assert [file.load.name for file in loads.weighed] == ["gripper", "weight"]
+
+
+BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+ARM = f"""<robot name="arm"><link name="base"/><link name="shelf"/>
+<joint name="side" type="fixed"><parent link="base"/><child link="shelf"/></joint>
+<link name="arm">{BODY}</link>
+<joint name="lower" type="fixed"><parent link="base"/><child link="arm"/></joint>
+<link name="hand">{BODY}</link>
+<joint name="wrist" type="fixed"><parent link="arm"/><child link="hand"/></joint>
+<gazebo reference="lower"><sensor name="low" type="force_torque"/></gazebo>
+<gazebo reference="wrist"><sensor name="high" type="force_torque"/></gazebo></robot>"""
+
+
+def _loads_of(folder: Path, *links: str, mass_kg: float | None = None) -> Any:
+    """Loads on links of an arm with two sensors, each in an interval of its own."""
+    supports = [SimpleNamespace(frame="base") for _ in links]
+    tables = [LinkLoad(name=f"load {k}", link=link, mass_kg=mass_kg) for k, link in enumerate(links)]
+    loading: Any = SimpleNamespace(
+        file=folder / "experiment.toml",
+        model=read_urdf_text(ARM, where="arm"),
+        sensors=tuple(SimpleNamespace(name=name) for name in ("low", "high")),
+        parsed=SimpleNamespace(interval=[SimpleNamespace(label=str(k), load=f"load {k}") for k in range(len(links))]),
+        recording=SimpleNamespace(
+            intervals=[SimpleNamespace(label=str(k), support=support) for k, support in enumerate(supports)]
+        ),
+    )
+    return read_link_loads(tables, loading)
+
+
+@pytest.mark.parametrize(
+    ("links", "sensor"), [(("hand",), "high"), (("arm",), "low"), (("hand", "arm"), "low"), (("arm", "hand"), "low")]
+)
+def test_the_nearest_sensor_that_feels_every_load_identifies_them(
+    tmp_path: Path, links: tuple[str, ...], sensor: str
+) -> None:
+    """On the hand that of the wrist, on the link before it only the lower one."""
+    assert _loads_of(tmp_path, *links).sensor.name == sensor
+
+
+@pytest.mark.parametrize("links", [("shelf",), ("hand", "shelf"), ("shelf", "hand")])
+def test_a_load_that_no_sensor_feels_is_refused(tmp_path: Path, links: tuple[str, ...]) -> None:
+    """Beside a load on the hand too, and of a gram; a load of nothing may be on any link."""
+    where = rf"load\[{links.index('shelf')}\] .*: expected a link beyond a sensor .* got 'shelf', whose load no sensor"
+    for mass_kg in (None, 1e-3, 1.0):
+        with pytest.raises(ExperimentError, match=where):
+            _loads_of(tmp_path, *links, mass_kg=mass_kg)
+    assert _loads_of(tmp_path, *links, mass_kg=0.0).sensor is None

@@ -24,12 +24,13 @@ from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identification.load_estimates import LoadSolution, OutlierRow
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_on_wrist_sensor import wrist_loads
+from forcetorque.payload.load_on_wrist_sensor import is_wrist_load, wrist_loads
 from forcetorque.payload.load_warnings import overweight_loads, reference_doubts
 from forcetorque.payload.result import WeighedLoad
 from forcetorque.recording.recording import Use
 from forcetorque.results.answer import FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import plus_minus
+from forcetorque.robot.urdf import read_urdf_text
 from tests.scenes.wrist_postures import write_postures
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
@@ -300,6 +301,24 @@ def test_a_load_to_be_estimated_is_any_load_until_then(tmp_path: Path) -> None:
         inertia = loads.nominal_model(experiment.model).links[load_on_wrist_sensor.LOAD_LINK]
         assert inertia.mass == pytest.approx(mass)
         np.testing.assert_allclose(inertia.first_moment, mass * np.asarray(centre), atol=1e-12)
+
+
+def test_the_robot_of_a_wrist_sensor_is_no_other_of_two_links(tmp_path: Path) -> None:
+    """It has the link of the load and one joint of its own; another link, name or joint is of a URDF."""
+    model = load_experiment(_write(tmp_path)).model
+    assert is_wrist_load(model)
+    (joint,) = model.joints
+    for links, joints in (
+        (["base", "hand"], [joint]),
+        (["base", "load"], ["wrist"]),
+        (["base", "load", "hand"], [joint, "wrist"]),
+        (["base"], []),
+    ):
+        urdf = "".join(f'<link name="{name}"/>' for name in links) + "".join(
+            f'<joint name="{name}" type="fixed"><parent link="{links[0]}"/><child link="{child}"/></joint>'
+            for name, child in zip(joints, links[1:], strict=True)
+        )
+        assert not is_wrist_load(read_urdf_text(f'<robot name="arm">{urdf}</robot>', where="arm")), links
 
 
 def test_nothing_is_estimated_before_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,7 +18,7 @@ from typer.main import get_command
 import forcetorque
 from forcetorque.app.command_line import whole_program
 from forcetorque.base.errors import MissingExtraError, OutputError
-from forcetorque.results.capability import named
+from forcetorque.base.lazy import named
 from forcetorque.results.figure_style import in_figure_style, new_figure
 from forcetorque.results.result import DrawnResult, result_classes
 from forcetorque.results.terminal.command_output import drawn_to, refuse_figure

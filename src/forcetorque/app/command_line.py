@@ -9,10 +9,11 @@ from typing import Annotated, Any, Final
 
 import typer
 
-from forcetorque.app.wrapped_commands import with_datasets, with_live_view, with_view
+from forcetorque.app.wrapped_commands import with_datasets_and_view, with_live_view
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.lazy import named
 from forcetorque.base.run_files import files_of_one_run
-from forcetorque.results.capability import all_named, named
+from forcetorque.results.capability import all_named
 from forcetorque.results.terminal.command_from_signature import command_function
 from forcetorque.results.terminal.command_output import print_messages, report_error, spell_missing_letters
 from forcetorque.results.terminal.options import WholeSentences
@@ -111,7 +112,7 @@ def _add(program: typer.Typer, name: str, reference: str) -> None:
     if isinstance(found, typer.Typer):
         program.add_typer(found)
     else:
-        program.command(name)(with_live_view(name, with_view(name, with_datasets(name, command_function(found)))))
+        program.command(name)(with_live_view(name, with_datasets_and_view(name, command_function(found))))
 
 
 def _add_group(program: typer.Typer, group: str, members: Mapping[str, str]) -> None:

@@ -23,40 +23,68 @@ if TYPE_CHECKING:
     from forcetorque.viewer.scene_builder import BuiltScene
 
 
-def with_datasets(name: str, command: Callable[..., Result | None]) -> Callable[..., Result | None]:
-    """Let a command take a dataset.
+VIEWED: Final = ("estimate", "evaluate", "payload")
+"""Commands with `--view`."""
+_ENDINGS: Final = (".rrd", ".mcap", ".html")
+_View = Annotated[
+    Path | None,
+    typer.Option(
+        "--view",
+        help="File of the recording with the result for Rerun (.rrd), Foxglove and ROS 2 (.mcap) or a browser (.html); "
+        "of several experiments one each, NAME.EXPERIMENT.rrd.",
+    ),
+]
+
+
+def with_datasets_and_view(name: str, command: Callable[..., Result | None]) -> Callable[..., Result | None]:
+    """Let a command take a dataset, and write what the viewer shows of its experiments.
 
     Args:
         name: Name of the command.
-        command: The command.
+        command: The command, which returns its result; one of `VIEWED` has `experiments` and `calibration`.
 
     Returns:
-        The command, of the same signature.
+        The command, with the option `--view` if it is one of `VIEWED`.
     """
     arguments = _arguments(command)
 
     @wraps(command)
     def run(**given: Any) -> Result | None:
-        inputs = [path for argument in arguments for path in _paths(given[argument])]
-        folders = [path for path in inputs if path.is_dir()]
-        if folders:
-            from forcetorque.fleet.analyses_of_dataset import run_from_dataset
-            from forcetorque.fleet.parquet_dataset import is_dataset
+        view = given.pop("view", None) if name in VIEWED else None
+        if view is not None:  # of experiment files, no dataset
+            return _run_with_view(name, command, view, given)
+        replaced = _logs_of_dataset(name, arguments, given)
+        return None if replaced is None else command(**replaced)
 
-            datasets = [path for path in folders if is_dataset(path)]
-            if datasets and len(inputs) > 1:
-                raise ExperimentError(
-                    f"{datasets[0]}: expected a dataset alone, got it beside other files; add these to it with "
-                    "`forcetorque fleet add`"
-                )
-            if datasets:
-                logs = run_from_dataset(name, datasets[0], given)
-                if logs is None:
-                    return None
-                return command(**given | _in_place_of(datasets[0], logs, given, arguments))
-        return command(**given)
-
+    if name in VIEWED:
+        typed = [
+            *_typed_parameters(command),
+            Parameter("view", Parameter.POSITIONAL_OR_KEYWORD, default=None, annotation=_View),
+        ]
+        _declare(run, command, typed)
+        run.__doc__ = cleandoc(command.__doc__ or "").partition("\n\nReturns:")[0]
     return run
+
+
+def _logs_of_dataset(name: str, arguments: Sequence[str], given: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """What is typed, with logs in the place of a dataset; None where the command was run on the dataset itself."""
+    inputs = [path for argument in arguments for path in _paths(given[argument])]
+    folders = [path for path in inputs if path.is_dir()]
+    if not folders:
+        return given
+    from forcetorque.fleet.analyses_of_dataset import run_from_dataset
+    from forcetorque.fleet.parquet_dataset import is_dataset
+
+    datasets = [path for path in folders if is_dataset(path)]
+    if not datasets:
+        return given
+    if len(inputs) > 1:
+        raise ExperimentError(
+            f"{datasets[0]}: expected a dataset alone, got it beside other files; add these to it with "
+            "`forcetorque fleet add`"
+        )
+    logs = run_from_dataset(name, datasets[0], given)
+    return None if logs is None else {**given, **_in_place_of(datasets[0], logs, given, arguments)}
 
 
 def _in_place_of(
@@ -91,67 +119,33 @@ def _paths(value: Any) -> list[Path]:
     return [one for one in values if isinstance(one, Path)]
 
 
-COMMANDS: Final = ("estimate", "evaluate", "payload")
-"""Commands that take it."""
-_ENDINGS: Final = (".rrd", ".mcap", ".html")
-_Option = Annotated[
-    Path | None,
-    typer.Option(
-        "--view",
-        help="File of the recording with the result for Rerun (.rrd), Foxglove and ROS 2 (.mcap) or a browser (.html); "
-        "of several experiments one each, NAME.EXPERIMENT.rrd.",
-    ),
-]
+def _run_with_view(
+    name: str, command: Callable[..., Result | None], view: Path, given: Mapping[str, Any]
+) -> Result | None:
+    """Run a command, and write what the viewer shows of its experiments."""
+    from forcetorque.base.output_file import existing_files_replaced_last
+    from forcetorque.experiment.loading import kept_experiments
+    from forcetorque.viewer.posture import sample_count
+    from forcetorque.viewer.view_file import require_room
 
+    files = _declared(view, given)
 
-def with_view(name: str, command: Callable[..., Result | None]) -> Callable[..., Result | None]:
-    """Let a command write what the viewer shows of its experiments.
+    def write(path: Path, experiment: Experiment | None, result: Result) -> None:
+        _write(name, path, files[path], given, result, experiment)
 
-    Args:
-        name: Name of the command.
-        command: The command, with `experiments` and `calibration`, which returns its result.
+    def accept(path: Path, experiment: Experiment) -> None:
+        if path in files:
+            require_room(files[path], sample_count(experiment, given.get("sensor")))
 
-    Returns:
-        The command with the option `--view` if it is one of `COMMANDS`, else as it is.
-    """
-    if name not in COMMANDS:
-        return command
-    hints = get_type_hints(command, include_extras=True)
-    typed = [one.replace(annotation=hints[one.name]) for one in signature(command).parameters.values()]
-    typed.append(Parameter("view", Parameter.POSITIONAL_OR_KEYWORD, default=None, annotation=_Option))
-
-    @wraps(command)
-    def run(view: Path | None = None, **given: Any) -> Result | None:
-        if view is None:
-            return command(**given)
-        from forcetorque.base.output_file import existing_files_replaced_last
-        from forcetorque.experiment.loading import kept_experiments
-        from forcetorque.viewer.posture import sample_count
-        from forcetorque.viewer.view_file import require_room
-
-        files = _declared(view, given)
-
-        def write(path: Path, experiment: Experiment | None, result: Result) -> None:
-            _write(name, path, files[path], given, result, experiment)
-
-        def accept(path: Path, experiment: Experiment) -> None:
-            if path in files:
-                require_room(files[path], sample_count(experiment, given.get("sensor")))
-
-        # estimates of many recordings let one go after the other
-        one_by_one = name == "estimate" and len(files) > 1
-        finished = write if one_by_one else None
-        with existing_files_replaced_last(), kept_experiments(f"--view {view}", accept, finished) as known:
-            result = command(**given)
-        if result is not None and not one_by_one:
-            for path in files:
-                write(path, known.get(path), result)
-        return result
-
-    run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
-    run.__doc__ = cleandoc(command.__doc__ or "").partition("\n\nReturns:")[0]
-    run.__annotations__ = {one.name: one.annotation for one in typed}
-    return run
+    # estimates of many recordings let one go after the other
+    one_by_one = name == "estimate" and len(files) > 1
+    finished = write if one_by_one else None
+    with existing_files_replaced_last(), kept_experiments(f"--view {view}", accept, finished) as known:
+        result = command(**given)
+    if result is not None and not one_by_one:
+        for path in files:
+            write(path, known.get(path), result)
+    return result
 
 
 def _declared(view: Path, given: Mapping[str, Any]) -> dict[Path, Path]:
@@ -213,7 +207,7 @@ def _scene(path: Path, known: Experiment | None, given: Mapping[str, Any], progr
     )
 
 
-COMMAND: Final = "live"
+LIVE: Final = "live"
 _WINDOW_S: Final = 30.0
 
 
@@ -227,7 +221,7 @@ def with_live_view(name: str, command: Callable[..., Any]) -> Callable[..., Any]
     Returns:
         The command with the options of the page if it is `live`, else as it is.
     """
-    if name != COMMAND:
+    if name != LIVE:
         return command
 
     def run(
@@ -265,9 +259,14 @@ def with_live_view(name: str, command: Callable[..., Any]) -> Callable[..., Any]
     typed = [one for one in _typed_parameters(command) if one.name != "page"]
     typed += [one for one in _typed_parameters(run) if one.kind is not Parameter.VAR_KEYWORD]
     update_wrapper(run, command)
+    _declare(run, command, typed)
+    return run
+
+
+def _declare(run: Callable[..., Any], command: Callable[..., Any], typed: Sequence[Parameter]) -> None:
+    """Give what wraps a command these parameters, by which it is parsed."""
     run.__signature__ = signature(command).replace(parameters=typed)  # type: ignore[attr-defined]
     run.__annotations__ = {one.name: one.annotation for one in typed}
-    return run
 
 
 def _typed_parameters(function: Callable[..., Any]) -> list[Parameter]:

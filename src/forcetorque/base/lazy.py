@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Public names of a package that are imported when they are first used (PEP 562)."""
+"""Names that are imported when they are first used: of a package (PEP 562), of a class, and as text."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from operator import attrgetter
 from types import ModuleType
 from typing import Any
 
@@ -39,6 +40,19 @@ def lazy_names(package: str, **modules: str) -> tuple[list[str], Callable[[str],
     return list(modules), get, names
 
 
+def named(reference: str) -> Any:
+    """Import what a text names.
+
+    Args:
+        reference: `module:name` or `module:Class.name`.
+
+    Returns:
+        The object.
+    """
+    module, _, name = reference.partition(":")
+    return attrgetter(name)(import_module(module))
+
+
 class LazyMethod:
     """A method that is a function of another module, imported when it is first used.
 
@@ -59,8 +73,7 @@ class LazyMethod:
         self._name = name
 
     def __get__(self, instance: object, owner: type) -> Any:
-        module, _, name = self._reference.partition(":")
-        function = getattr(import_module(module), name)
+        function = named(self._reference)
         holder = next(kind for kind in owner.__mro__ if vars(kind).get(self._name) is self)
         setattr(holder, self._name, function)
         return function.__get__(instance, owner)

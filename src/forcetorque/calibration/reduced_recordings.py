@@ -80,7 +80,7 @@ def reduced_in_segments(run: SensorRun, *, block_s: float = BLOCK_S) -> ReducedR
     Returns:
         What a calibration needs of it.
     """
-    return run.once(("reduced", block_s), lambda: _reduced(run, block_s))
+    return run.once(("reduced", block_s), _reduced, run, block_s)
 
 
 def _reduced(run: SensorRun, block_s: float) -> ReducedRecording:

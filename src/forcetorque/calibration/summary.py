@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from forcetorque.base.errors import FitError
+from forcetorque.base.lazy import named
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.experiment.calibration.calibration_file import JOINT, Calibration, SessionOffset
 from forcetorque.experiment.calibration.sensor_model import measured_components
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import number, with_error
 from forcetorque.results.table import COMPONENTS, Row, Shown, Table
 

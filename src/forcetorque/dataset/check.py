@@ -13,7 +13,6 @@ from forcetorque.base.errors import FormatError
 from forcetorque.base.input_file import accept_input
 from forcetorque.base.output_file import write_bytes_atomically
 from forcetorque.base.progress import Progress, TimeLeft
-from forcetorque.dataset.answers import check_answer
 from forcetorque.dataset.checks_over_episodes import set_findings, usual_noise
 from forcetorque.dataset.episode_checks import EpisodeField, examined
 from forcetorque.dataset.episode_frames import episode_frames
@@ -174,7 +173,7 @@ def write_page(check: DatasetCheck, path: Path) -> None:
     Raises:
         MissingExtraError: If the extra `report` is not installed.
     """
-    answer = check_answer(check)
+    (answer,) = check.answers()
     blocks = [block if isinstance(block, Table) else Text(text=block) for block in check.blocks()]
     summary = Section(
         title="Result",

@@ -10,7 +10,9 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.payload.identification.load_estimates import BiasRow, Three
-from forcetorque.payload.result import LoadRow
+from forcetorque.payload.result import LoadRow, load_words
+from forcetorque.results.answer import Answer, Concern, typed
+from forcetorque.results.number_text import amount
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, WrenchValues, table_of
 
@@ -104,6 +106,9 @@ class EpisodeFieldRow(Row):
         return wrong, self.noise_over_usual or 0.0
 
 
+_WORDS = {Kind.TOOL_CHANGE: "change of tool", Kind.UNITS: "implausible units"}
+
+
 class DatasetCheck(DrawnResult):
     """What is wrong with the forces of a dataset."""
 
@@ -128,14 +133,40 @@ class DatasetCheck(DrawnResult):
     records_of_episodes: tuple[EpisodeFieldRow, ...]
     """A record for each episode and field."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.dataset.answers:check_answer"
-
     drawn_by: ClassVar[str] = "forcetorque.dataset.figures:episodes_figure"
 
     @property
     def passed(self) -> bool:
         """Whether no finding is one of harm."""
         return not any(finding.harm for finding in self.findings)
+
+    def answers(self) -> Iterator[Answer]:
+        """Give the answer of a check.
+
+        Yields:
+            One answer, with the worst findings first.
+        """
+        harm = [finding for finding in self.findings if finding.harm]
+        remarks = [finding for finding in self.findings if not finding.harm]
+        kinds = list(dict.fromkeys(_WORDS.get(finding.kind, finding.kind.value) for finding in harm))
+        harmless = f"NO HARM, {len(remarks)} remark(s)" if remarks else "NO HARM FOUND"
+        shown = [finding.text for finding in (harm or remarks)[:2]]
+        rest = len(self.findings) - len(shown)
+        if rest > 0:
+            shown[-1] += f"; {rest} more finding(s)"
+        lacking = (f"not checked: {self.not_checked[0]}",) if self.not_checked else ()
+        named = sorted({number for finding in harm for number in finding.episodes})
+        some = bool(named) and len(named) < self.episodes
+        step = "leave out or repair these episodes; see them all with --details" if some else ""
+        if harm and not some:
+            step = "repair the log of the field, or do not train on it; see all findings with --details"
+        yield Answer(
+            subject=f"{self.source}: {self.episodes} episodes, {self.frames} frames of {', '.join(self.fields)}",
+            verdict=f"HARM: {', '.join(kinds)}" if harm else harmless,
+            why=(*shown, *lacking)[:3],
+            step=step,
+            concern=Concern.BAD if harm else Concern.UNCERTAIN if self.findings else Concern.NONE,
+        )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give findings, then records of episodes.
@@ -196,6 +227,10 @@ def episodes_text(numbers: Sequence[int]) -> str:
     return f"episode{'s' if len(numbers) > 1 else ''} {', '.join(shown)}{more}"
 
 
+_CONTACTS = 0.2
+"""Share of windows that disagree with the tool from which on the identification is doubtful (heuristic)."""
+
+
 class CompensatedDataset(DrawnResult):
     """A dataset with the wrench that the tool's weight and bias were taken off."""
 
@@ -254,11 +289,40 @@ class CompensatedDataset(DrawnResult):
     resumed_files: int
     """Files of frames that an earlier run had written."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.dataset.answers:compensation_answer"
-
     drawn_by: ClassVar[str] = "forcetorque.payload.figures:load_figure"
     drawn_fields: ClassVar[tuple[str, ...]] = ("loads",)
     outlives_figure = True
+
+    def answers(self) -> Iterator[Answer]:
+        """Give the answer of a compensation.
+
+        Yields:
+            One answer: what was added, what was taken off, and what that assumed.
+        """
+        origin = "identified from the dataset" if self.load_from == "dataset" else "as `payload` identified it"
+        deviation = self.mean_standard_deviation
+        sizes = f"{amount(float(max(deviation[:3])), 'N')}, {amount(float(max(deviation[3:])), 'N m')}"
+        touched = f"{100 * self.contact_share:.0f} % of {self.windows} windows disagree, as contacts do, and count less"
+        of = "each episode" if self.bias_of == "episode" else "all episodes"
+        doubtful = self.contradicted or self.contact_share > _CONTACTS or bool(self.left_out_frames)
+        stuck = (
+            f"; {self.left_out_frames} frames of stuck components were not fitted, but are written"
+            if self.left_out_frames
+            else ""
+        )
+        yield Answer(
+            subject=f"{self.output}: {self.episodes} episodes, {self.frames} frames",
+            verdict=f"{self.feature} ADDED",
+            why=(
+                f"taken off: {load_words(self.loads[0])}, {origin}; one bias for {of}",
+                f"in the frame {self.frame!r}, {self.measure_direction}; standard deviation of a frame up to {sizes}, "
+                f"in {self.standard_deviation_feature}",
+                f"{touched}{stuck}",
+            ),
+            step="check the copy before a policy is trained on it",
+            command=typed("dataset", "check", self.output),
+            concern=Concern.BAD if self.contradicted else Concern.UNCERTAIN if doubtful else Concern.NONE,
+        )
 
     def blocks(self) -> Iterator[Table | str]:
         """Give the load and the biases.

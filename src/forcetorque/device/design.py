@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -15,11 +15,10 @@ from forcetorque.device.device_file import DeviceFile
 from forcetorque.device.excitation_and_predicted_errors import DeviceSpan, device_span
 from forcetorque.device.expected_wrench import DeviceResponse, device_response
 from forcetorque.device.motion import DeviceTrajectory
+from forcetorque.device.requirements import RequirementRow, Verdict
+from forcetorque.results.answer import Answer, Concern, typed
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, optional_table, table_of
-
-if TYPE_CHECKING:
-    pass
 
 
 class DeviceLoadRow(Row):
@@ -117,7 +116,6 @@ class DeviceDesign(DrawnResult):
     """A calibration device, checked by computation."""
 
     drawn_by: ClassVar[str] = "forcetorque.device.figures:requirement_figure"
-    answered_by: ClassVar[str | None] = "forcetorque.device.answers:device_answer"
 
     schema_name: Literal["forcetorque/device/2"] = Field(default="forcetorque/device/2", alias="schema")
     """Form of the result."""
@@ -144,6 +142,39 @@ class DeviceDesign(DrawnResult):
     trajectories: dict[str, DeviceTrajectory] = Field(exclude=True, repr=False)
     """Motions by name: those of `motions`, then those of `span`."""
 
+    def answers(self) -> Iterator[Answer]:
+        """Give the answer: how many requirements are met, which are not, and what the first sensor is excited in.
+
+        Yields:
+            One answer.
+        """
+        rows = self.demands.requirements
+        met = [row for row in rows if row.verdict is Verdict.MET]
+        failed = [row for row in rows if row.verdict is Verdict.NOT_MET]
+        first = next((row for row in self.span.sensors if row.sensor == self.sensors[0]), None)
+        missing = "" if first is None or not first.missing else f", not {first.missing}"
+        excited = (
+            ()
+            if first is None
+            else (f"{first.motion} excites {first.rank} of 6 directions of {first.sensor}{missing}",)
+        )
+        calibrated = [row.experiment for row in self.recordings if row.use == "calibration"]
+        yield Answer(
+            subject=f"{self.device} with {len(self.sensors)} sensor{'s' * (len(self.sensors) > 1)}",
+            verdict=f"MEETS {len(met)} OF {len(met) + len(failed)} REQUIREMENTS",
+            why=(
+                f"not met: {'; '.join(_requirement(row) for row in failed) or 'none'}; "
+                f"{len(rows) - len(met) - len(failed)} of {len(rows)} not computed",
+                *excited,
+            ),
+            step="calibrate with the simulated recordings"
+            if calibrated
+            else "write URDF and logs by the same command with --output FOLDER",
+            command=typed("inspect", calibrated[0]) if calibrated else "",
+            written=(self.folder, *self.figures, self.figure_file),
+            concern=Concern.BAD if failed else Concern.NONE,
+        )
+
     def blocks(self) -> Iterator[Table | str]:
         """Make the text for the terminal.
 
@@ -159,6 +190,12 @@ class DeviceDesign(DrawnResult):
         if self.folder is not None:
             yield f"all files are in {self.folder}"
         yield from (f"drawn to {figure}" for figure in self.figures)
+
+
+def _requirement(row: RequirementRow) -> str:
+    if row.value is None or row.limit is None:
+        return f"{row.number} {row.requirement}"
+    return f"{row.number} {row.requirement}, {row.value:.3g} of {row.limit:.3g} {row.unit}"
 
 
 def design_device(file: DeviceFile) -> DeviceDesign:

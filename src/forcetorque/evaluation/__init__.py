@@ -20,7 +20,6 @@ CAPABILITY = Capability(
     page="evaluation/use.md",
     needs=(
         "sensor",
-        "payload",
         "calibration",
     ),
     commands=(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answers of `evaluate` and `accept` in a few lines: may a calibration be used, at what error, what to do next."""
+"""The answers of `evaluate` in a few lines: may a calibration be used, at what error, what to do next."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from forcetorque.evaluation.acceptance.criteria import Bound, Criterion
 from forcetorque.evaluation.load_cases.validation_evidence import PriorComparison
 from forcetorque.evaluation.load_cases.verdict import (
     ADVICE_BY_SOURCE,
@@ -18,14 +17,12 @@ from forcetorque.evaluation.load_cases.verdict import (
     Decision,
     LoadCaseVerdict,
 )
-from forcetorque.experiment.calibrations_under_test import PRIOR
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.results.answer import AGAIN, EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
+from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, within
 from forcetorque.results.table import short_names
 
 if TYPE_CHECKING:
-    from forcetorque.evaluation.acceptance.acceptance import Acceptance
     from forcetorque.evaluation.evaluation import CalibrationErrors, Evaluation
 
 CONCERN: Final[Mapping[Decision, Concern]] = {
@@ -34,6 +31,8 @@ CONCERN: Final[Mapping[Decision, Concern]] = {
     "do not use": Concern.BAD,
 }
 """How much a decision asks for attention."""
+RECORD_MORE: Final = "record more, and calibrate again"
+"""Step where data do not determine enough."""
 
 
 def evaluation_answers(evaluation: Evaluation) -> Iterator[Answer]:
@@ -107,8 +106,15 @@ def _is_said(use: LoadCaseVerdict) -> bool:
     return not use.errors or use.reasons[0].text.startswith(use.errors[0].text)
 
 
-def _states_loads(use: LoadCaseVerdict) -> bool:
-    """Whether loads that the sensor can read are to be stated first."""
+def states_loads(use: LoadCaseVerdict) -> bool:
+    """Find out whether loads that the sensor can read are to be stated first.
+
+    Args:
+        use: The verdict.
+
+    Returns:
+        Whether the stated ones are beyond its range, and data are not enough there.
+    """
     return use.beyond_range is not None and use.decision == "not enough data"
 
 
@@ -127,9 +133,7 @@ def next_lines(use: LoadCaseVerdict) -> tuple[str, ...]:
         A load case that the sensor can read, where the default one is beyond its range; that with a tared offset, where
         data show a constant error. Where it is predicted, the step names its keys.
     """
-    stated = (
-        use.readable_load_case if _states_loads(use) else None if _is_offset_predicted(use) else use.tared_load_case
-    )
+    stated = use.readable_load_case if states_loads(use) else None if _is_offset_predicted(use) else use.tared_load_case
     return tuple((stated or "").splitlines())
 
 
@@ -160,7 +164,7 @@ def next_step(use: LoadCaseVerdict) -> tuple[str, str]:
     Returns:
         The step, and the command for it; empty where there is none.
     """
-    if _states_loads(use):
+    if states_loads(use):
         such = ", such as these, which it can read," if use.readable_load_case else ""
         command = to_evaluate(use.calibration)[1]
         return f"state your loads{such} in the experiment file", command
@@ -168,7 +172,7 @@ def next_step(use: LoadCaseVerdict) -> tuple[str, str]:
     if remedy is None and use.decision == "use":
         return to_export(use.calibration, use.sensor)
     if remedy is None:
-        return _RECORD_MORE, to_plan(use.calibration)
+        return RECORD_MORE, to_plan(use.calibration)
     if is_for_inspect(use):
         return remedy, typed("inspect", FIRST_EXPERIMENT)
     if use.tared_load_case is not None:
@@ -225,16 +229,17 @@ def to_calibrate(sensor: str) -> tuple[str, str]:
     return "calibrate the sensor", typed("calibrate", EXPERIMENT, "--sensor", sensor, "-o", f"{sensor}.json")
 
 
-def to_evaluate(calibration: str) -> tuple[str, str]:
+def to_evaluate(calibration: str, *options: str) -> tuple[str, str]:
     """Give the step that follows where a calibration has no verdict yet.
 
     Args:
         calibration: Its file.
+        *options: Further words of the command.
 
     Returns:
         The step and its command.
     """
-    command = typed("evaluate", EXPERIMENT, "-c", calibration) if _is_file(calibration) else ""
+    command = typed("evaluate", EXPERIMENT, "-c", calibration, *options) if _is_file(calibration) else ""
     return "evaluate its errors at the loads to come", command
 
 
@@ -259,89 +264,3 @@ def _is_file(calibration: str) -> bool:
         return Path(calibration).is_file()
     except OSError:  # too long for the name of a file
         return False
-
-
-_OF_RECORDINGS = frozenset({"recording", "offset"})
-"""Tables of an acceptance file that limit the recording, not the calibration."""
-_OF_INFORMATION = frozenset({"uncertainty", "excitation", "information_gain", "load_case"})
-"""Tables whose limits further recordings can meet."""
-_RECORD_MORE = "record more, and calibrate again"
-_NAMED = 4
-"""Failed criteria that are named; the others are counted."""
-
-
-def acceptance_answers(acceptance: Acceptance) -> Iterator[Answer]:
-    """Give the answer for every sensor.
-
-    Args:
-        acceptance: Its criteria.
-
-    Yields:
-        One answer each.
-    """
-    for sensor in dict.fromkeys(criterion.sensor for criterion in acceptance.criteria):
-        criteria = [criterion for criterion in acceptance.criteria if criterion.sensor == sensor]
-        ordered = sorted(criteria, key=lambda criterion: (criterion.passed, -criterion.share))
-        failed = [criterion for criterion in ordered if not criterion.passed]
-        worst = ordered[0]
-        name = short_names([worst.calibration])[worst.calibration]
-        unsure = acceptance.unsure(sensor)
-        if failed:
-            step, command = _acceptance_step(worst)
-        elif unsure:
-            step, command = _step_to_decide(unsure[0])
-        else:
-            step, command = _after_acceptance(worst)
-        yield Answer(
-            subject=f"{worst.sensor} ({worst.serial}), {name}, by {acceptance.specification!r}",
-            verdict="REJECTED" if failed else "UNDECIDED" if unsure else "ACCEPTED",
-            why=(*_reasons(worst, failed, len(criteria)), *(use.message for use in unsure[:1])),
-            step=step,
-            lines=next_lines(unsure[0]) if unsure and not failed else (),
-            command=command,
-            concern=Concern.BAD if failed else Concern.UNCERTAIN if unsure else Concern.NONE,
-        )
-
-
-def _reasons(worst: Criterion, failed: Sequence[Criterion], count: int) -> Iterator[str]:
-    if not failed:
-        yield f"{count} of {count} criteria hold; nearest to its limit: {_compared(worst)}"
-        return
-    yield f"{len(failed)} of {count} criteria fail; farthest from its limit: {_compared(worst)}"
-    others = [criterion.criterion for criterion in failed[1:]]
-    if others:
-        more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
-        yield f"also failed: {', '.join(others[:_NAMED])}{more}"
-
-
-def _compared(criterion: Criterion) -> str:
-    allowed = "at most" if criterion.bound is Bound.AT_MOST else "at least"
-    unit = f" {criterion.unit}" if criterion.unit else ""
-    where = f" ({criterion.note})" if criterion.note else ""
-    return f"{criterion.criterion} {criterion.measured:.3g}{unit}, {allowed} {criterion.limit:.4g}{unit} allowed{where}"
-
-
-def _step_to_decide(use: LoadCaseVerdict) -> tuple[str, str]:
-    """What gives an undecided sensor a verdict: where it is a change of a file, `accept` again."""
-    step, command = next_step(use)
-    states = _states_loads(use) or use.tared_load_case is not None
-    return step, command if command and not states else AGAIN
-
-
-def _after_acceptance(criterion: Criterion) -> tuple[str, str]:
-    if criterion.calibration == PRIOR:
-        return "", ""
-    return to_export(criterion.calibration, criterion.sensor)
-
-
-def _acceptance_step(worst: Criterion) -> tuple[str, str]:
-    """What may meet the criterion that is farthest from its limit."""
-    table, calibration = worst.criterion.partition(".")[0], worst.calibration
-    if table in _OF_RECORDINGS:
-        return "look for faults of the recording", typed("inspect", FIRST_EXPERIMENT)
-    if calibration == PRIOR:
-        return to_calibrate(worst.sensor)
-    if table in _OF_INFORMATION:
-        return _RECORD_MORE, to_plan(calibration)
-    command = typed("evaluate", EXPERIMENT, "-c", calibration, "--details") if _is_file(calibration) else ""
-    return "see where the errors come from", command

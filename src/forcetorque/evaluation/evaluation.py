@@ -26,11 +26,7 @@ from forcetorque.evaluation.load_cases.validation_evidence import (
 from forcetorque.evaluation.load_cases.verdict import LoadCaseVerdict, verdict_texts, with_predicted_errors
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import Content, readings_twice
-from forcetorque.experiment.calibrations_under_test import (
-    CalibrationUnderTest,
-    EvaluatedRow,
-    wrench_errors,
-)
+from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest, EvaluatedRow, wrench_errors
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.evaluated_wrenches import EvaluatedWrenches, evaluated_wrenches
 from forcetorque.experiment.interval_samples import logged_content
@@ -42,7 +38,6 @@ from forcetorque.experiment.seen_and_outside_samples import (
     sentences,
 )
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
@@ -302,7 +297,7 @@ def validation_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Ev
                 require_unseen(name, calibration, run)
             wrenches[campaign.recording(run)] = evaluated_wrenches(run, calibrations)
         doubts = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
-        doubts += circular_loads(run)
+        doubts += run.circular_loads()
         warnings += (
             [f"{campaign.recording(run)}: {sentence}" for sentence in doubts] if len(campaign.runs) > 1 else doubts
         )

@@ -89,7 +89,7 @@ def evaluated_wrenches(run: SensorRun, calibrations: Mapping[str, Calibration]) 
         ExperimentError: If the robot now reads the sensor in another frame or sign.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    return run.once(("evaluated", calibrations_key(calibrations)), lambda: _evaluated(run, calibrations))
+    return run.once(("evaluated", calibrations_key(calibrations)), _evaluated, run, calibrations)
 
 
 def _evaluated(run: SensorRun, calibrations: Mapping[str, Calibration]) -> EvaluatedWrenches:

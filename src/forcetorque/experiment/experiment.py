@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
@@ -206,6 +206,16 @@ class AttachedLoads(Protocol):
     @property
     def are_stated(self) -> bool:
         """Whether nothing of any load is to be estimated."""
+
+    def circular(self, serial: str) -> Iterator[str]:
+        """Name loads that a sensor identified before by itself, as if its matrix were right.
+
+        Args:
+            serial: Serial number of the sensor.
+
+        Yields:
+            A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
+        """
 
     def nominal_model(self, stated: RobotModel) -> RobotModel:
         """Give the robot with a load that moves the reading as the specified one does, or as any load would.

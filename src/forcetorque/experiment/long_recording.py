@@ -83,7 +83,7 @@ def segments_of_run(run: SensorRun) -> list[Segment]:
     Returns:
         As of `recorded_segments`.
     """
-    return run.once("segments", lambda: recorded_segments(run.experiment))
+    return run.once("segments", recorded_segments, run.experiment)
 
 
 def segment_runs(run: SensorRun) -> Iterator[SensorRun]:

@@ -20,8 +20,7 @@ from forcetorque.experiment.intervals import RecordedSpan, read_spans
 from forcetorque.experiment.named_files import ExperimentContext, Inputs, stated_in
 from forcetorque.experiment.recording_notes import follow_recipes
 from forcetorque.experiment.sensors import declare_sensors
-from forcetorque.formats.array_file.log_format import array_streams
-from forcetorque.formats.array_file.streams import ArrayLog
+from forcetorque.formats.log_format import LogReading, LogTable
 from forcetorque.formats.registry import not_recognised, read_log, recognised_format
 from forcetorque.recording.recording import Recording, Use
 from forcetorque.recording.stream import Stream
@@ -107,11 +106,9 @@ def read_streams(
         sensors={entry.stream: entry.name for entry in parsed.sensor},
         joint_units={name: joint.type.unit for name, joint in model.joints.items()} if model else {},
     )
-    arrays = inputs.in_memory.arrays
-    if arrays is not None and isinstance(log, ArrayLog):
-        reading = array_streams(log, arrays, context)
-        specified = {}
-    else:
+    reading = _read_arrays(log, inputs, context)
+    specified = {}
+    if reading is None:
         reading = read_log(log, context)
         specified = {"format": log.format, "path": log.path.as_posix()}
     logged = Recording(
@@ -121,6 +118,16 @@ def read_streams(
         files=reading.files,
     )
     return follow_recipes(parsed, file, logged, model, clocks_must_tell=clocks_must_tell)
+
+
+def _read_arrays(log: LogTable, inputs: Inputs, context: ExperimentContext) -> LogReading | None:
+    """Streams of arrays in memory, in place of a file of arrays; None where there are none."""
+    if inputs.in_memory.arrays is None:
+        return None
+    from forcetorque.formats.array_file.log_format import array_streams
+    from forcetorque.formats.array_file.streams import ArrayLog
+
+    return array_streams(log, inputs.in_memory.arrays, context) if isinstance(log, ArrayLog) else None
 
 
 def _by_name(file: Path, streams: Iterable[Stream]) -> dict[str, Stream]:

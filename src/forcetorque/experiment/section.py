@@ -11,9 +11,10 @@ from typing import Any, Generic, TypeVar
 
 from forcetorque.base.errors import ExperimentError, require_known
 from forcetorque.base.inertia import Inertia
+from forcetorque.base.lazy import named
 from forcetorque.experiment.named_files import Inputs
 from forcetorque.recording.recording import Interval, MovingSupport, Recording, Support
-from forcetorque.results.capability import all_named, named
+from forcetorque.results.capability import all_named
 from forcetorque.robot.model import RobotModel
 
 TableT = TypeVar("TableT")

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from typing import TypeVar, cast
+from typing import ParamSpec, TypeVar, cast
 
 import numpy as np
 
@@ -13,11 +13,7 @@ from forcetorque.base.errors import ExperimentError
 from forcetorque.experiment.applicability import require_fit
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.provenance import SensorIdentity
-from forcetorque.experiment.calibrations_under_test import (
-    PRIOR,
-    CalibrationUnderTest,
-    tested_calibrations,
-)
+from forcetorque.experiment.calibrations_under_test import PRIOR, CalibrationUnderTest, tested_calibrations
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.experiment import Experiment, ExperimentContact, ExperimentSensor
 from forcetorque.experiment.interval_samples import IntervalSamples, readings_over, samples_over
@@ -31,6 +27,7 @@ from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree, path_to_root
 
 _Answer = TypeVar("_Answer")
+_Options = ParamSpec("_Options")
 
 
 class SensorRun:
@@ -100,6 +97,15 @@ class SensorRun:
         """
         return tuple(sorted(self._known_intervals(use), key=lambda interval: interval.start_ns))
 
+    def circular_loads(self) -> tuple[str, ...]:
+        """Name loads that the sensor itself weighed before, as if its matrix were right.
+
+        Returns:
+            A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
+        """
+        loads = self.experiment.loads
+        return () if loads is None else tuple(loads.circular(self.sensor.serial))
+
     def touched_beyond(self, interval: Interval) -> tuple[str, ...]:
         """Name what touches a robot on the move beyond the sensor, seen from the support, and nobody knows how.
 
@@ -113,7 +119,7 @@ class SensorRun:
         support = interval.support
         if not present or not isinstance(support, MovingSupport):
             return ()
-        return self.once(("touched", _key(interval)), lambda: self._beyond(support, present))
+        return self.once(("touched", _key(interval)), self._beyond, support, present)
 
     def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
         """Name the contacts beyond the sensor that may come while the support stands still.
@@ -211,7 +217,11 @@ class SensorRun:
         names = self._in_order(variables)
         return self.once(
             ("readings", _key(interval), names),
-            lambda: readings_over(self.experiment, self.sensor, interval, variables=names),
+            readings_over,
+            self.experiment,
+            self.sensor,
+            interval,
+            variables=names,
         )
 
     def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[IntervalSamples]:
@@ -347,7 +357,7 @@ class SensorRun:
             SerialNumberError: If a calibration is of another sensor.
             ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
         """
-        return self.once(("candidates", calibrations_key(calibrations)), lambda: self._candidates(calibrations))
+        return self.once(("candidates", calibrations_key(calibrations)), self._candidates, calibrations)
 
     def _candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[CalibrationUnderTest, ...]:
         if not calibrations:
@@ -380,18 +390,26 @@ class SensorRun:
     def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
         return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
 
-    def once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
+    def once(
+        self,
+        key: Hashable,
+        compute: Callable[_Options, _Answer],
+        *arguments: _Options.args,
+        **options: _Options.kwargs,
+    ) -> _Answer:
         """Compute what several analyses need of the sensor, when it is first needed.
 
         Args:
             key: What it is, other than all else that is kept.
             compute: Computes it.
+            *arguments: What `compute` takes.
+            **options: What it takes by name.
 
         Returns:
             What was computed.
         """
         if key not in self._known:
-            self._known[key] = compute()
+            self._known[key] = compute(*arguments, **options)
         return cast("_Answer", self._known[key])
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 CAPABILITY = Capability(
     page="fleet.md",
-    needs=("calibration", "evaluation", "inspection", "payload"),
+    needs=("calibration", "evaluation", "inspection"),
     commands=("forcetorque.fleet.commands:fleet",),
 )
 

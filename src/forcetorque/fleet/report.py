@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.base.errors import ExperimentError, ForceTorqueError
+from forcetorque.base.lazy import named
 from forcetorque.base.progress import Progress, TimeLeft
 from forcetorque.calibration.summary import LITTLE_LEARNT, information_gains
 from forcetorque.evaluation.answers import CONCERN, is_for_inspect
@@ -24,7 +25,6 @@ from forcetorque.fleet.sensor_evaluation import RecordingError, SensorEvaluation
 from forcetorque.fleet.sensor_record import SensorRecord
 from forcetorque.fleet.table import FleetSensor, fleet_sensors
 from forcetorque.results.answer import typed
-from forcetorque.results.capability import named
 from forcetorque.results.number_text import finite_or_none
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, ShownWrench, Table, WrenchValues, optional_table, table_of

@@ -17,11 +17,7 @@ from forcetorque.base.noise.paired_comparison import ErrorRatio, compare_errors
 from forcetorque.base.noise.window_means import joined_times, mean_error
 from forcetorque.base.wrench import FORCE, FORCE_AND_MOMENT, MOMENT
 from forcetorque.evaluation.load_cases.load_case import LoadCase
-from forcetorque.evaluation.load_cases.validation_evidence import (
-    Evidence,
-    evidence,
-    moved_and_load,
-)
+from forcetorque.evaluation.load_cases.validation_evidence import Evidence, evidence, moved_and_load
 from forcetorque.evaluation.load_cases.verdict import (
     LOOK_FOR_CAUSE,
     Decision,

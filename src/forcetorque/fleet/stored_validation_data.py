@@ -30,7 +30,6 @@ from forcetorque.experiment.interval_samples import IntervalSamples, logged_cont
 from forcetorque.experiment.segmented_samples import samples_of_use
 from forcetorque.experiment.sensor_mount import SensorMount
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Interval, Use
@@ -235,7 +234,7 @@ class StoredEvaluation(StoredTable):
             blocks=tuple(_blocks(intervals)),
             sessions=tuple(_session_means(run, intervals)),
             load_cases=tuple(map(StoredLoadCase.of, operating_load_cases([run]))),
-            circular=tuple(circular_loads(run)),
+            circular=run.circular_loads(),
         )
 
     def contents(self) -> Iterator[tuple[int, Content | None]]:

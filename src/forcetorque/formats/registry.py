@@ -1,36 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The registry of log formats: to add one, write its file and add its line to `LOG_FORMATS`.
 
-The experiment file's schema, its loading, `inspect` and their messages all use this list. The project's own form of a
+The experiment file's schema, its loading, `inspect` and their messages all use this list. A format that an experiment
+file names is imported alone; what must know all formats, such as the schema, imports all. The project's own form of a
 recording is defined here as well, and the message for a robot or a calibration that is given in place of a log.
 """
 
 from __future__ import annotations
 
 from codecs import BOM_UTF8
-from collections.abc import Sequence
-from functools import reduce
+from collections.abc import Mapping, Sequence
+from functools import cache, reduce
 from operator import or_
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import Field, GetCoreSchemaHandler
-from pydantic_core import CoreSchema
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
 
 from forcetorque.base.errors import FormatError, require_known
 from forcetorque.base.input_file import accept_input, read_xml
-from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
-from forcetorque.formats.c3d.log_format import C3dFormat
-from forcetorque.formats.franka.log_format import FrankaFormat
-from forcetorque.formats.lerobot.log_format import LeRobotFormat
+from forcetorque.base.lazy import named
 from forcetorque.formats.log_format import LogContext, LogDescription, LogFormat, LogReading, LogTable
 from forcetorque.formats.prior.registry import holds_prior
-from forcetorque.formats.robometry.log_format import RobometryFormat
-from forcetorque.formats.ros.log_format import RosFormat
-from forcetorque.formats.tabular.dialect import rejection_reason
-from forcetorque.formats.tabular.log_format import TabularFormat
-from forcetorque.formats.ur_rtde.log_format import UrRtdeFormat
-from forcetorque.formats.yarp.log_format import YarpFormat
 from forcetorque.recording.alignment import joined_stream
 from forcetorque.recording.storage import INDEX_FILE, read_recording
 
@@ -106,39 +99,28 @@ def _is_urdf(path: Path) -> bool:
     return root is not None and root.tag == "robot"
 
 
-LOG_FORMATS: tuple[LogFormat[Any], ...] = (
-    YarpFormat(),
-    ParquetFormat(),
-    TabularFormat(),
-    RobometryFormat(),
-    MatlabFormat(),
-    Hdf5Format(),
-    NpzFormat(),
-    RosFormat(),
-    UrRtdeFormat(),
-    FrankaFormat(),
-    LeRobotFormat(),
-    C3dFormat(),
-)
-
-
-def format_name(known: LogFormat[Any]) -> str:
-    """Name a format as `format` of the `[recording]` table has it.
-
-    Args:
-        known: One of `LOG_FORMATS`.
-
-    Returns:
-        Its name.
-    """
-    return str(get_args(known.table.model_fields["format"].annotation)[0])
+LOG_FORMATS: Mapping[str, str] = {
+    "yarp": "forcetorque.formats.yarp.log_format:YarpFormat",
+    "parquet": "forcetorque.formats.registry:ParquetFormat",
+    "tabular": "forcetorque.formats.tabular.log_format:TabularFormat",
+    "robometry": "forcetorque.formats.robometry.log_format:RobometryFormat",
+    "matlab": "forcetorque.formats.array_file.log_format:MatlabFormat",
+    "hdf5": "forcetorque.formats.array_file.log_format:Hdf5Format",
+    "npz": "forcetorque.formats.array_file.log_format:NpzFormat",
+    "ros": "forcetorque.formats.ros.log_format:RosFormat",
+    "ur_rtde": "forcetorque.formats.ur_rtde.log_format:UrRtdeFormat",
+    "franka": "forcetorque.formats.franka.log_format:FrankaFormat",
+    "lerobot": "forcetorque.formats.lerobot.log_format:LeRobotFormat",
+    "c3d": "forcetorque.formats.c3d.log_format:C3dFormat",
+}
+"""Class of every format by its name, which is `format` of the `[recording]` table."""
 
 
 def format_named(name: str) -> LogFormat[Any]:
-    """Find a format by its name.
+    """Import a format.
 
     Args:
-        name: As `format` of the `[recording]` table has it.
+        name: One of `LOG_FORMATS`.
 
     Returns:
         The format.
@@ -146,9 +128,30 @@ def format_named(name: str) -> LogFormat[Any]:
     Raises:
         FormatError: If no format is called so.
     """
-    formats = {format_name(known): known for known in LOG_FORMATS}
-    require_known(name, formats, FormatError, f"no format of logs is called {name!r}")
-    return formats[name]
+    require_known(name, LOG_FORMATS, FormatError, f"no format of logs is called {name!r}")
+    known: LogFormat[Any] = named(LOG_FORMATS[name])()
+    return known
+
+
+def log_formats() -> tuple[LogFormat[Any], ...]:
+    """Import all formats.
+
+    Returns:
+        The formats in the order of `LOG_FORMATS`.
+    """
+    return tuple(format_named(name) for name in LOG_FORMATS)
+
+
+def format_name(known: LogFormat[Any]) -> str:
+    """Name a format as `format` of the `[recording]` table has it.
+
+    Args:
+        known: A format.
+
+    Returns:
+        Its name.
+    """
+    return str(get_args(known.table.model_fields["format"].annotation)[0])
 
 
 def read_log(specified: LogTable, context: LogContext) -> LogReading:
@@ -205,9 +208,9 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
         FormatError: If several do, or it is neither a file nor a folder.
     """
     accept_input(path)
-    formats = [known for known in LOG_FORMATS if known.recognises(path)]
+    formats = [known for known in log_formats() if known.recognises(path)]
     # a table whose headings are those of a format is a log of that format
-    formats = [known for known in formats if not isinstance(known, TabularFormat)] or formats
+    formats = [known for known in formats if format_name(known) != "tabular"] or formats
     if len(formats) > 1:
         raise FormatError(
             f"{path}: expected a log of one format, got signs of {' and '.join(map(format_name, formats))} "
@@ -221,7 +224,7 @@ _MOST_NAMED = 12
 
 
 def _is_log_file(entry: Path) -> bool:
-    return entry.is_file() and any(known.recognises(entry) for known in LOG_FORMATS)
+    return entry.is_file() and any(known.recognises(entry) for known in log_formats())
 
 
 def _loose_ports(path: Path) -> str:
@@ -242,6 +245,8 @@ def not_recognised(path: Path) -> FormatError:
     Returns:
         The error to raise.
     """
+    from forcetorque.formats.tabular.dialect import rejection_reason
+
     logs = [entry.name for entry in sorted(path.iterdir()) if _is_log_file(entry)] if path.is_dir() else []
     if logs:
         shown = ", ".join(logs[:_MOST_NAMED]) + (f" and {len(logs) - _MOST_NAMED} more" if logs[_MOST_NAMED:] else "")
@@ -251,19 +256,37 @@ def not_recognised(path: Path) -> FormatError:
     reason = not_a_log_reason(path) or (rejection_reason(path) if path.is_file() else None)
     if reason is not None:
         return FormatError(reason)
-    signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
+    signs = [known.sign for known in log_formats() if known.sign is not None]
     return FormatError(
         f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "
-        f"experiment file with a [recording] of format {', '.join(map(format_name, LOG_FORMATS))}{_loose_ports(path)}"
+        f"experiment file with a [recording] of format {', '.join(LOG_FORMATS)}{_loose_ports(path)}"
     )
 
 
+@cache
+def _tables(*names: str) -> TypeAdapter[Any]:
+    """The `[recording]` tables of formats, of which `format` chooses one."""
+    tables: Any = reduce(or_, (format_named(name).table for name in names))
+    chosen: Any = Annotated[tables, Field(discriminator="format")]
+    return TypeAdapter(chosen)
+
+
+def _log_table(value: Any) -> LogTable:
+    """Check a `[recording]` table by the format that it names; one that names none by all, for the message."""
+    name = value.get("format") if isinstance(value, dict) else getattr(value, "format", None)
+    names = [known for known in LOG_FORMATS if known == name] or LOG_FORMATS
+    table: LogTable = _tables(*names).validate_python(value)
+    return table
+
+
 class _AnyKnownFormat:
-    """Stands for the tables of all formats, of which `format` chooses one."""
+    """Stands for the tables of all formats: a file is checked by the table of its own, the schema has all."""
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        tables = reduce(or_, (known.table for known in LOG_FORMATS))
-        return handler.generate_schema(Annotated[tables, Field(discriminator="format")])
+        return core_schema.no_info_plain_validator_function(_log_table)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return handler(_tables(*LOG_FORMATS).core_schema)
 
 
 AnyLog = Annotated[LogTable, _AnyKnownFormat()]

@@ -10,7 +10,7 @@ from typing import Any
 
 from forcetorque.base.errors import FormatError
 from forcetorque.formats.log_format import LogDescription, LogFormat, SpecifiableFormat
-from forcetorque.formats.registry import LOG_FORMATS, format_name
+from forcetorque.formats.registry import format_name, log_formats
 
 _OF_LOG = ("format", "path")
 
@@ -58,7 +58,7 @@ def description_of(known: LogFormat[Any], path: Path, specified: Mapping[str, ob
     if not specified:
         return known.describe(path)
     if not isinstance(known, SpecifiableFormat):
-        names = " or ".join(format_name(one) for one in LOG_FORMATS if isinstance(one, SpecifiableFormat))
+        names = " or ".join(format_name(one) for one in log_formats() if isinstance(one, SpecifiableFormat))
         raise FormatError(
             f"{path}: --recording: expected a log whose format leaves keys open ({names}), got a log of the format "
             f"{format_name(known)}; leave the option out, and state what it asks in the experiment file"

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
@@ -16,9 +16,11 @@ from forcetorque.base.toml_file import Table, Text
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, Section, require_link
-from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 from forcetorque.recording.recording import Recording
 from forcetorque.robot.model import RobotModel
+
+if TYPE_CHECKING:
+    from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
 
 
 class SoleTable(Table):
@@ -67,6 +69,8 @@ def read_soles(
         ExperimentError: If a frame is not in the robot or listed twice, or a sole has a stream beside sensors
             or beside a friction.
     """
+    from forcetorque.locomotion.standing.centre_of_mass_and_pressure import Sole
+
     soles: list[ExperimentSole] = []
     for index, entry in enumerate(entries):
         where = f"{file}: sole[{index}]"

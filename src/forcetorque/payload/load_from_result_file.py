@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Final
@@ -45,6 +46,15 @@ class LoadFromFile:
     """Serial number of the sensor that identified it."""
     known_loads: tuple[str, ...]
     """Loads of that result that were specified, which determine the scale of the sensor; itself if specified."""
+
+    def circular(self, serial: str) -> Iterator[str]:
+        """Warn of a load that a sensor identified by itself, as `AttachedLoads.circular` does of all."""
+        if self.serial == serial and not self.known_loads:
+            yield (
+                f"load {self.load.name!r}: weighed before by this sensor itself ({serial}), beside nothing that was "
+                "stated, so its mass has the error that the sensor has, which no calibration or verdict on it can see; "
+                "weigh it on a scale, or by another sensor"
+            )
 
 
 class _Row(BaseModel):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -108,6 +108,10 @@ class WristLoads:
     def applied(self) -> str | None:
         """Stream of the wrench that the sensor must read; None where that follows from motion and mass."""
         return self.table.applied
+
+    def circular(self, serial: str) -> Iterator[str]:
+        """Name loads of an earlier result that the same sensor identified by itself."""
+        return (sentence for load in self.weighed for sentence in load.circular(serial))
 
     def nominal_model(self, stated: RobotModel) -> RobotModel:
         """Give the robot with a load that moves the reading as the stated one does, or as any load would.

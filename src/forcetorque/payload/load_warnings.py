@@ -110,25 +110,9 @@ def load_doubts(run: SensorRun) -> Iterator[str]:
             f"load {names}: one tool moves three of the six directions of a wrench, the others stay as the prior has "
             "them; record a second one, with its centre of mass elsewhere"
         )
-    yield from circular_loads(run)
+    yield from run.circular_loads()
     if loads.sensor is not None and run.has(Use.CALIBRATION):
         yield from _doubled(run, loads)
-
-
-def circular_loads(run: SensorRun) -> Iterator[str]:
-    """Name loads that the sensor itself weighed before, as if its matrix were right.
-
-    Yields:
-        A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
-    """
-    loads = link_loads(run.experiment) or wrist_loads(run.experiment)
-    for weighed in () if loads is None else loads.weighed:
-        if weighed.serial == run.sensor.serial and not weighed.known_loads:
-            yield (
-                f"load {weighed.load.name!r}: weighed before by this sensor itself ({weighed.serial}), beside nothing "
-                "that was stated, so its mass has the error that the sensor has, which no calibration or verdict on it "
-                "can see; weigh it on a scale, or by another sensor"
-            )
 
 
 def _beside(loads: LinkLoads) -> list[LinkLoads]:
@@ -178,7 +162,7 @@ def reference_doubts(run: SensorRun) -> tuple[str, ...]:
         A sentence for each statement that the readings contradict, and for each load that the sensor itself weighed;
         none for a bias that steps or a reading that comes late, which change a load little.
     """
-    return (*contradicted_statements(run, cautions=False), *circular_loads(run))
+    return (*contradicted_statements(run, cautions=False), *run.circular_loads())
 
 
 def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterator[str]:

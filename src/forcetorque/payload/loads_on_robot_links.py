@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -53,6 +53,10 @@ class LinkLoads:
     def applied(self) -> str | None:
         """No wrench is specified of loads on links."""
         return None
+
+    def circular(self, serial: str) -> Iterator[str]:
+        """Name loads of an earlier result that the same sensor identified by itself."""
+        return (sentence for load in self.weighed for sentence in load.circular(serial))
 
     def nominal_model(self, stated: RobotModel) -> RobotModel:
         """Return the robot without the loads.

@@ -17,7 +17,7 @@ from forcetorque.experiment.loading import load_tables
 from forcetorque.experiment.named_files import InMemory, sha256_of
 from forcetorque.formats.arm_log import BAG, LoggedTorques, LoggedWrist
 from forcetorque.formats.log_format import ArmLoggingFormat, LogDescription, LogFormat
-from forcetorque.formats.registry import LOG_FORMATS, format_name, not_recognised, recognised_format
+from forcetorque.formats.registry import format_name, log_formats, not_recognised, recognised_format
 from forcetorque.inspection.draft.logged_robot import wrist_interval_lines, wrist_load_lines
 from forcetorque.inspection.draft.recording_table import draft_of_description, recording_lines
 from forcetorque.inspection.draft.toml_lines import line, toml_value
@@ -91,7 +91,7 @@ def described_log(path: Path, specified: Mapping[str, object]) -> LogDescription
         raise MissingFileError(f"{path}: expected an experiment file or a log, there is none")
     known = _format_of(path)
     if not isinstance(known, ArmLoggingFormat):
-        names = " or ".join(format_name(one) for one in LOG_FORMATS if isinstance(one, ArmLoggingFormat))
+        names = " or ".join(format_name(one) for one in log_formats() if isinstance(one, ArmLoggingFormat))
         raise ExperimentError(
             f"{path}: expected an experiment file, or a log whose format fixes frame and sign of a wrench ({names}), "
             f"got a log of the format {format_name(known)}; `forcetorque init {path}` begins an experiment file"

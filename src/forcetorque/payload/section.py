@@ -1,22 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The section `load` of an experiment file: loads that stand in for a robot, or hang on its links."""
+"""The section `load` of an experiment file: loads that stand in for a robot, or hang on its links.
+
+What reads loads is imported where a file has them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from forcetorque.experiment.experiment_file import ExperimentFile
 from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.section import Loading, Section, StandIn
-from forcetorque.payload.load_on_wrist_sensor import (
-    WristLoads,
-    load_model,
-    read_wrist_loads,
-    stated_inertia,
-    stated_loads,
-)
 from forcetorque.payload.load_tables import (
     AnyLoad,
     LinkLoad,
@@ -28,12 +24,15 @@ from forcetorque.payload.load_tables import (
     require_one_sensor,
     wrist_tables,
 )
-from forcetorque.payload.loads_on_robot_links import LinkLoads, read_link_loads, with_loads_named
 from forcetorque.recording.recording import Interval, MovingSupport, Use
+
+if TYPE_CHECKING:
+    from forcetorque.payload.load_on_wrist_sensor import WristLoads
+    from forcetorque.payload.loads_on_robot_links import LinkLoads
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
+class LoadSection(Section[Loads | None, "WristLoads | LinkLoads | None"]):
     """The loads of an experiment: they stand in for a robot, or hang on its links in some intervals."""
 
     def check(self, table: Loads | None, file: ExperimentFile) -> None:  # noqa: D102
@@ -51,6 +50,8 @@ class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
         tables = wrist_tables(table)
         if not tables or not loading.parsed.sensor:
             return None
+        from forcetorque.payload.load_on_wrist_sensor import load_model, stated_inertia, stated_loads
+
         load = tables[0]
         supports = {
             one.name: MovingSupport(frame=load.frame, motion_streams=load.streams, is_unknown=not load.streams)
@@ -67,6 +68,10 @@ class LoadSection(Section[Loads | None, WristLoads | LinkLoads | None]):
     def place(  # noqa: D102
         self, table: Loads | None, loading: Loading, intervals: Sequence[Interval]
     ) -> Sequence[Interval]:
+        if table is None:
+            return intervals
+        from forcetorque.payload.loads_on_robot_links import with_loads_named
+
         return with_loads_named(intervals, [span.load for span in loading.parsed.interval], link_tables(table))
 
 
@@ -94,6 +99,11 @@ def _require_robot_or_load(loads: Loads | None, file: ExperimentFile) -> None:
 
 
 def _read(table: Loads | None, loading: Loading) -> WristLoads | LinkLoads | None:
+    if table is None:
+        return None
+    from forcetorque.payload.load_on_wrist_sensor import read_wrist_loads
+    from forcetorque.payload.loads_on_robot_links import read_link_loads
+
     if loading.stand_in is not None and loading.stand_in.supports is not None:
         supports = loading.stand_in.supports
         return read_wrist_loads(wrist_tables(table), loading.file, supports, loading.sensors[0], loading.inputs)

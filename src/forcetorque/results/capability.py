@@ -6,8 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
-from operator import attrgetter
-from typing import Any
 
 import forcetorque
 
@@ -33,19 +31,6 @@ def capabilities() -> tuple[Capability, ...]:
         `CAPABILITY` of every folder that `forcetorque.CAPABILITIES` names, in that order.
     """
     return tuple(import_module(f"forcetorque.{name}").CAPABILITY for name in forcetorque.CAPABILITIES)
-
-
-def named(reference: str) -> Any:
-    """Import what a capability names.
-
-    Args:
-        reference: `module:name` or `module:Class.name`.
-
-    Returns:
-        The object.
-    """
-    module, _, name = reference.partition(":")
-    return attrgetter(name)(import_module(module))
 
 
 def all_named(kind: str) -> Iterator[tuple[str, str]]:

@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 from pydantic import Field
 
 from forcetorque.base.errors import ForceTorqueError, ShapeError, needs_extra
+from forcetorque.base.lazy import named
 from forcetorque.results.answer import Answer, answer_text
-from forcetorque.results.capability import named
 from forcetorque.results.table import Row, Shown, Table, optional_table
 from forcetorque.results.table_rendering import html_lines, html_table, html_text, html_warnings, table_text, wrapped
 

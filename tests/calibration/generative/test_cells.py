@@ -25,17 +25,20 @@ TEMPERATURE = LinearVariable(name="temperature", unit="degC", reference_value=25
 
 
 def _recordings(count: int, sessions: int) -> list[WindowMeans]:
-    """Recordings of 12 s each, with a mass that all have in common and a delay of their own, the last with another."""
+    """Recordings of 12 s each, with a mass that all have in common and a delay of their own, the last with another.
+
+    The delay of the first is the first of all terms.
+    """
     rng = np.random.default_rng(4)
     truth = (np.eye(6) + 0.03 * rng.normal(size=(6, 6))) @ PRIOR
     means = []
     for number in range(count):
         time = np.arange(12.0)
         wrench = rng.normal(size=(12, 6)) * [20.0, 20.0, 20.0, 2.0, 2.0, 2.0]
-        derivatives = np.stack([wrench + 5.0, rng.normal(size=(12, 6)), rng.normal(size=(12, 6))], axis=2)
-        loads = wrench + derivatives @ [0.02, 0.05 * rng.normal(), 0.0]
+        derivatives = np.stack([rng.normal(size=(12, 6)), wrench + 5.0, rng.normal(size=(12, 6))], axis=2)
+        loads = wrench + derivatives @ [0.05 * rng.normal(), 0.02, 0.0]
         noise = rng.normal(size=(12, 6)) + np.cumsum(rng.normal(size=(12, 6)), axis=0)
-        terms = [("mass of hand", TermKind.MASS, 0.03), (f"delay of {number}", TermKind.DELAY, 0.05)]
+        terms = [(f"delay of {number}", TermKind.DELAY, 0.05), ("mass of hand", TermKind.MASS, 0.03)]
         terms += [(f"x of acceleration of {number}", TermKind.ACCELERATION, 0.05)] if number == count - 1 else []
         means.append(
             WindowMeans(

@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES
-from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, infer
+from forcetorque.calibration.generative.model import Maximum, RowData, Sizes, _have_rank, infer
 from forcetorque.calibration.generative.whitening import Border, Whitened
 
 ROWS, MEANS, OWN, COMMON = 3, 40, 2, 2
@@ -81,3 +81,14 @@ def test_the_deviance_is_that_of_the_density_and_least_at_the_noise_that_was_fou
         for factor in (0.8, 1.25):
             other = variances * np.where(np.arange(ROWS) == k, factor, 1.0)
             assert _written_out(designs, responses, common, other) > fit.deviance + 0.5
+
+
+@pytest.mark.parametrize(("share", "moves"), [(1e-5, True), (3e-6, True), (5e-7, False), (0.0, False)])
+def test_a_direction_that_moves_by_a_millionth_of_the_others_does_not_move(share: float, moves: bool) -> None:
+    """Two loads that are one but for a share of another, which leaves half of its square of their products."""
+    unit = np.array([1e3, 1.0, 1.0, 0.01, 0.01, 0.01])
+    loads = np.linalg.qr(np.random.default_rng(3).normal(size=(50, 6)))[0]
+    loads[:, 4] = loads[:, 1] + share * loads[:, 4]
+    assert _have_rank((loads.T @ loads) * np.outer(unit, unit)) is moves
+    # a load that is not there has no size either
+    assert not _have_rank(np.diag([1.0, 1.0, 0.0, 1.0, 1.0, 1.0]))

@@ -124,6 +124,10 @@ def test_only_the_half_that_wins_is_corrected() -> None:
     assert not quadratic.coefficients[:3].any()
     assert quadratic.coefficients[3:].all()
     assert np.array_equal(halved.offsets[:, :3], fit.offsets[:, :3])
+    # the model reads by the offset of the last session, as that of the fit does
+    for one in (fit, halved):
+        np.testing.assert_array_equal(one.model.offset, one.offsets[-1])
+    assert np.ptp(halved.offsets, axis=0).min() > 0.0
     assert np.allclose(halved.residual[:3], fit.residual[:3], rtol=1e-9)
     assert (halved.residual[3:] < 0.25 * fit.residual[3:]).all()
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from forcetorque.base.units import STANDARD_GRAVITY
-from forcetorque.calibration.joint.result import JointOutcome, ModelErrorRow, SensorErrorRow, SubModelRow
+from forcetorque.calibration.joint.result import JointOutcome, ModelErrorRow, SensorErrorRow, SubModelRow, _middle
+from forcetorque.experiment.calibration.calibration_file import CalibratedVariable
 
 
 def _sensor(
@@ -118,7 +119,17 @@ def test_an_error_of_the_model_is_a_finding_where_chance_is_not_enough() -> None
     assert not _error(0.0, 0.6).learnt
     assert _error(0.0, 3.1).is_wide
     assert not _error(0.0, 2.9).is_wide
-    assert [words.split(":")[0] for words in _doubts(errors=[_error(5.0, 0.1), _error(0.1, 0.1)])] == ["mass of shank"]
+    (one,) = _doubts(errors=[_error(5.0, 0.1), _error(0.1, 0.1)])
+    assert one.startswith(
+        "mass of shank: off by 5.0000 ±0.1000, where the model is trusted to 1; look at the robot model"
+    )
+
+
+def test_errors_are_predicted_in_the_middle_of_what_variables_reached() -> None:
+    """Less the value at which a variable adds nothing."""
+    temperature = CalibratedVariable.model_construct(minimum=20.0, maximum=34.0, reference_value=22.0)
+    supply = CalibratedVariable.model_construct(minimum=4.0, maximum=5.0, reference_value=6.0)
+    np.testing.assert_allclose(_middle([temperature, supply]), [5.0, -1.5])
 
 
 def test_wide_errors_of_the_model_are_counted_by_kind() -> None:

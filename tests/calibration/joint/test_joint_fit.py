@@ -15,6 +15,7 @@ from forcetorque.calibration.joint.fit import fit_jointly
 from forcetorque.calibration.joint.model_error_columns import (
     delay_terms,
     error_terms,
+    model_error_columns,
     weight_error_columns,
 )
 from forcetorque.calibration.joint.robust_fit import (
@@ -30,6 +31,7 @@ from forcetorque.calibration.joint.unknowns import EVEN, UNITS, JointFit
 from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.experiment.calibration.robot_model_error import EXACT, MASS, ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts, weight_equations
+from forcetorque.robot.motion import JointMotion, RootMotion
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying, touches
 
 WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.3)), "acceleration": 0.05}
@@ -152,6 +154,19 @@ def test_masses_of_what_is_weighed_add_up_to_its_weight() -> None:
         assert np.abs(equation.demand[:, :3]).max() > 1.0
         of_masses = sum(values for name, values in columns.items() if name.startswith(MASS))
         np.testing.assert_allclose(-of_masses, equation.demand, atol=1e-9)
+
+
+def test_errors_of_a_weight_are_those_of_the_whole_equation_at_rest() -> None:
+    """Forces of masses, acceleration and joint zeros by closed form, and by the derivatives of the dynamics."""
+    stretch = swaying(51, duration_s=0.1).stretch
+    joints, compared = JointMotion.at_rest(stretch.joints.names, stretch.joints.position), 0
+    for part in untouched_parts(stretch.tree, SENSORS, FEET):
+        root = RootMotion.fixed([0.48, -0.6, -0.64], gravity=9.81)
+        whole = model_error_columns(stretch.tree, part, joints, root)
+        for name, values in weight_error_columns(stretch.tree, part, root, len(stretch)).items():
+            np.testing.assert_allclose(values[:, :3], whole[name][:, :3], atol=1e-9)
+            compared += bool(np.abs(values).max() > 1.0)
+    assert compared > 6
 
 
 def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:

@@ -63,6 +63,23 @@ def test_the_predicted_error_is_that_of_draws_of_the_fit(session: str | None) ->
     np.testing.assert_allclose(predicted, spread, rtol=0.2)
 
 
+def test_the_error_of_a_change_of_load_is_linear_in_the_changes_of_the_sensor() -> None:
+    """Forces and moments of single changes by hand: what one of them adds for a load, times their covariance."""
+    fit = _fit()
+    places = fit.places.changes(SENSOR)
+    derivative = []
+    for place in range(places.start, places.stop):
+        mean = np.zeros_like(fit.mean)
+        mean[place] = 1.0
+        changed = JointFit(places=fit.places, mean=mean, covariance=fit.covariance, prior_root=fit.prior_root)
+        derivative.append((changed.change(SENSOR) - np.eye(6)) @ LOADS.T)  # (6, loads)
+    errors = fit.error_covariance(SENSOR, LOADS)
+    for k in range(len(LOADS)):
+        jacobian = np.array(derivative)[:, :, k].T
+        np.testing.assert_allclose(errors[k], jacobian @ fit.covariance[places, places] @ jacobian.T, rtol=1e-9)
+    np.testing.assert_allclose(fit.error_covariance(SENSOR, 2.0 * LOADS), 4.0 * errors, rtol=1e-12)
+
+
 def test_repeatability_widens_but_teaches_nothing() -> None:
     """What a sensor does not repeat stands in its error, not in what was learnt."""
     exact, creeping = _posterior(), _posterior(0.003)

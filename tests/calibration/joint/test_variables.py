@@ -22,6 +22,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import variable_s
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.named_columns import ScalarSource
 from forcetorque.recording.recording import Use
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
@@ -93,6 +94,13 @@ def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path, sta
     # what it adds stands in the posterior too, of readings in the same units
     added = -calibration.posterior.to_wrench @ calibration.posterior.mean[:, 6]
     np.testing.assert_allclose(added, temperature.coefficients, rtol=1e-9)
+    # beside the prior matrix the offset is that of readings and robot model alone, but for errors of the model
+    (interval,), (session,) = experiment.intervals(Use.CALIBRATION), calibration.sessions
+    samples = SensorRun(experiment, SENSOR).interval_samples(interval).data_set
+    plain = (samples.reference - samples.raw @ prior.T).mean(axis=0)
+    assert session.prior_offset is not None
+    assert np.linalg.norm((session.prior_offset - plain)[:3]) < 0.1 * np.linalg.norm(plain[:3])
+    assert np.linalg.norm((session.prior_offset - plain)[3:]) < 0.1 * np.linalg.norm(plain[3:])
 
 
 def test_a_slope_of_which_nothing_is_known_needs_a_variable_that_moves() -> None:

@@ -117,6 +117,9 @@ def test_means_of_windows_are_over_what_all_sources_know() -> None:
     np.testing.assert_allclose(means_in_windows([first, slow], 0.3)[1].noise[:, 0, 0], [4.0, 4.0], rtol=EXACT)
     slower = replace(second, torque=np.arange(5.0)[:, None], noise_time_s=0.05)
     np.testing.assert_allclose(means_in_windows([slower], 0.3)[0].noise[:, 0, 0], [8.0 / 3.0, 4.0], rtol=EXACT)
+    # two samples have a period too: 1 + 2 * 0.02 / 0.1 of them are as good as one
+    pair = replace(_single("b", [1.0, 3.0], 4.0), stamp_ns=first.stamp_ns[:2], noise_time_s=0.02)
+    np.testing.assert_allclose(means_in_windows([pair], 0.3)[0].noise[:, 0, 0], [1.4 * 4.0 / 2.0], rtol=EXACT)
 
 
 def test_a_source_that_knows_less_than_half_of_a_window_has_no_mean_in_it() -> None:

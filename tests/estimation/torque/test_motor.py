@@ -315,3 +315,19 @@ def test_errors_of_one_drive_do_not_reach_another() -> None:
             friction.variance + np.einsum("ni,ij,nj->n", terms, friction.covariance, terms),
         )
     np.testing.assert_allclose(source.covariance[:, 0, 1], 0.0, atol=1e-15)
+
+
+@pytest.mark.parametrize(("lasting", "variance"), [(0.0, 4.2), (0.5, 3.75)])
+def test_samples_that_are_as_good_as_one_by_hand(lasting: float, variance: float) -> None:
+    """Blocks of four, of which one has no sample and one a single one; nine samples leave five for the scatter.
+
+    Sums over roots of their counts are 1, 4 and -2, and squares of samples add up to 21; lasting errors leave both.
+    """
+    used = np.repeat([False, True, False, True, True], [4, 1, 3, 4, 4])
+    residual = np.repeat([1.0, 2.0, -1.0], [1, 4, 4])
+    scatter = _Scatter.of(used, residual, np.full((9, 1), lasting), length=4)
+    assert scatter.variance == pytest.approx(variance)
+    assert scatter.repeated == pytest.approx(5.0 / 3.0)
+    # what hardly repeats itself counts once, and no more than a block
+    opposite = np.array([1.0, 2.0, -2.0, 2.0, -2.0, 1.0, -1.0, 1.0, -1.0])
+    assert _Scatter.of(used, opposite, np.zeros((9, 0)), length=4).repeated == 1.0

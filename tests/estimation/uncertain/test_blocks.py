@@ -57,3 +57,12 @@ def test_a_long_recording_is_its_samples() -> None:
     assert hidden.directions == pieces[-1].undetermined[0].directions
     assert np.isnan(whole.contact("hand")[late]).any()
     assert np.isfinite(whole.contact("upper_arm")[~late]).all()
+    # some of the samples: with what is hidden in them, and with nothing hidden where nothing is
+    for kept, sets in ((np.arange(SAMPLES) >= 540, 1), (~late, 0)):
+        some = whole.of_samples(kept)
+        for name in BY_SAMPLE:
+            np.testing.assert_array_equal(getattr(some, name), getattr(whole, name)[kept])
+        assert [one.samples.tolist() for one in some.undetermined] == sets * [late[kept].tolist()]
+    variances = np.diagonal(whole.torque_covariance, axis1=1, axis2=2)
+    np.testing.assert_allclose(whole.torque_sd**2, variances, rtol=1e-12)
+    assert (whole.torque_sd[~late] > 0.0).any()

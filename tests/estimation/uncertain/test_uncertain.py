@@ -345,6 +345,25 @@ def test_friction_of_a_known_bound_widens_the_covariance_of_a_push() -> None:
     assert np.abs(by_slip.contact_sd("foot")).max() > VISIBLE
 
 
+def test_a_slip_that_nothing_bounds_is_found_by_sensors_on_both_sides() -> None:
+    """Skin feels the push alone; exact sensors show what it lacks along either tangent, without any bound."""
+    robot, question, measured = _pushed()
+    rng, n = np.random.default_rng(17), len(robot.joints)
+    maps, slip = rng.normal(size=(n, 6, 2)), rng.normal(size=(n, 2, 1))
+    known = Wrenches.of({"skin": robot.truth["skin"] - (maps @ slip)[:, :, 0]})
+    found, blind = (
+        estimate_with_covariance(
+            question, robot.joints, robot.root, measured=measured, known=known, uncertainty=Uncertainty(tangents=own)
+        )
+        for own in ({"skin": Tangents(maps=maps)}, {})
+    )
+    for name, wrench in robot.truth.items():
+        np.testing.assert_allclose(found.contact(name), wrench, rtol=0, atol=1e2 * ROUNDING)
+    np.testing.assert_allclose(found.contact_covariance, 0.0, atol=ROUNDING)
+    # negative control: with the tangents taken as zero, skin is believed
+    assert np.abs(blind.contact("skin") - robot.truth["skin"]).max() > VISIBLE
+
+
 def test_a_basis_of_what_is_hidden_has_each_unknown_once() -> None:
     """Vectors that span the range of a projection, as Gauss and Jordan eliminate them."""
     rng = np.random.default_rng(13)

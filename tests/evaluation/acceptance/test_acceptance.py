@@ -301,6 +301,9 @@ def test_what_evaluate_forbids_is_not_accepted(arm: Path) -> None:
             row.criterion.removeprefix("verdict.") for row in forbidden
         ]
         assert (accepted.accepted or accepted.undecided) is (decision is None) is not bool(forbidden)
+        # each says first why
+        reasons = {f"verdict.{use.load_case}": use.reasons for use in accepted.load_cases}
+        assert [row.note for row in forbidden] == [reasons[row.criterion][0].text for row in forbidden]
 
 
 def test_a_file_that_limits_errors_leaves_a_sensor_undecided_where_evaluate_lacks_data(arm: Path) -> None:

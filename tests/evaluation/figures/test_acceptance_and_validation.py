@@ -9,8 +9,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from forcetorque.base.errors import ShapeError
+from forcetorque.evaluation.acceptance.answers import acceptance_answers
 from forcetorque.evaluation.acceptance.criteria import Bound
-from forcetorque.evaluation.answers import acceptance_answers
 from forcetorque.evaluation.figures.acceptance_and_contact_forces import acceptance_figure, validation_figure
 from forcetorque.evaluation.validation.answers import validation_answers
 from forcetorque.experiment.validation_offset import Offset

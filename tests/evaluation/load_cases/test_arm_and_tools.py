@@ -23,7 +23,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.inspection.draft.draft import draft_experiment
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_warnings import circular_loads, reversed_sense
+from forcetorque.payload.load_warnings import reversed_sense
 from forcetorque.payload.result import WeighedLoad
 from tests.scenes.robots import example_robot
 
@@ -151,7 +151,7 @@ def test_a_tool_that_the_sensor_itself_weighed_is_named(
     alone = {**beside, "loads": beside["loads"][:1]}
     for content, named in ((beside, False), (alone, True), ({**alone, "serial": "FT-99"}, False)):
         (file.parent / "tool.json").write_text(json.dumps(content), encoding="utf-8")
-        sentences = list(circular_loads(_run(file)))
+        sentences = list(_run(file).circular_loads())
         assert [words[: words.index(" (")] for words in sentences] == [
             "load 'gripper': weighed before by this sensor itself"
         ] * named

@@ -3,6 +3,10 @@
 
 from __future__ import annotations
 
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -10,11 +14,16 @@ from forcetorque.base.errors import SensorError
 from forcetorque.evaluation.load_cases.load_case import (
     LOADS,
     LoadCase,
+    beyond_range,
     full_scale_loads,
+    operating_load_cases,
     pushes_around_sensor,
     pushes_at,
     weights,
 )
+from forcetorque.experiment.loading import load_experiment
+from forcetorque.experiment.sensor_run import SensorRun
+from tests.scenes.experiments import PARQUET, add
 
 FORCE_N, RADIUS_M = 20.0, 0.3
 STATISTICAL = 2.0 / np.sqrt(LOADS)
@@ -94,3 +103,64 @@ def test_by_default_a_twentieth_of_the_loads_is_allowed() -> None:
     assert twist.requirement == pytest.approx((np.inf, 0.1))
     assert LoadCase(name="a", words="", wrench=wrench, allowed_force_N=0.7).requirement == (0.7, np.inf)
     assert LoadCase(name="a", words="", wrench=wrench, allowed_moment_Nm=0.7).requirement == (np.inf, 0.7)
+
+
+def test_a_full_scale_of_the_sensor_limits_its_loads(intact: Path) -> None:
+    """By hand: the component that goes farthest beyond its own full scale is named, with its unit."""
+    sensor = replace(
+        load_experiment(intact / PARQUET).sensors[0], full_scale=np.array([100.0, 100.0, 200.0, 10.0, 10.0, 5.0])
+    )
+    loads = np.zeros((3, 6))
+    loads[1], loads[2] = [-100.0, 50.0, 0.0, 0.0, 10.0, 0.0], [0.0, 0.0, 200.0, 0.0, 0.0, -5.0]
+    assert beyond_range(LoadCase(name="a", words="", wrench=loads), sensor, None) is None
+    for place, load, text in (
+        (2, 210.0, "reaches 210 N in fz, the full scale of 'arm_ft' is 200"),
+        (3, -12.0, "reaches 12 N m in tx, the full scale of 'arm_ft' is 10"),
+    ):
+        loads[0, place] = load
+        assert beyond_range(LoadCase(name="a", words="", wrench=loads), sensor, None) == text
+
+
+def test_channels_limit_loads_where_no_full_scale_is_stated(intact: Path) -> None:
+    """Counts by the prior, or by the matrix that is given, of which one channel reaches its limit."""
+    sensor = load_experiment(intact / PARQUET).sensors[0]
+    assert sensor.prior is not None
+    limit = sensor.limit_counts
+    counts = np.array([[0.2, -0.999, 0.0, 0.5, 0.0, 0.0], [0.1, 0.3, 0.4, 0.0, 0.0, 0.999]]) * limit
+    case = LoadCase(name="a", words="", wrench=counts @ sensor.prior.T)
+    assert beyond_range(case, sensor, None) is None
+    assert beyond_range(case, sensor, 2.0 * sensor.prior) is None
+    expected = f"reaches {1.1 * 0.999 * limit:.0f} counts in a channel of 'arm_ft', which reads up to {limit:.0f}"
+    assert beyond_range(case, sensor, sensor.prior / 1.1) == expected
+    # of a sensor without a matrix nothing is known
+    assert beyond_range(replace(case, wrench=1e9 * case.wrench), replace(sensor, prior=None), None) is None
+
+
+def test_a_share_of_full_scale_is_of_what_channels_read_where_none_is_stated(arm: Path) -> None:
+    """Uniform up to a twentieth of counts times the norm of each row of the prior, or of the stated full scale."""
+    file = add(arm / PARQUET, '\n[[load_case]]\nname = "a"\nfull_scale_share = 0.05\n')
+    run = SensorRun(load_experiment(file), "arm_ft")
+    assert run.sensor.prior is not None
+    stated = np.array([10.0, 20.0, 30.0, 1.0, 2.0, 3.0])
+    by_rows = run.sensor.limit_counts * np.linalg.norm(run.sensor.prior, axis=1)
+    for sensor, scale in ((run.sensor, by_rows), (replace(run.sensor, full_scale=stated), stated)):
+        experiment = replace(run.experiment, sensors=(sensor,))
+        (case,) = operating_load_cases([SensorRun(experiment, "arm_ft")])
+        np.testing.assert_allclose(
+            np.sqrt((case.wrench**2).mean(axis=0)), 0.05 * scale / np.sqrt(3.0), rtol=STATISTICAL
+        )
+        assert case.words == "up to 5 % of full scale in all components at once"
+
+
+@pytest.mark.parametrize("share", [1.37, 4.9, 23.0])
+def test_pushes_that_the_sensor_can_read_are_the_strongest_of_two_digits(intact: Path, share: float) -> None:
+    """Where the default ones are beyond its full scale: two digits that are at most a tenth below what it can read."""
+    run = SensorRun(load_experiment(intact / PARQUET), "arm_ft")
+    (usual,) = operating_load_cases([run])
+    sensor = replace(run.sensor, full_scale=np.abs(usual.wrench).max(axis=0) / share)
+    (case,) = operating_load_cases([SensorRun(replace(run.experiment, sensors=(sensor,)), "arm_ft")])
+    (table,) = tomllib.loads(case.readable)["load_case"]
+    assert (table["name"], table["radius_m"]) == ("push", 0.3)
+    force, largest = table["force_N"], usual.force_N / share
+    assert force == float(f"{force:.1e}")
+    assert force <= largest < 1.1 * force

@@ -13,7 +13,14 @@ import pytest
 from forcetorque.evaluation.load_cases.load_case import LoadCase, LoadCaseOffset
 from forcetorque.evaluation.load_cases.predicted_error import predict_from_posterior
 from forcetorque.evaluation.load_cases.validation_evidence import Evidence, MeasuredError
-from forcetorque.evaluation.load_cases.verdict import LoadCaseAssessment, Reason
+from forcetorque.evaluation.load_cases.verdict import (
+    ADD_VALIDATION,
+    RECORDED,
+    LoadCaseAssessment,
+    LoadCaseVerdict,
+    Reason,
+    load_case_verdict,
+)
 from forcetorque.experiment.calibration.posterior import RowNoise
 from tests.evaluation.load_cases.test_predicted_error import _case, _posterior
 
@@ -121,3 +128,38 @@ def test_the_measured_error_has_its_constant_part_where_the_sensor_is_not_tared(
     for offset, size in ((LoadCaseOffset.FITTED, 5.0), (LoadCaseOffset.TARED, 4.0)):
         force, moment = _assessed(_case(offset=offset, **WIDE), force=error).errors()
         assert (force.measured, moment.measured) == (size, 0.0)
+
+
+def _verdict(case: LoadCase, measured: Evidence | None, *, full_scale: float = 1e4) -> LoadCaseVerdict:
+    sensor: Any = SimpleNamespace(name="arm_ft", serial="SN1", full_scale=np.full(6, full_scale))
+    return load_case_verdict(sensor, case, ("new", CALIBRATION), measured, lambda offset: (), ())
+
+
+def test_without_data_that_test_it_a_calibration_is_not_called_good() -> None:
+    """However good its prediction is, and with what to record; the error is then predicted alone."""
+    verdict = _verdict(_case(**WIDE), None)
+    assert verdict.decision == "not enough data"
+    (against,) = [reason for reason in verdict.reasons if reason.against is not None]
+    assert (against.against, against.remedy) == ("data", ADD_VALIDATION)
+    assert all(error.measured is None for error in verdict.errors)
+    assert _verdict(_case(**WIDE), _assessed(_case(**WIDE)).measured).decision == "use"
+
+
+def test_loads_that_the_sensor_cannot_read_leave_a_verdict_on_those_of_the_data() -> None:
+    """Predicted at the recorded loads, with the reason; where nothing moved in the data, at the usual ones."""
+    case, measured = replace(_case(**WIDE), is_stated=False, readable="smaller"), _assessed(_case(**WIDE)).measured
+    assert measured is not None
+    measured = replace(measured, reference=MOVED + [100.0, 0.0, 0.0, 0.0, 0.0, 10.0])  # of which only changes count
+    largest = float(np.abs(case.wrench).max())
+    inside, beyond = (_verdict(case, measured, full_scale=share * largest) for share in (1.001, 0.999))
+    assert (inside.load_case, inside.beyond_range) == (case.name, None)
+    assert beyond.load_case == RECORDED
+    assert [error.load for error in beyond.errors] == pytest.approx(
+        [np.sqrt((MOVED[:, part] ** 2).sum(axis=1).mean()) for part in (slice(3), slice(3, 6))]
+    )
+    assert beyond.beyond_range == beyond.reasons[-1].text
+    assert beyond.readable_load_case == "smaller"
+    assert "state your loads as [[load_case]]" in beyond.reasons[-1].text
+    at_rest = replace(measured, moved=np.zeros_like(MOVED))
+    for evidence in (at_rest, None):
+        assert _verdict(case, evidence, full_scale=0.5 * largest).load_case == case.name

@@ -9,7 +9,14 @@ import scipy.linalg
 from hypothesis import given, strategies as st
 from scipy.spatial.transform import Rotation
 
-from forcetorque.evaluation.sphere.algebraic_fit import Quadrics, direct_fit, gradient_weighted_fit, inverse_lengths
+from forcetorque.evaluation.sphere.algebraic_fit import (
+    Quadrics,
+    direct_fit,
+    gradient_weighted_fit,
+    gradient_weighted_spheres,
+    inverse_lengths,
+    least_squares_spheres,
+)
 from forcetorque.evaluation.sphere.cloud import QuadricMoments
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.resampling import whole
@@ -171,3 +178,21 @@ def test_lengths_of_an_ellipsoid_are_those_of_the_map_of_the_unit_sphere() -> No
     intersections = np.linalg.norm(np.linalg.inv(maps), axis=1)
     half_widths = np.linalg.norm(maps, axis=2)
     np.testing.assert_allclose(lengths, np.hstack([intersections, 1.0 / half_widths]), rtol=1e-10)
+
+
+@pytest.mark.parametrize("fit", [*FITS.values(), least_squares_spheres, gradient_weighted_spheres])
+def test_a_part_of_a_cloud_is_fitted_about_any_middle(fit: object) -> None:
+    """The first half, whose middle is far from that of the whole, by moments about the whole and about its own."""
+    directions = whole_sphere(700)
+    ordered = directions[np.argsort(directions @ [1.0, 2.0, -1.0])]
+    cloud = on(DEFORMED, ordered) + np.random.default_rng(5).normal(size=(700, 3))
+    moments, own = QuadricMoments.of(cloud), QuadricMoments.of(cloud[:350])
+    found = fit(whole(moments.sums[: len(moments.sums) // 2]), moments)  # type: ignore[operator]
+    alone = fit(whole(own.sums), own)  # type: ignore[operator]
+    np.testing.assert_allclose(found.centre, alone.centre, rtol=AGREEMENT)
+    form, same = (one.shape if isinstance(one, Quadrics) else one.bend for one in (found, alone))
+    np.testing.assert_allclose(form, same, rtol=0.0, atol=AGREEMENT * np.abs(same).max())
+    assert np.abs(same).max() > 0.0
+    # negative control: the other half has another middle
+    other = fit(whole(moments.sums[len(moments.sums) // 2 :]), moments)  # type: ignore[operator]
+    assert np.abs(other.centre - alone.centre).max() > 0.01

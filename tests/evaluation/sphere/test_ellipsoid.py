@@ -9,6 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
+from forcetorque.evaluation.sphere.model_free_fit import _intervals
+from forcetorque.evaluation.sphere.resampling import Resampled
 from tests.evaluation.sphere.clouds import DEFORMED, on, whole_sphere
 
 ROUNDING = 1e-13
@@ -74,3 +76,28 @@ def test_open_and_flat_ones_are_refused() -> None:
         ellipsoid_of_map(np.diag([1.0, 1.0, 0.0]), centre=np.zeros(3), radius=1.0)
     with pytest.raises(ShapeError, match=r"shape: expected an array of shape \(3, 3\)"):
         Ellipsoid(centre=np.zeros(3), shape=np.eye(2))
+
+
+def _steady(*lengths: float) -> Resampled:
+    """Lengths that no part of a recording changes."""
+    inverse = 1.0 / np.array(lengths)
+    return Resampled(whole=inverse, **dict.fromkeys(("without_one", "halves", "windows"), np.tile(inverse, (10, 1))))
+
+
+@pytest.mark.parametrize(("middle", "least"), [(50.0, 0.0), (53.0, np.std([50.0, 53.0, 50.2], ddof=1))])
+def test_intervals_of_lengths_and_index_span_the_methods(middle: float, least: float) -> None:
+    """By hand from two methods and the geometric fit: an index may be zero where the three intersections may be equal.
+
+    Half-widths are no intersections, however short they are.
+    """
+    direct = _steady(50.0, middle, 50.2, 30.0, 70.0, 60.0)
+    weighted = _steady(50.5, middle + 0.3, 49.0, 30.0, 70.0, 61.0)
+    geometric = 1.0 / np.array([50.2, middle, 49.5, 31.0, 69.0, 60.5])
+    low, high, index_low, index_high = _intervals(direct, weighted, geometric, None)
+    np.testing.assert_allclose(low, [50.0, middle, 49.0, 30.0, 69.0, 60.0], rtol=ROUNDING)
+    np.testing.assert_allclose(high, [50.5, middle + 0.3, 50.2, 31.0, 70.0, 61.0], rtol=ROUNDING)
+    assert index_low == pytest.approx(least)
+    assert index_high == pytest.approx(np.std([50.5, middle + 0.3, 49.0], ddof=1))
+    # half-widths that are longer than any intersection change nothing either
+    longer = [_steady(*(1.0 / fit.whole[:3]), 90.0, 90.0, 90.0) for fit in (direct, weighted)]
+    assert _intervals(*longer, geometric, None)[2] == pytest.approx(least)

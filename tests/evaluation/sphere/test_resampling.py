@@ -10,6 +10,7 @@ import pytest
 from scipy.stats import t as student
 
 from forcetorque.base.arrays import FloatArray
+from forcetorque.evaluation.sphere.affine_fit import _reference_extent
 from forcetorque.evaluation.sphere.cloud import QuadricMoments, extent
 from forcetorque.evaluation.sphere.resampling import (
     BLOCKS,
@@ -52,6 +53,18 @@ def test_intervals_hold_the_truth_as_often_as_they_say() -> None:
         held += [low[0] < 0.0 < high[0], abs(walk.mean()) < naive]
     assert 0.92 < held[0] / 400 < 0.98
     assert held[1] / 400 < 0.6  # negative control
+
+
+def test_the_extent_of_references_is_their_root_mean_square_distance_from_the_mean() -> None:
+    """Of a part about its own mean, whatever the sensor measured of them meanwhile."""
+    rng = np.random.default_rng(4)
+    pairs = np.hstack(
+        [rng.normal(size=(90, 3)) * [1.0, 5.0, 20.0] + [10.0, -30.0, 7.0], rng.normal(size=(90, 3)) + 40.0]
+    )
+    rows = np.column_stack([pairs, np.ones(90)])
+    distances = np.linalg.norm(pairs[:, :3] - pairs[:, :3].mean(axis=0), axis=1)
+    found = _reference_extent((rows.T @ rows / 90.0)[None])
+    np.testing.assert_allclose(found, [np.sqrt((distances**2).mean())], rtol=1e-9)
 
 
 def test_the_extent_of_a_cloud_is_its_root_mean_square_distance_from_the_mean() -> None:

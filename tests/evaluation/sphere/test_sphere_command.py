@@ -20,6 +20,7 @@ from forcetorque.evaluation.sphere.ellipsoid import RULE, TOLERANCE
 from forcetorque.evaluation.sphere.sphere import spheres
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.results.table import Table
 from tests.app.json_schema import faults
 from tests.app.outcome import Run
 from tests.scenes.experiments import PARQUET, TWO, edit, snapshot
@@ -41,11 +42,14 @@ def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
     assert (result["schema"], result["experiment"]) == ("forcetorque/sphere/2", "small arm")
     assert (result["rule"], result["tolerance"], result["gravity_m_s2"]) == (RULE, TOLERANCE, GRAVITY)
     experiment = load_experiment(PARQUET)
-    (sphere,) = spheres(SensorRun(experiment, "arm_ft"), {}, ["judge"]).analyses
+    prior = spheres(SensorRun(experiment, "arm_ft"), {}, ["judge"])
+    (sphere,) = prior.analyses
     row, analysis = _row(result, "prior"), sphere.analysis
     assert (row["sensor"], row["serial"], row["samples"]) == ("arm_ft", "SIM001", analysis.samples)
     assert row["model_mass_kg"] == analysis.mass
     assert (row["form"], row["intervals"], row["no_model"]) == (analysis.form, ["judge"], None)
+    captions = [block.caption for block in prior.blocks() if isinstance(block, Table)]
+    assert captions[0] == f"small arm: arm_ft (SIM001), {analysis.samples} samples of judge"
     assert analysis.mapped is not None
     for name, fit in (("with_model", analysis.mapped.fit), ("without_model", analysis.free)):
         assert fit.ellipsoid is not None

@@ -14,12 +14,13 @@ from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.evaluation.commands import compare
 from forcetorque.evaluation.section import TRIAL as TRIAL_SECTION
 from forcetorque.evaluation.sphere.sphere import spheres
-from forcetorque.evaluation.trials.comparison import Comparison
+from forcetorque.evaluation.trials.comparison import Comparison, comparison_blocks
 from forcetorque.evaluation.trials.trials import TrialGroup, TrialSphere, group_trials, mean_of_trials, read_trials
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.experiment_file import parse_experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
+from forcetorque.results.table import Table
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
 from tests.report.drawing import sphere_of
 from tests.scenes.experiments import PARQUET, TWO, add, edit
@@ -143,6 +144,106 @@ def test_what_is_not_known_is_not_averaged_nor_ranked() -> None:
     assert alone.index(with_model=False) is None
     drift = _group([whole, cap]).drift(with_model=False)
     assert drift is None or not drift.identifiable
+
+
+def _compared(*trials: TrialSphere) -> tuple[Comparison, dict[str, Table], list[str]]:
+    """Trials compared: the result, its tables by caption, and its sentences."""
+    result = Comparison.of(trials, (), lambda line: None)
+    blocks = list(result.blocks())
+    tables = {block.caption: block for block in blocks if isinstance(block, Table)}
+    return result, tables, [block for block in blocks if isinstance(block, str)]
+
+
+DRIFT = "drift: last trial minus first"
+OF_CONDITIONS = "leg_ft (SN1), prior: index with the model, kg"
+
+
+def test_trials_of_one_condition_stand_below_each_other_with_their_drift() -> None:
+    """Every cell from the trials themselves; the sensor read 30 N more in the last one; one group has no rank."""
+    rng = np.random.default_rng(7)
+    result, tables, sentences = _compared(_trial(rng, 0.0), _trial(rng, 30.0))
+    (first, last), (group,) = result.trials, result.groups
+    assert first.with_model is not None is not last.with_model
+    assert group.with_model is not None
+    pooled, table = group.with_model.pooled, tables[OF_CONDITIONS]
+    assert pooled is not None
+    indices = [row.with_model.index_kg or 0.0 for row in (first, last) if row.with_model is not None]
+    assert table.headings == ("trial", "2 N m")
+    assert table.rows[:3] == (
+        ("1", f"{indices[0]:.4f}"),
+        ("2", f"{indices[1]:.4f}"),
+        ("mean of trials", f"{sum(indices) / 2.0:.4f}"),
+    )
+    assert table.rows[4] == ("pooled fit", f"{pooled.index_kg:.4f}")
+    assert table.rows[5][1] == f"{pooled.index_low_kg:.2f} to {pooled.index_high_kg:.2f}"
+    with_model, without = tables[DRIFT].rows
+    assert (with_model[:2], without[1]) == (("leg_ft (SN1)", "with"), "without")
+    assert float(with_model[2]) == pytest.approx(indices[1] - indices[0], abs=6e-4)
+    for cells in (with_model, without):
+        np.testing.assert_allclose([float(value) for value in cells[4].split()], 30.0, atol=0.5)
+        assert "centre x, centre y, centre z" in cells[5]
+    assert len(tables) == 4
+    assert not any(sentence.startswith("rank:") for sentence in sentences)
+    # the trial alone has nothing beside or below it
+    _, alone, _ = _compared(_trial(rng, 0.0))
+    assert list(alone) == ["every trial; errors with the model, index with and without it"]
+
+
+def test_what_is_not_known_stands_in_brackets() -> None:
+    """A cap tells no index without the model: its drift is in brackets, and the mean is of the other trial."""
+    rng = np.random.default_rng(5)
+    result, tables, _ = _compared(_trial(rng, 1.0), _trial(rng, 2.0, half_deg=15.0))
+    known, cap = (row.without_model for row in result.trials)
+    table = tables["leg_ft (SN1), prior: index without the model, kg"]
+    assert table.rows[0] == ("1", f"{known.index_kg:.4f}")
+    assert table.rows[1] == ("2", f"({cap.index_kg:.4f})")
+    assert table.rows[2] == ("mean of trials", f"{known.index_kg:.4f}, 1 of 2")
+    index, masses, centre, beyond = tables[DRIFT].rows[1][2:]
+    assert beyond == "not identifiable"
+    assert index == f"({(cap.index_kg or 0.0) - (known.index_kg or 0.0):+.3f})"
+    assert all(cells.startswith("(") and cells.endswith(")") for cells in (masses, centre))
+    assert not any("(" in cells for cells in tables[DRIFT].rows[0][2:])
+
+
+def test_a_trial_without_the_model_has_dashes_in_its_place() -> None:
+    """One dash for each error and for the index with the model; the index without it is there."""
+    force = _trial(np.random.default_rng(9), 3.0).sphere.force
+    alone = replace(_trial(np.random.default_rng(9), 3.0), sphere=sphere_of(force, None))
+    result, tables, _ = _compared(alone)
+    (row,) = tables["every trial; errors with the model, index with and without it"].rows
+    assert row == ("leg_ft", "SN1", "-", "-", "-", "-", f"{result.trials[0].without_model.index_kg:.4f}")
+
+
+def test_conditions_stand_beside_each_other_and_are_ranked() -> None:
+    """The less even sensor comes last; a shorter column ends in dashes, and an only trial has no pooled fit."""
+    rng = np.random.default_rng(8)
+    uneven = _trial(rng, 0.0, condition="loose", stretch=1.3)
+    result, tables, sentences = _compared(uneven, _trial(rng, 0.0), _trial(rng, 0.0))
+    table = tables[OF_CONDITIONS]
+    assert table.headings == ("trial", "loose", "2 N m")
+    assert table.rows[1][1] == "-"
+    assert table.rows[4][1] == "-"
+    ranks = tables["by index of the pooled fit, or of the only trial"]
+    assert [(cells[0], cells[1], cells[4], cells[7]) for cells in ranks.rows] == [
+        ("leg_ft (SN1), 2 N m", "2", "1", "1"),
+        ("leg_ft (SN1), loose", "1", "2", "2"),
+    ]
+    only, group = result.trials[0].with_model, result.groups[1].with_model
+    assert only is not None
+    assert group is not None
+    assert group.pooled is not None
+    for cells, fit in zip(ranks.rows, (group.pooled, only), strict=True):
+        assert cells[2:4] == (f"{fit.index_kg:.4f}", f"{fit.index_low_kg:.2f} to {fit.index_high_kg:.2f}")
+    assert any(sentence.startswith("rank: one more than the sensors") for sentence in sentences)
+    # of a dozen sensors ten have tables of their own
+    many = [f"SN{k}" for k in range(12)]
+    rows, groups = (
+        [row.model_copy(update={"serial": name}) for name in many for row in of_one]
+        for of_one in (result.trials, result.groups)
+    )
+    blocks = list(comparison_blocks(rows, groups))
+    assert sum(isinstance(block, Table) and ": index " in block.caption for block in blocks) == 20
+    assert "2 more sensors have tables like these; see --format json" in blocks
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings, strategies as st
@@ -13,6 +15,7 @@ from forcetorque.base.noise.window_means import mean_error
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.evaluation.validation.joint_torque_errors import TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.robot.contacts import Contact, Wrenches
+from forcetorque.robot.dynamics import body_pose
 from forcetorque.robot.mechanics.estimate import estimate
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimated_quantities import Question, moving_joints
@@ -24,7 +27,7 @@ from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import Simulation, random_root
 from tests.robot.mechanics.touched import humanoid
-from tests.scenes.robots import icub
+from tests.scenes.robots import icub, joint_xml, link_xml, read_text, robot_xml, sensor_xml
 
 ROUNDING = 1e-12
 """Of the largest wrench: some 40 bodies of some 50 roundings each at eps = 2e-16 are 4e-13."""
@@ -226,6 +229,37 @@ def test_it_is_what_the_estimator_makes_of_the_error_on_any_robot() -> None:
 
     check()
     assert min(seen.values()) > 0
+
+
+def test_a_slide_and_a_hinge_work_as_the_sensor_moves(tmp_path: Path) -> None:
+    """Virtual work: torques are the force times how the sensor moves with each joint, by differences of its pose."""
+    model = read_text(
+        robot_xml(
+            *(link_xml(name, mass=1.0, moments="0.02 0 0 0.02 0 0.02") for name in ("base", "upper", "fore", "hand")),
+            joint_xml("slide", "base", "upper", type="prismatic", xyz="0 0.2 0.1", rpy="0 0.5 0", axis="0 1 1"),
+            joint_xml("turn", "upper", "fore", type="continuous", xyz="0.1 0.1 0", rpy="-0.6 0 0.2", axis="0 -3 1"),
+            joint_xml("ft_joint", "fore", "hand", xyz="0.3 0 0.2", rpy="0.4 0 0"),
+            sensor_xml("ft", "ft_joint"),
+        ),
+        tmp_path,
+    )
+    tree, names, position = build_tree(model, "base"), ("slide", "turn"), np.array([[0.3, -0.7], [-0.1, 1.9]])
+    found = torque_map(tree, JointMotion.at_rest(names, position), "ft", cut_at=("ft",))
+    cut, step = tree.cuts["ft"], 1e-6
+
+    def poses(change: FloatArray) -> FloatArray:
+        return body_pose(tree, JointMotion.at_rest(names, position + change), cut.body) @ cut.body_H_sensor
+
+    rows = []
+    for change in step * np.eye(2):
+        moved, rotation = (poses(change) - poses(-change)) / (2.0 * step), poses(0.0 * change)[:, :3, :3]
+        spin = np.swapaxes(rotation, 1, 2) @ moved[:, :3, :3]  # of the axes of the sensor, in them
+        turned = np.stack([spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], axis=1)
+        rows.append(np.hstack([np.einsum("nji,nj->ni", rotation, moved[:, :3, 3]), turned]))
+    assert found.joints == names
+    # what the hand does to the arm is borne by the motors against it
+    np.testing.assert_allclose(found.rows, -np.stack(rows, axis=1), atol=1e-8)
+    assert np.abs(found.rows[:, 0, :3]).max() > VISIBLE
 
 
 def test_a_gap_makes_nan_of_that_sample_only() -> None:

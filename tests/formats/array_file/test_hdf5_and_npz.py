@@ -17,7 +17,7 @@ from forcetorque.base.errors import FormatError, MissingExtraError, MissingFileE
 from forcetorque.experiment.named_files import ExperimentContext, Inputs
 from forcetorque.formats.array_file.log_format import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.formats.log_format import LogReading
-from forcetorque.formats.registry import LOG_FORMATS, format_name, recognised_format
+from forcetorque.formats.registry import format_named, recognised_format
 
 ROWS = 40
 RNG = np.random.default_rng(8)
@@ -61,7 +61,7 @@ def _write(folder: Path, name: str) -> Path:
 
 
 def _read(path: Path, name: str, *streams: dict[str, Any]) -> LogReading:
-    (known,) = (known for known in LOG_FORMATS if format_name(known) == name)
+    known = format_named(name)
     stated = known.table.model_validate({"format": name, "path": path.name, "stream": streams})
     context = ExperimentContext(
         experiment=path.parent / "x.toml", inputs=Inputs(path.parent), sensors={}, joint_units={}

@@ -7,6 +7,7 @@ pose that is off in all 40 each; nothing is named of 140 fresh draws without a f
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -84,6 +85,46 @@ def test_the_share_that_exchanged_axes_leave_is_that_of_these_axes(first: int, s
     assert row.residual_share == pytest.approx(np.sqrt(np.prod(squares[0] / squares[1]) ** 0.5), rel=1e-6)
 
 
+@pytest.mark.parametrize("axis", [1, 3])
+def test_the_share_that_a_gain_leaves_is_of_what_the_axis_reads(axis: int) -> None:
+    """Noise of the axis over its misfit, both with the gain that it reads with; half as much again is no small step."""
+    rng = np.random.default_rng(11)
+    gravity = poses(POSES, rng)
+    gain = np.where(np.arange(6) == axis, 1.5, 1.0)
+    reading = gain * weight(gravity, 2.0, np.array([0.02, -0.03, 0.05])) + SIZES * rng.normal(size=(POSES, 6))
+    fitted = fit(problem_of(reading, gravity), drift=False)
+    (row,) = axis_errors(fitted, permuted=True, drift=False)
+    named = re.match(rf"{WRENCH_COMPONENTS[axis]} changes by (\S+) ", row.description)
+    assert row.name == "gain of an axis"
+    assert named is not None
+    assert float(named[1]) == pytest.approx(1.5, abs=0.015)  # four half-widths of the worse axis
+    left, listed = (
+        (plain_fit(problem_of(reading / one, gravity), drift=False, weight=fitted.weight)[1] * one)[:, axis]
+        for one in (gain, np.ones(6))
+    )
+    # the gain is an estimate of 24 poses, and takes one unknown from what is left
+    assert row.residual_share == pytest.approx(np.sqrt(left @ left / (listed @ listed)), rel=0.04)
+
+
+@pytest.mark.parametrize(("count", "names"), [(5, []), (6, ["exchanged axes"])])
+def test_four_poses_more_than_unknowns_need_are_tried(count: int, names: list[str]) -> None:
+    """Mass, centre and bias are ten unknowns of six components each, so five poses are too few."""
+    rng = np.random.default_rng(11)
+    gravity = poses(POSES, rng)[:count]
+    reading = weight(gravity, 2.0, np.array([0.02, -0.03, 0.05])) + SIZES * rng.normal(size=(count, 6))
+    fitted = fit(problem_of(reading[:, [1, 0, 2, 3, 4, 5]], gravity), drift=False)
+    fitted = replace(fitted, weight=np.ones(count))
+    assert [row.name for row in axis_errors(fitted, permuted=True, drift=False)] == names
+
+
+def test_nothing_is_named_where_every_reading_is_zero() -> None:
+    """There is no misfit of which a cause could leave a share."""
+    gravity = poses(POSES, np.random.default_rng(11))
+    assert not list(
+        axis_errors(fit(problem_of(np.zeros((POSES, 6)), gravity), drift=False), permuted=True, drift=False)
+    )
+
+
 def test_the_forces_that_a_turned_mount_leaves_are_those_of_its_fit() -> None:
     """Root mean squares of their norm about the mount as it is stated, and about the one that is found; N."""
     problem, _ = _problem("turned mount", FIRST_SEED)
@@ -97,6 +138,21 @@ def test_the_forces_that_a_turned_mount_leaves_are_those_of_its_fit() -> None:
     )
     assert after < 0.3 * before
     assert f": residual {before:.2g} -> {after:.2g} N; " in row.description
+
+
+@pytest.mark.parametrize("fault", FAULTS[:3])
+def test_the_size_of_the_loads_changes_no_name(fault: str) -> None:
+    """Wrenches with their noise, a thousand times as large, leave the same share."""
+    problem, words = _problem(fault, FIRST_SEED)
+    shares = []
+    for factor in (1.0, 1e3):
+        rows = replace(problem.rows, wrench=factor * problem.rows.wrench)
+        fitted = fit(replace(problem, rows=rows), drift=False)
+        (row,) = axis_errors(fitted, permuted=True, drift=False)
+        assert row.name == fault
+        assert words == 'set mount = "unknown"' or words in row.description
+        shares.append(row.residual_share)
+    assert shares[1] == pytest.approx(shares[0], rel=1e-6)
 
 
 @pytest.mark.long

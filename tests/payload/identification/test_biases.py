@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, f as f_distribution
 
-from forcetorque.payload.identification.bias_drift_and_jumps import _chance, bias_tests, choose_drift, strongest_jump
+from forcetorque.payload.identification.bias_drift_and_jumps import (
+    _blocks,
+    _chance,
+    bias_tests,
+    choose_drift,
+    strongest_jump,
+)
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.loads_with_intervals import load_estimates, session_estimates, solve
 from forcetorque.payload.identification.robust_fit import fit
@@ -262,3 +268,13 @@ def test_a_step_is_found_in_its_row_and_axis_and_noise_has_none(lasting: bool) -
     steps = [_stepped(800 + k, size=12.0 if lasting else 8.0, lasting=lasting) for k in range(10)]
     found = [(strongest_jump(fit(one, drift=False)), row, axis) for one, row, axis in steps]
     assert sum(one is not None and abs(one[0] - row) <= 2 and one[1] == axis for one, row, axis in found) >= 8
+
+
+def test_blocks_are_sixths_of_every_power_up_that_has_two_rows_in_each() -> None:
+    """In the order of the rows, power-ups in turn too; a power-up of eleven rows is held out nowhere."""
+    session = np.concatenate([np.tile([0, 1, 2], 11), np.repeat([0, 2], [19, 1])])
+    gravity = poses(len(session), np.random.default_rng(1))
+    blocks = _blocks(problem_of(weight(gravity), gravity, session=session, block=session))
+    np.testing.assert_array_equal(blocks[session == 1], np.full(11, -1))
+    np.testing.assert_array_equal(blocks[session == 0], np.repeat(range(6), 5))
+    np.testing.assert_array_equal(blocks[session == 2], np.repeat(range(6), 2))

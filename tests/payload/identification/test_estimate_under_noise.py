@@ -102,12 +102,60 @@ def test_what_no_row_tells_has_no_degree_of_freedom() -> None:
     assert second == np.inf
 
 
+@pytest.mark.parametrize(("noise", "least"), [(0.0, True), (1e-8, False)])
+def test_exact_rows_have_noise_of_a_ten_billionth_of_their_size(noise: float, least: bool) -> None:
+    """So that they have a covariance; noise above it is what 30 values less two unknowns say."""
+    rng = np.random.default_rng(9)
+    design, truth = rng.normal(size=(COUNT, 6, 2)), np.array([1.0, 2.0])
+    error = noise * rng.normal(size=(COUNT, 6))
+    rows = LoadRows.of_poses(np.zeros((COUNT, 6)), rng.normal(size=(COUNT, 3)))
+    groups = groups_of(rows, design, design @ truth + error, np.ones(6), np.ones(COUNT))
+    result = estimate(groups, np.eye(2), (np.zeros((2, 2)), np.zeros(2)), (WHITE,))
+    np.testing.assert_allclose(result.mean, truth, atol=max(noise, 1e-14))
+    for axes, variance in zip((slice(3), slice(3, 6)), result.variances, strict=True):
+        columns, own = design[:, axes].reshape(-1, 2), error[:, axes].ravel()
+        left = own - columns @ np.linalg.lstsq(columns, own, rcond=None)[0]
+        assert variance == pytest.approx((30 * 1e-20 if least else left @ left) / 28, rel=1e-6)
+
+
 def test_an_axis_has_at_least_a_tenth_of_the_noise_of_the_loudest() -> None:
     """Forces and moments apart; exact rows have the size 1."""
     residual = np.array([[3.0, 0.1, 1.0, 0.0, 0.0, 0.0], [-3.0, 0.1, -1.0, 0.0, 0.0, 0.0]])
     np.testing.assert_allclose(noise_sizes(residual), [3.0, 0.3, 1.0, 1.0, 1.0, 1.0], rtol=1e-12)
     np.testing.assert_allclose(noise_sizes(np.fliplr(residual)), [1.0, 1.0, 1.0, 1.0, 0.3, 3.0], rtol=1e-12)
     np.testing.assert_array_equal(noise_sizes(np.empty((0, 6))), np.ones(6))
+
+
+@pytest.mark.parametrize(("sessions", "step_s"), [((0, 1, 2), 0.5), ((0, 0, 0), 0.5), ((0, 1, 2), 0.0)])
+def test_forces_and_moments_are_stacked_axis_by_axis_in_time(sessions: tuple[int, ...], step_s: float) -> None:
+    """Every value once, over its size; time counts in the usual step within a power-up, whatever lies between them.
+
+    Rows at one instant have no step, and a usual step of all of them is none.
+    """
+    rng = np.random.default_rng(4)
+    session = np.tile(sessions, 5)  # rows of three power-ups in turn, as logs of several sensors are
+    time = step_s * np.repeat([0.0, 0.0, 0.0, 1.0, 2.0], 3) + 1000.0 * session
+    count = len(session)
+    values, design = rng.normal(size=(count, 6)), rng.normal(size=(count, 6, 4))
+    sizes, weight, share = rng.uniform(0.5, 2.0, 6), rng.uniform(0.1, 1.0, count), rng.uniform(0.5, 1.0, count)
+    rows = LoadRows.of_poses(
+        np.zeros((count, 6)), rng.normal(size=(count, 3)), session=session.tolist(), time_s=time, share=share
+    )
+    groups = groups_of(rows, design, values, sizes, weight)
+    for first, group in zip((0, 3), groups, strict=True):
+        axis = np.repeat([first, first + 1, first + 2], count)
+        assert sorted(zip(axis, group.order, strict=True)) == [
+            (a, row) for a in range(first, first + 3) for row in range(count)
+        ]
+        np.testing.assert_allclose(group.values, values[group.order, axis] / sizes[axis])
+        np.testing.assert_allclose(group.design, design[group.order, axis] / sizes[axis][:, None])
+        np.testing.assert_allclose(group.line.share, (share * weight)[group.order])
+        np.testing.assert_allclose((step_s or 1.0) * group.line.time_s, time[group.order])
+        # slow noise goes on within one axis of one power-up, whose rows stand together
+        chains = list(zip(axis, session[group.order], strict=True))
+        for k, chain in enumerate(group.line.recording):
+            assert [other == chain for other in group.line.recording] == [other == chains[k] for other in chains]
+        assert np.count_nonzero(np.diff(group.line.recording)) == 3 * len(set(sessions)) - 1
 
 
 @pytest.mark.long

@@ -17,6 +17,7 @@ from forcetorque.payload.identification.loads_with_intervals import (
     vector_words,
 )
 from forcetorque.payload.identification.parameter_vector import Kind, Parameter
+from forcetorque.payload.identification.robust_fit import directions_of
 from tests.payload.identification.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 
 if TYPE_CHECKING:
@@ -67,6 +68,28 @@ def test_an_unknown_has_part_in_a_direction_by_its_share_of_the_largest(bias: fl
     (words,) = _untold(cast("Fit", fitted))
     tilt = " and the tilt" if named else ""
     assert words.split(":")[0] == f"the mass of 'tool'{tilt} and the bias along x are told only together"
+
+
+@pytest.mark.parametrize("kind", [Kind.BIAS, Kind.DRIFT])
+@pytest.mark.parametrize("sessions", [["morning"], ["morning", "noon"]])
+def test_an_open_bias_is_named_by_its_axes_and_power_up(kind: Kind, sessions: list[str]) -> None:
+    """A force along and a moment about its axis; several at once as forces, as moments, or as both."""
+    owner = len(sessions) - 1
+    listed = [Parameter(kind=kind, owner=owner, component=k, name=f"{kind} {k}") for k in range(6)]
+    problem = SimpleNamespace(loads=[], sessions=sessions)
+    session = " of session 'noon'" if owner else ""
+    for components, words in (
+        *(((k,), f"along {axis}") for k, axis in enumerate("xyz")),
+        *(((3 + k,), f"about {axis}") for k, axis in enumerate("xyz")),
+        ((0, 2), "in force"),
+        ((3, 4), "in moment"),
+        ((2, 3), "in force and moment"),
+    ):
+        fitted = SimpleNamespace(
+            guess=SimpleNamespace(parameters=listed), problem=problem, unobservable=np.eye(6)[:, components]
+        )
+        (text,) = _untold(cast("Fit", fitted))
+        assert text.startswith(f"the {kind}{session} {words} is not told: ")
 
 
 def test_poses_that_turn_leave_nothing_open() -> None:
@@ -163,3 +186,24 @@ def test_a_direction_is_named_by_its_axis_or_its_unit_vector(size: float) -> Non
     assert vector_words(size * np.array([0.034, 0.0, 1.0])) == "(0.03, 0.00, 1.00)"
     assert vector_words(size * np.array([-3.0, 0.0, 4.0])) == "(-0.60, 0.00, 0.80)"
     assert vector_words(size * np.array([3.0, 0.0, -4.0])) == "(-0.60, 0.00, 0.80)"
+
+
+@pytest.mark.parametrize(("apart", "count"), [(1.8e-6, 1), (2.2e-6, 2)])
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+def test_two_unknowns_are_determined_from_two_millionths_apart(apart: float, count: int, unit: float) -> None:
+    """Unit columns of which the difference has half of that share of their sum, in any unit of the second unknown."""
+    first, other = np.linalg.qr(np.random.default_rng(31).normal(size=(60, 2)))[0].T
+    design = np.stack([first, unit * (first + apart * other)], axis=1).reshape(10, 6, 2)
+    known, unknown = directions_of(design, np.zeros((2, 2)))
+    assert (known.shape[1], unknown.shape[1]) == (count, 2 - count)
+    if count == 1:
+        change, size = design.reshape(-1, 2) @ unknown[:, 0], np.abs(unknown[:, 0]) * [1.0, unit]
+        np.testing.assert_allclose(size[0], size[1], rtol=1e-3)
+        assert np.linalg.norm(change) < 1e-5 * size[0]
+
+
+def test_what_neither_rows_nor_prior_touch_is_open() -> None:
+    """All of it; with a prior nothing is."""
+    for design in (np.zeros((4, 6, 3)), np.empty((0, 6, 3))):
+        assert [one.shape for one in directions_of(design, np.zeros((3, 3)))] == [(3, 0), (3, 3)]
+        assert [one.shape for one in directions_of(design, np.eye(3))] == [(3, 3), (3, 0)]

@@ -15,10 +15,12 @@ from forcetorque.skin.contact.contact_tracking import ReleaseDetector, ReleaseRo
 STEP_S = 0.1
 
 
-def _releases(force: Callable[[float], float], *, limit_N: float = 1.0, end_s: float = 20.0) -> list[ReleaseRow]:
+def _releases(
+    force: Callable[[float], float], *, limit_N: float = 1.0, end_s: float = 20.0, step_s: float = STEP_S
+) -> list[ReleaseRow]:
     """What is found of one contact on two of five taxels, frame by frame."""
     detector, found = ReleaseDetector(), []
-    for seconds in np.arange(0.0, end_s, STEP_S):
+    for seconds in np.arange(0.0, end_s, step_s):
         contacts: Any = SimpleNamespace(
             contact=np.array([0, 0, -1, -1, -1]),
             wrench=np.array([[0.0, 0.6 * force(seconds), -0.8 * force(seconds), 0.0, 0.0, 0.0]]),
@@ -68,6 +70,15 @@ def test_a_release_has_settled_to_a_tenth_of_the_force(swing: float, is_release:
         return 10.0 if seconds < 8.0 else 2.0 + 0.5 * swing * (-1.0) ** round(seconds / STEP_S)
 
     assert bool(_releases(force, end_s=14.0)) == is_release
+
+
+@pytest.mark.parametrize("step_s", [1.5, 2.0])
+def test_of_frames_longer_than_a_second_the_last_two_have_settled(step_s: float) -> None:
+    """The first one after the fall may be on its way; what is left is the mean of both."""
+    forces = [10.0] * 5 + [2.0, 1.2] + [1.2] * 3
+    found = _releases(lambda seconds: forces[round(seconds / step_s)], end_s=9.5 * step_s, step_s=step_s)
+    assert found[0].time_s == pytest.approx(6.0 * step_s)
+    assert (found[0].force_N, found[0].left_N) == pytest.approx((10.0, 1.6))
 
 
 @pytest.mark.parametrize(("left", "limit_N", "state"), [(0.9, 1.0, "offered"), (1.1, 1.0, "no"), (0.0, 1.0, "no")])

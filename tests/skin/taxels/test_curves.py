@@ -14,8 +14,8 @@ from scipy.optimize import least_squares
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FitError
-from forcetorque.skin.taxels.curve_comparison import calibrated_taxel
-from forcetorque.skin.taxels.taxel_curve import CurveKind, _capacitor, _logarithmic, fit_curve
+from forcetorque.skin.taxels.curve_comparison import HeldOutErrors, calibrated_taxel
+from forcetorque.skin.taxels.taxel_curve import CurveKind, _capacitor, _logarithmic, _slope, fit_curve
 
 FALL = np.arange(0.0, 61.0)
 EXACT = 1e-6
@@ -41,6 +41,16 @@ def test_a_truth_of_its_form_is_found(kind: CurveKind, truth: np.ndarray) -> Non
     order = np.random.default_rng(4).permutation(3 * len(FALL))
     again = fit_curve(kind, np.tile(FALL, 3)[order], np.tile(truth, 3)[order], range_counts=60.0)
     np.testing.assert_allclose(again.coefficients, curve.coefficients, rtol=1e-6, atol=1e-6 * truth.max())
+
+
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+def test_the_slope_beyond_the_range_is_that_of_the_weighted_line(unit: float) -> None:
+    """As a regression has it, in any unit of the weights; a line that falls is all but level."""
+    rng = np.random.default_rng(5)
+    share, weight = rng.uniform(0.0, 1.2, 40), unit * rng.uniform(0.1, 3.0, 40)
+    pressure = 5e4 * share + 2e4 * share**2 + 1e3 * rng.normal(size=40)
+    assert _slope(share, pressure, weight) == pytest.approx(np.polyfit(share, pressure, 1, w=weight)[0], rel=1e-9)
+    assert 0.0 < _slope(share, -pressure, weight) < 1e-300
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -170,3 +180,14 @@ def test_least_squares_weigh_each_message_alike() -> None:
         best = least_squares(left, [wanted.max(), 0.5], x_scale=[wanted.max(), 1.0], xtol=1e-14, ftol=1e-14).x
         np.testing.assert_allclose(curve.coefficients, best, rtol=1e-4)
         assert best[1] > 0.05
+
+
+def test_a_taxel_that_is_left_out_has_no_error_and_adds_none() -> None:
+    """By hand, inside and above the fitted pressures: no root mean square of its own, and no share of that of a sum."""
+    errors = HeldOutErrors(squares=np.array([[4.0, 9.0], [16.0, 50.0]]), numbers=np.array([[1.0, 1.0], [4.0, 2.0]]))
+    np.testing.assert_allclose(errors.rmse, [[2.0, 3.0], [2.0, 5.0]])
+    left = errors.of(np.array([True, False]))
+    np.testing.assert_allclose(left.rmse, [[2.0, np.nan], [2.0, np.nan]])
+    np.testing.assert_allclose((left + errors).rmse, errors.rmse)
+    assert left.median() == (2.0, 2.0)
+    assert errors.of(np.array([False, False])).median() == (None, None)

@@ -19,7 +19,12 @@ from forcetorque.base.wrench import transform_wrench
 from forcetorque.skin.layout.layout import SkinLayout
 from forcetorque.skin.wrench.curved_elements import POINTS, WEIGHTS
 from forcetorque.skin.wrench.patch_sensor import SkinPatch
-from forcetorque.skin.wrench.pressure_to_wrench import LENGTH_M, WrenchMethod, kriging_shares
+from forcetorque.skin.wrench.pressure_to_wrench import (
+    LENGTH_M,
+    PredictedPressures,
+    WrenchMethod,
+    kriging_shares,
+)
 from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 from tests.skin.layout.skins import plane_layout
 from tests.skin.outline import outline_wrench
@@ -239,3 +244,23 @@ def test_masks_must_fit_the_patch() -> None:
         patch.operator(np.zeros(len(CYLINDER), dtype=bool))
     with pytest.raises(ShapeError, match="pressures"):
         patch.operator().wrench(np.ones(3))
+
+
+@pytest.mark.parametrize("number", [2, 6, 25, 40])
+def test_a_taxel_is_predicted_from_its_nearest_live_neighbours(number: int) -> None:
+    """From 24, or from all others of fewer; never from itself; of one pressure everywhere nothing is left."""
+    surface = SkinPatch.of(CYLINDER).surface
+    live = np.zeros(len(CYLINDER), dtype=np.bool_)
+    live[np.random.default_rng(81).choice(len(live), number, replace=False)] = True
+    predicted = PredictedPressures.of(surface, live)
+    known, count = np.flatnonzero(live), min(24, number - 1)
+    assert predicted.neighbours.shape == (len(CYLINDER), count)
+    for taxel, neighbours in enumerate(predicted.neighbours):
+        others = known[known != taxel]
+        far = np.linalg.norm(surface.positions[others] - surface.positions[taxel], axis=1)
+        assert set(neighbours) <= set(others)
+        assert len(set(neighbours)) == count
+        at = np.linalg.norm(surface.positions[neighbours] - surface.positions[taxel], axis=1)
+        np.testing.assert_allclose(np.sort(at), np.sort(far)[:count], atol=1e-8)
+    left = predicted.residual(np.full(len(CYLINDER), 3e3), np.arange(len(CYLINDER)))
+    np.testing.assert_allclose(left, 0.0, atol=1e-6)

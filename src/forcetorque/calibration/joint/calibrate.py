@@ -12,12 +12,7 @@ from urllib.parse import quote
 import numpy as np
 
 from forcetorque.base.errors import EstimationError, ExperimentError, FitError, ForceTorqueError
-from forcetorque.calibration.calibrate import (
-    SensorCalibration,
-    SensorCalibrations,
-    data_doubts,
-    fit_doubts,
-)
+from forcetorque.calibration.calibrate import SensorCalibration, SensorCalibrations, data_doubts, fit_doubts
 from forcetorque.calibration.corrected_urdf import urdf_of
 from forcetorque.calibration.generative.agreement import require_unmirrored
 from forcetorque.calibration.joint.posterior_and_calibrations import joint_posterior, sensor_artefact

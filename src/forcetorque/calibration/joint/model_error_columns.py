@@ -18,11 +18,7 @@ from forcetorque.experiment.calibration.robot_model_error import (
     ModelTolerance,
     TermKind,
 )
-from forcetorque.robot.mechanics.sub_model_equations import (
-    heavy_bodies,
-    joints_of_cuts,
-    joints_of_part,
-)
+from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_cuts, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import PartDerivatives, demand_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_models import SubModel

@@ -24,11 +24,7 @@ from forcetorque.calibration.joint.unknowns import CHANGES, UNITS, JointFit
 from forcetorque.calibration.joint.window_nodes import NODES, WEIGHTS, Stretch, WindowNodes
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import DELAY, ZERO, ErrorTerm
-from forcetorque.robot.mechanics.sub_model_equations import (
-    PartEquation,
-    part_equations,
-    weight_equations,
-)
+from forcetorque.robot.mechanics.sub_model_equations import PartEquation, part_equations, weight_equations
 from forcetorque.robot.sub_models import SubModel
 
 WINDOW_S: Final = 0.25
@@ -112,12 +108,6 @@ class PartWindows:
         own = self.transmission[:, :, [self.sensors.index(sensor) for sensor, _ in self.slopes]]
         means = np.einsum("wnmia,wnm->wima", own, WEIGHTS[:, None] * self.variables)
         return means.reshape(len(self), LOADS, LOADS * len(self.slopes))
-
-    @property
-    def spread(self) -> FloatArray:
-        """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
-        weighted = (WEIGHTS / self.counts[:, None])[:, :, None, None, None] * self.transmission
-        return np.einsum("wnkia,wnkib->wkiab", weighted, self.transmission)
 
     @property
     def columns(self) -> FloatArray:

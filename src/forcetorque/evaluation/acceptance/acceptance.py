@@ -38,7 +38,7 @@ class Acceptance(DrawnResult):
 
     drawn_by: ClassVar[str] = "forcetorque.evaluation.figures.acceptance_and_contact_forces:acceptance_figure"
 
-    answered_by: ClassVar[str | None] = "forcetorque.evaluation.answers:acceptance_answers"
+    answered_by: ClassVar[str | None] = "forcetorque.evaluation.acceptance.answers:acceptance_answers"
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recordings_measured")
 

@@ -46,7 +46,6 @@ from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import ExperimentSensor
 from forcetorque.experiment.seen_and_outside_samples import doubts_about_choice, require_unseen_if_judged
 from forcetorque.experiment.validation_offset import Offset
-from forcetorque.payload.load_warnings import circular_loads
 from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import amount
 from forcetorque.results.table import Row, RowOfSensor, Shown, short_names
@@ -594,9 +593,8 @@ def _without(verdict: LoadCaseVerdict, usual: LoadCase, beyond: str) -> LoadCase
 def _notes(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:
     """Facts that validation data cannot show: that they are not independent of the calibration."""
     for run in campaign.runs:
-        circular = circular_loads(run)
         chosen = doubts_about_choice(run, name, calibration) if run.has(Use.VALIDATION) else ()
-        for sentence in (*circular, *chosen):
+        for sentence in (*run.circular_loads(), *chosen):
             if sentence not in calibration.warnings:  # which are reasons of the verdict
                 yield Reason(against=None, text=sentence)
 

@@ -19,12 +19,7 @@ from forcetorque.experiment.calibrations_under_test import CalibrationUnderTest
 from forcetorque.experiment.free_sub_model import FreeSubModel, OtherSensors
 from forcetorque.experiment.named_files import stated_in
 from forcetorque.experiment.sensor_run import SensorRun
-from forcetorque.experiment.validation_offset import (
-    KNOWN_BEFORE,
-    EvaluatedInstants,
-    LeftOut,
-    Offset,
-)
+from forcetorque.experiment.validation_offset import KNOWN_BEFORE, EvaluatedInstants, LeftOut, Offset
 from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 from forcetorque.recording.recording import Interval
 from forcetorque.results.number_text import finite_or_none

@@ -10,11 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Final, Literal, Self
 
 import numpy as np
-from pydantic import (
-    ConfigDict,
-    Field,
-    field_validator,
-)
+from pydantic import ConfigDict, Field, field_validator
 
 from forcetorque.base.arrays import ArrayField, BoolArray, FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError

@@ -25,14 +25,7 @@ from forcetorque.base.pose import cross
 from forcetorque.base.rows_on_disk import computed_rows, row_blocks
 from forcetorque.base.toml_file import checked_tables
 from forcetorque.base.wrench import MeasureDirection
-from forcetorque.formats.arm_log import (
-    FLANGE,
-    LoggedWrist,
-    declared_loads,
-    motions,
-    repeats_finding,
-    weight_of,
-)
+from forcetorque.formats.arm_log import FLANGE, LoggedWrist, declared_loads, motions, repeats_finding, weight_of
 from forcetorque.formats.arm_log_table import ArmLogTable
 from forcetorque.formats.log_format import LogContext, LogDescription, LogReading
 from forcetorque.formats.ur_rtde.moment_point_axes_and_gravity import (

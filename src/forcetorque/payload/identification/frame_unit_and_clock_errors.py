@@ -19,12 +19,7 @@ from forcetorque.payload.identification.axis_and_mount_errors import axis_errors
 from forcetorque.payload.identification.bias_drift_and_jumps import strongest_jump
 from forcetorque.payload.identification.estimation_problem import LoadProblem, LoadRows
 from forcetorque.payload.identification.load_estimates import HypothesisRow
-from forcetorque.payload.identification.measurement_model import (
-    first_mount,
-    masses,
-    turn_words,
-    turned_by,
-)
+from forcetorque.payload.identification.measurement_model import first_mount, masses, turn_words, turned_by
 from forcetorque.payload.identification.parameter_vector import Kind
 from forcetorque.payload.identification.robust_fit import Fit, plain_fit, scales
 from forcetorque.robot.mount_estimate import quarter_turns

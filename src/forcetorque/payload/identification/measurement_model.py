@@ -11,15 +11,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.pose import skew
 from forcetorque.base.wrench import FORCE, reading_sign
 from forcetorque.payload.identification.estimation_problem import INERTIAL, Load, LoadProblem, LoadRows
-from forcetorque.payload.identification.parameter_vector import (
-    AXES,
-    OF_LOAD,
-    Guess,
-    Kind,
-    inertia_of,
-    places,
-    six_of,
-)
+from forcetorque.payload.identification.parameter_vector import AXES, OF_LOAD, Guess, Kind, inertia_of, places, six_of
 from forcetorque.robot.mount_estimate import nearest_rotation, rotation_by
 
 _SMALL = 1e-5

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin
 import typer
 
 from forcetorque.base.errors import ForceTorqueError
+from forcetorque.base.lazy import named
 from forcetorque.base.output_file import STANDARD_OUTPUT, declare_outputs
-from forcetorque.results.capability import named
 from forcetorque.results.command import Command, Option, Saved, command_of
 from forcetorque.results.terminal.command_output import (
     Format,
@@ -93,21 +93,19 @@ class _Analysis:
 
     def command(self) -> Callable[..., Result]:
         """The command, which typer parses by its signature."""
-
-        def run(**given: Any) -> Result:
-            return self.run(given)
-
+        run: Any = partial(self.run)  # a method takes no signature
         typed = [
             *self.typed(),
             _typed("details", DetailsOption, False),
             _typed("output_format", FormatOption, Format.TABLE),
         ]
         typed.sort(key=lambda parameter: parameter.default is not Parameter.empty)
-        run.__signature__ = Signature(typed)  # type: ignore[attr-defined]
+        run.__signature__ = Signature(typed)
         run.__annotations__ = {parameter.name: parameter.annotation for parameter in typed}
         run.__name__ = self.function.__name__
         run.__doc__ = (self.function.__doc__ or "").partition("\n\nArgs:")[0]
-        return run
+        command: Callable[..., Result] = run
+        return command
 
     def typed(self) -> Iterator[Parameter]:
         """What is typed: files, sensors and options."""
@@ -133,11 +131,11 @@ class _Analysis:
         if self.offered.saved:
             yield _typed("force", ForceOption, False)
 
-    def run(self, given: Mapping[str, Any]) -> Result:
+    def run(self, **given: Any) -> Result:
         """Compute, draw and show the result.
 
         Args:
-            given: What was typed, by name.
+            **given: What was typed, by name.
 
         Returns:
             The result.

@@ -51,18 +51,20 @@ class Block:
 class BlockEvaluation:
     """Wrenches of all bodies for one block; lists are indexed by the body, each wrench is in that body's frame."""
 
-    def __init__(self, question: Question, needs: Needs, block: Block, out: Estimates) -> None:
-        """Carry the motion of the root to all bodies.
+    def __init__(
+        self, question: Question, needs: Needs, block: Block, states: Mapping[int, BodyState], out: Estimates
+    ) -> None:
+        """Take what the equations are made of.
 
         Args:
             question: What to estimate.
             needs: Bodies and sub-models that it depends on.
             block: Its input.
+            states: Motion of the bodies, as `body_states` carries it outwards from the root.
             out: Receives the results; as many samples.
         """
         self.question, self.needs, self.block, self.out = question, needs, block, out
-        self.tree, self.bodies = question.tree, question.tree.bodies
-        self.states = body_states(question, needs, block)
+        self.tree, self.bodies, self.states = question.tree, question.tree.bodies, states
         self.readings = {sensor: self._reading(k, sensor) for k, sensor in enumerate(question.measured)}
 
     def run(self) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.base.errors import ShapeError
 from forcetorque.robot.contacts import Wrenches
-from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, BlockEvaluation
+from forcetorque.robot.mechanics.contact_wrenches_and_torques import Block, BlockEvaluation, body_states
 from forcetorque.robot.mechanics.estimate_arrays import Estimates
 from forcetorque.robot.mechanics.estimate_inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.robot.mechanics.estimated_quantities import Question
@@ -121,17 +121,14 @@ def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: 
         refuse_infinite(inputs, block)
         count = block.stop - start
         root = [np.broadcast_to(v if len(v) == 1 else v[block], (count, 3)) for v in inputs.root]
-        BlockEvaluation(
-            question,
-            inputs.needs,
-            Block(
-                joints=inputs.joints.samples(block),
-                root=np.stack(root),
-                measured=inputs.measured.values[block][:, inputs.measured_columns],
-                known=inputs.known.values[block][:, inputs.known_columns],
-                active=inputs.active[block].astype(np.float64),
-            ),
-            out.samples(block),
-        ).run()
+        given = Block(
+            joints=inputs.joints.samples(block),
+            root=np.stack(root),
+            measured=inputs.measured.values[block][:, inputs.measured_columns],
+            known=inputs.known.values[block][:, inputs.known_columns],
+            active=inputs.active[block].astype(np.float64),
+        )
+        states = body_states(question, inputs.needs, given)  # outwards; the wrenches inwards
+        BlockEvaluation(question, inputs.needs, given, states, out.samples(block)).run()
         if progress is not None:
             progress(block.stop)

@@ -9,6 +9,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from forcetorque.results.answer import Answer, Concern
+from forcetorque.results.number_text import amount
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import Row, Shown, Table, Values, WrenchValues, table_of
 from forcetorque.sensor.catalogue import Technology
@@ -115,10 +117,14 @@ class PrincipleCurve(Row):
     """Reading over the load, along the load; shape (n,)."""
 
 
+_SHOWN = 5
+"""Sensors that the answer names."""
+_RANKED = "smallest stated error over load first, then narrowest range; the maker states the error, it is not measured"
+
+
 class SensorChoice(DrawnResult):
     """Sensors for stated loads."""
 
-    answered_by: ClassVar[str | None] = "forcetorque.sensor.choice.answers:choice_answers"
     drawn_by: ClassVar[str] = "forcetorque.sensor.figures:choice_figure"
 
     schema_name: Literal["forcetorque/sensor/1"] = Field(default="forcetorque/sensor/1", alias="schema")
@@ -151,6 +157,39 @@ class SensorChoice(DrawnResult):
         """
         return tuple(row for row in self.sensors if row.holds is holds)
 
+    def answers(self) -> Iterator[Answer]:
+        """Give the answer: a line for each of the best sensors.
+
+        Yields:
+            At most five sensors that hold the loads, or that hold them axis by axis; else one line.
+        """
+        held, by_axis = self.held(), self.held(Holds.AXIS_BY_AXIS)
+        loads = self.loads[0] if len(self.loads) == 1 else f"{len(self.loads)} loads"
+        counts = (
+            f"{len(held)} of {len(self.sensors)} ranges hold {loads} with {100.0 * self.margin:g} % to spare, "
+            f"{len(by_axis)} only axis by axis, {len(self.sensors) - len(held) - len(by_axis)} are exceeded"
+        )
+        shown = (held or by_axis)[:_SHOWN]
+        if not shown:
+            yield Answer(
+                subject=loads,
+                verdict="NO SENSOR HOLDS IT",
+                why=(counts, f"nearest: {self.sensors[0].name}, {_used(self.sensors[0])}"),
+                step="state further sensors by --catalogue, or keep less free by --margin",
+                written=(self.figure_file,),
+                concern=Concern.BAD,
+            )
+        for place, row in enumerate(shown, start=1):
+            certain = row.holds is Holds.HELD
+            yield Answer(
+                subject=f"{place}. {row.name} ({row.maker})",
+                verdict=f"{'HOLDS' if certain else 'MAY SATURATE'}, {_used(row)}, {_error(row)}",
+                why=(counts, _RANKED),
+                step="" if certain else "ask the maker whether the range holds for combined loads",
+                written=(self.figure_file,),
+                concern=Concern.NONE if certain else Concern.UNCERTAIN,
+            )
+
     def blocks(self) -> Iterator[Table | str]:
         """Give sensors and principles.
 
@@ -161,3 +200,18 @@ class SensorChoice(DrawnResult):
         if self.without_range:
             yield f"no range is stated of {', '.join(self.without_range)}"
         yield table_of(self.principles, f"principles on one Y-shaped element under {self.largest}, by their models")
+
+
+def _used(row: SensorRow) -> str:
+    return (
+        f"{row.combined_percent:.0f} % of range used"
+        if row.holds is not Holds.EXCEEDED
+        else (f"{row.axis_percent:.0f} % of the range of an axis")
+    )
+
+
+def _error(row: SensorRow) -> str:
+    step = "" if row.resolution_force_N is None else f", step {amount(row.resolution_force_N, 'N')}"
+    if row.error_of_load_percent is None:
+        return f"no stated error{step}"
+    return f"error {amount(row.error_of_load_percent, '%')} of the load{step}"

@@ -23,13 +23,7 @@ from forcetorque.recording.recording import Use
 from forcetorque.results.number_text import plus_minus
 from forcetorque.results.result import DrawnResult
 from forcetorque.results.table import FloatOrNull, Row, RowOfSensor, Shown, Table, table_of
-from forcetorque.sensor.sessions.session_change_tests import (
-    ERROR_RATE,
-    SessionFit,
-    SessionMeans,
-    fit_sessions,
-    holm,
-)
+from forcetorque.sensor.sessions.session_change_tests import ERROR_RATE, SessionFit, SessionMeans, fit_sessions, holm
 
 
 class SessionRow(Row):

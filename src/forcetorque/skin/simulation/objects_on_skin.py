@@ -148,7 +148,7 @@ class SkinContact:
     place: FloatArray
     """Where it touches, on the chart of the surface; shape (2,); m."""
     spin: float
-    """How it is turned about that normal; rad."""
+    """How it is turned about that normal, right-handed, from along the axis of the surface; rad."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
