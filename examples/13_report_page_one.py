@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-SIZE = "1180,1258"
+SIZE = "1180,1600"
 """Width and height of the page, in pixels: down to the first headings of what is folded."""
 SENSOR = "l_leg_ft"
 USE = """schema = "forcetorque/acceptance/1"

@@ -80,7 +80,7 @@ def use_figure(verdicts: Sequence[LoadCaseVerdict], names: Mapping[str, str]) ->
     legend_below(
         figure,
         _keys([row for verdict in verdicts for row in verdict.errors]),
-        title="mark: half of such sensors err less; line: 95 % of them; “at most”: its upper end",
+        title="mark: half of such sensors err less; line: 95 % of them; in brackets: its upper end",
         points=_POINTS,
     )
     headline(figure, _title(verdicts))
