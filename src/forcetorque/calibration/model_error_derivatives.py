@@ -40,7 +40,7 @@ from forcetorque.robot.tree import BodyTree, build_tree
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
-_CABLES_BEFORE: Final = 3
+_CABLES_BEFORE: Final = 6
 """Joints before the sensor whose cables reach across it, with all joints beyond it."""
 _BLOCK: Final = 4096
 """Samples that are differentiated at once."""
