@@ -47,7 +47,7 @@ def run(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> SensorRun:
 def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun, data_dir: Path, tmp_path: Path) -> None:
     """Without a stated use it is asked for the weight of the robot: not enough data; the 99 % interval holds the truth.
 
-    It errs by 36 N, which are predicted as 12 to 35 N with 95 %; the prior by 37 N, predicted as 12 to 36 N.
+    It errs by 35 N, which are predicted as 13 to 36 N with 95 %; the prior by 37 N, predicted as 13 to 37 N.
     """
     calibration = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
     (case,) = operating_load_cases([run])
@@ -59,7 +59,7 @@ def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun, data_dir: 
     free, standing, prior = foot(data_dir, tmp_path)
     moved = standing - free.raw.mean(axis=0)
     measured = [float(np.linalg.norm((matrix @ moved)[:3] - ADDED)) for matrix in (calibration.matrix, prior)]
-    assert measured == pytest.approx([36.3, 37.0], abs=0.5)
+    assert measured == pytest.approx([34.7, 37.0], abs=0.5)
     after, before = predict(calibration, case), predict_prior(calibration, case)
     assert before is not None
     for error, size in zip((after, before), measured, strict=True):
