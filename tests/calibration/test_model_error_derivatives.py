@@ -249,6 +249,30 @@ def test_a_mass_that_is_wrong_is_named(arm: Path) -> None:
     assert error.value < -3.0 * error.tolerance
 
 
+def test_cables_are_named_apart_from_the_robot_model(arm: Path) -> None:
+    """A pull beyond its tolerance is a warning of its own, which sends nobody to the URDF; one within it is none."""
+    fit = _calibrated(_run(arm))
+    pull, twist, mass = (
+        ModelError(name=name, unit=unit, value=5.0 * size, standard_error=0.1 * size, tolerance=size)
+        for name, unit, size in (
+            ("x pull of cables at wrist", "N/rad", 1.0),
+            ("z twist of cables at elbow", "N m/rad", 0.05),
+            ("mass of hand", "", 0.03),
+        )
+    )
+    within = pull.model_copy(update={"value": 2.0})
+    assert not [doubt for doubt in fit_doubts(fit.model_copy(update={"model_errors": (within,)})) if "cables" in doubt]
+    doubts = [*fit_doubts(fit.model_copy(update={"model_errors": (pull, mass, twist)}))]
+    (of_cables,) = (doubt for doubt in doubts if "cables" in doubt)
+    (of_model,) = (doubt for doubt in doubts if "robot model" in doubt)
+    assert "x pull of cables at wrist: off by +5 N/rad (95 %: +4.8 to +5.2), tolerance 1 N/rad" in of_cables
+    assert "z twist of cables at elbow: off by +0.25 N m/rad" in of_cables
+    assert "cable_N_rad" in of_cables
+    assert "URDF" not in of_cables
+    assert "mass of hand" in of_model
+    assert "mass of hand" not in of_cables
+
+
 @some_cases(
     ("tolerance", "least_deg", "most_deg"),
     [

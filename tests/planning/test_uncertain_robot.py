@@ -15,7 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.calibration.calibrate import calibrate_sensor
 from forcetorque.experiment.calibration.expected_sensor_errors import QUADRATIC_ALONE, Assumptions
 from forcetorque.experiment.calibration.posterior import Posterior
-from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
+from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelTolerance, TermKind
 from forcetorque.experiment.loading import Purpose, load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.planning import planning
@@ -23,6 +23,7 @@ from forcetorque.planning.information import Knowledge, PlannedLoads, unfitted_p
 from forcetorque.planning.planning import plan
 from forcetorque.planning.posture_search import Choices, Criterion, pick
 from forcetorque.planning.proposed_recordings import Effort
+from forcetorque.planning.result import limits_of
 from tests.planning.test_information import CASE, LOADS, MATRIX
 from tests.planning.test_plan import BAR, PLAN
 from tests.scenes.experiments import PARQUET
@@ -147,7 +148,7 @@ def _planning(folder: Path, robot: str) -> SensorRun:
 
 
 def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(
-    arm: Path, monkeypatch: pytest.MonkeyPatch
+    arm: Path, before: Posterior, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And the assumption is said; what the model makes of the error is in the rows; for equal quadratic terms."""
     monkeypatch.setattr(planning, "quadratic_scale", lambda **_: QUADRATIC_ALONE)
@@ -161,6 +162,9 @@ def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(
     assert of_usual.force_after_N**2 > of_exact.force_after_N**2 + 0.5 * of_usual.force_by_model_N**2 > FORCE_N**2
     assert any("taken as exact" in words for words in exact.limits)
     assert any("masses 3 %, centres of mass 3 mm, joint zeros 0.5 deg" in words for words in usual.limits)
+    assert any("cables to pull by 1 N/rad" in words for words in usual.limits)
+    without = limits_of(calibrated=False, posterior=before, tolerance=ModelTolerance(cable_N_rad=0.0))
+    assert any("joint zeros 0.5 deg, by the same" in words for words in without)
 
 
 def test_a_calibration_that_took_the_model_as_exact_is_a_warning(arm: Path) -> None:

@@ -36,6 +36,7 @@ from forcetorque.calibration.thesis.calibrate import thesis_calibration
 from forcetorque.experiment.calibration.calibration_file import CalibratedVariable, Calibration
 from forcetorque.experiment.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.experiment.calibration.joint_posterior_and_robot_correction import place_in_urdf
+from forcetorque.experiment.calibration.robot_model_error import ModelError
 from forcetorque.experiment.calibration.stored_moments import RecordingMoments
 from forcetorque.experiment.campaign import Campaign, Runs
 from forcetorque.experiment.experiment import Experiment
@@ -232,19 +233,29 @@ _MOST_ERRORS = 3
 
 
 def _wrong_model(calibration: Calibration, urdf: Path | None) -> Iterator[str]:
-    """Numbers of the robot model beyond their tolerances."""
+    """Numbers of the robot model, and pulls of cables, beyond their tolerances."""
     errors = sorted(
         (error for error in calibration.model_errors if error.is_suspicious),
         key=lambda error: -abs(error.value) / error.tolerance,
     )
-    if errors:
-        listed = "; ".join(error.message + place_in_urdf(urdf, error.name) for error in errors[:_MOST_ERRORS])
-        rest = f"; and {len(errors) - _MOST_ERRORS} more" if len(errors) > _MOST_ERRORS else ""
+    if of_model := [error for error in errors if not error.is_of_cables]:
         yield (
-            f"the robot model does not fit the data within its tolerances: {listed}{rest}. One sensor does not "
-            "separate all masses, centres and zeros, so another link or joint may be the cause: weigh or measure "
+            f"the robot model does not fit the data within its tolerances: {_listed(of_model, urdf)}. One sensor does "
+            "not separate all masses, centres and zeros, so another link or joint may be the cause: weigh or measure "
             "before you change the URDF, or raise [robot] tolerance"
         )
+    if of_cables := [error for error in errors if error.is_of_cables]:
+        yield (
+            "the load changes with positions of joints as if cables or covers pulled, along the axes of the sensor: "
+            f"{_listed(of_cables, urdf)}. Look at cables, hoses and covers that cross the sensor; another joint that "
+            "moves alike, or a contact, may be the cause; raise cable_N_rad in [robot] tolerance if they are to stay"
+        )
+
+
+def _listed(errors: Sequence[ModelError], urdf: Path | None) -> str:
+    """The first of some errors, and how many there are beside."""
+    listed = "; ".join(error.message + place_in_urdf(urdf, error.name) for error in errors[:_MOST_ERRORS])
+    return f"{listed}; and {len(errors) - _MOST_ERRORS} more" if len(errors) > _MOST_ERRORS else listed
 
 
 def _unit(variable: CalibratedVariable) -> str:

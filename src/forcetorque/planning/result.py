@@ -317,10 +317,11 @@ def _robot_model(tolerance: ModelTolerance, *, unknown: bool) -> Iterator[str]:
     if tolerance == EXACT:
         yield "the robot model is taken as exact, as [robot] tolerance states"
         return
+    cables = f", cables to pull by {tolerance.cable_N_rad:.2g} N/rad of joints" if tolerance.cable_N_rad else ""
     yield (
         f"the robot model is taken to be off by masses {100.0 * tolerance.mass:.2g} %, centres of mass "
-        f"{1e3 * tolerance.centre_m:.2g} mm, joint zeros {np.degrees(tolerance.joint_zero_rad):.2g} deg, by the same "
-        f"in all recordings, and by acceleration {tolerance.acceleration:.2g} m/s2 and delay "
+        f"{1e3 * tolerance.centre_m:.2g} mm, joint zeros {np.degrees(tolerance.joint_zero_rad):.2g} deg{cables}, by "
+        f"the same in all recordings, and by acceleration {tolerance.acceleration:.2g} m/s2 and delay "
         f"{1e3 * tolerance.delay_s:.2g} ms, anew in each; state others in [robot] tolerance"
     )
     if unknown:

@@ -159,8 +159,8 @@ def read_model_errors(path: Path | str) -> tuple[ModelError, ...]:
     of_robot = tuple(error for error in errors if any(word in error.name for word in OF_ROBOT))
     if not of_robot:
         raise FormatError(
-            f"{file}: expected errors of a robot model, got none; calibrate with [robot] tolerance other than "
-            '"exact", or with --jointly'
+            f"{file}: expected errors of a robot model, got none of masses, centres of mass or joint zeros; calibrate "
+            'with a [robot] tolerance of these other than 0 or "exact", or with --jointly'
         )
     return of_robot
 

@@ -151,6 +151,11 @@ class ModelError(StoredTable):
     """Standard deviation before any data."""
 
     @property
+    def is_of_cables(self) -> bool:
+        """Whether it is a pull or twist of cables, and no number of the robot model itself."""
+        return PULL in self.name or TWIST in self.name
+
+    @property
     def is_suspicious(self) -> bool:
         """Whether it is beyond `SUSPICIOUS` tolerances, and more than twice its standard error from zero."""
         return abs(self.value) > SUSPICIOUS * self.tolerance and abs(self.value) > 2.0 * self.standard_error
