@@ -68,7 +68,7 @@ MODEL: Final = Scale(expected=1.0, weight=4.0, least=1.0)
 """Errors of the robot model of one kind, over their tolerance: evidence may find them larger, never smaller."""
 MASS: Final = Scale(expected=1.0, weight=8.0, least=1.0)
 """The same of masses, for which evidence must be stronger: masses that all err alike read as a gain of the sensor."""
-CABLE: Final = Scale(expected=1.0, weight=4.0)
+CABLE: Final = Scale(expected=1.0, weight=0.25)
 """The same of what cables and covers pull: few robots have none, and evidence may find it smaller too."""
 QUADRATIC: Final = Scale(expected=0.02, weight=0.25)
 """Quadratic terms, over full scale, where the robot model may be wrong.
