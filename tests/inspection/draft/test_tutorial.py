@@ -83,8 +83,8 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert fitted.code == 0, fitted.err
     judged = run(*evaluate, "--details").out
     for words in (
-        "force error 0.26 N against 2.65 N with the prior",
-        "force error 0.77 N (95 %:",
+        "force error 0.23 N against 2.65 N with the prior",
+        "force error 0.73 N (95 %:",
         "prior 2.4 N)",
     ):
         assert _said(words).search(judged), words
