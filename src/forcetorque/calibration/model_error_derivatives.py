@@ -40,8 +40,8 @@ from forcetorque.robot.tree import BodyTree, build_tree
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
-_CABLES_BEFORE: Final = 6
-"""Joints before the sensor whose cables reach across it, with all joints beyond it."""
+_CABLE_JOINTS: Final = 6
+"""Joints on either side of the sensor whose cables reach across it: as many as a limb has."""
 _BLOCK: Final = 4096
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
@@ -168,7 +168,7 @@ def _cable_terms(tree: BodyTree, part: SubModel, tolerance: ModelTolerance) -> I
     before = joints_of_cuts(tree, part)
     sliding = sliding_joints(tree)
     beyond = [joint for joint in joints_of_part(tree, part) if joint not in before]
-    for joint in (*before[-_CABLES_BEFORE:], *beyond):
+    for joint in (*before[-_CABLE_JOINTS:], *beyond[:_CABLE_JOINTS]):
         if joint not in sliding:
             for axis in "xyz":
                 yield ErrorTerm(name=f"{axis}{PULL}{joint}", kind=TermKind.PULL, deviation=tolerance.cable_N_rad)

@@ -60,9 +60,9 @@ class Tolerance(MountToleranceTable):
     """Of gravity in the support frame, or of what an accelerometer reads, along each axis, as a tilt; deg."""
     delay_s: NotNegative = _TOLERANCE.delay_s
     """Of the time by which the readings come later than the joints; s."""
-    cable_N_rad: NotNegative = _TOLERANCE.cable_N_rad
+    cable_N_rad: NotNegative | None = None
     """Of what cables and covers add to the load per rad of each joint near the sensor, along each axis; N/rad; of their
-    moment as much over 0.05 m."""
+    moment as much over 0.05 m. If left out 1, or 0 where the model is exact in all else."""
     links: dict[Text, NotNegative] = {}
     """Of the mass of single links, relative, by their names."""
     joints: dict[Text, NotNegative] = {}
@@ -82,13 +82,15 @@ class Tolerance(MountToleranceTable):
         Returns:
             The tolerance.
         """
+        others = self.mass_relative, self.centre_m, self.joint_zero_deg, self.tilt_deg, self.delay_s
+        usual = _TOLERANCE.cable_N_rad if any(others) else 0.0
         return ModelTolerance(
             mass=self.mass_relative,
             centre_m=self.centre_m,
             joint_zero_rad=float(np.radians(self.joint_zero_deg)),
             acceleration=STANDARD_GRAVITY * float(np.radians(self.tilt_deg)),
             delay_s=self.delay_s,
-            cable_N_rad=self.cable_N_rad,
+            cable_N_rad=usual if self.cable_N_rad is None else self.cable_N_rad,
             links=dict(self.links),
             joints={name: float(np.radians(value)) for name, value in self.joints.items()},
             mounts={name: one.mount_tolerance() for name, one in self.sensors.items()},
