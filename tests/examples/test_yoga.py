@@ -88,11 +88,11 @@ def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
 
 @pytest.mark.long
 def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
-    """Nearly static data: .86 to .71 N with the fitted offset, .76 to .43 N with the mean of what is judged."""
+    """Nearly static data: .86 to .60 N with the fitted offset, .76 to .45 N with the mean of what is judged."""
     verdicts = _verdicts(YOGA[2], data_dir)
     prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
-    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.713), abs=0.005)
-    assert new.moment_error_mean_Nm < 0.92 * prior.moment_error_mean_Nm
+    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.597), abs=0.005)
+    assert new.moment_error_mean_Nm < 0.95 * prior.moment_error_mean_Nm
     prior, new = verdicts["prior", "judged-mean"], verdicts["new", "judged-mean"]
     assert new.force_error_mean_N < 0.65 * prior.force_error_mean_N
 
@@ -133,7 +133,7 @@ def _judgements(path: Path, data_dir: Path) -> dict[tuple[str, str], PriorCompar
 
 @pytest.mark.long
 def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_dir: Path) -> None:
-    """Force 3.8 to 0.9 N, better in every stretch: .24 of it. With the fitted offset one stretch is all there is."""
+    """Force 3.8 to 0.7 N, better in every stretch: .18 of it. With the fitted offset one stretch is all there is."""
     rows = _judgements(YOGA[1], data_dir)
     for quantity in ("force", "moment"):
         row = rows["judged-mean", quantity]
@@ -142,7 +142,7 @@ def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_
         assert row.ratio_high < 0.5
         assert rows["fitted", quantity].conclusion == "inconclusive"
         assert rows["fitted", quantity].segments == 1
-    assert rows["judged-mean", "force"].ratio == pytest.approx(0.24, abs=0.02)
+    assert rows["judged-mean", "force"].ratio == pytest.approx(0.18, abs=0.02)
 
 
 @pytest.mark.long

@@ -57,11 +57,11 @@ def test_the_largest_error_is_halved(verdicts: dict[Key, JointTorqueErrors]) -> 
 def test_it_is_as_the_page_says(verdicts: dict[Key, JointTorqueErrors]) -> None:
     """Better and worse joints alike."""
     for source, joint, prior, new in (
-        (Offset.FITTED, "l_ankle_roll", 0.45, 0.17),
-        (Offset.FIRST_SECOND, "l_ankle_roll", 0.23, 0.17),
-        (Offset.FITTED, "l_hip_roll", 0.44, 0.20),
-        (Offset.FITTED, "l_ankle_pitch", 0.086, 0.092),
-        (Offset.FIRST_SECOND, "l_hip_roll", 0.11, 0.20),
+        (Offset.FITTED, "l_ankle_roll", 0.45, 0.24),
+        (Offset.FIRST_SECOND, "l_ankle_roll", 0.23, 0.23),
+        (Offset.FITTED, "l_hip_roll", 0.44, 0.19),
+        (Offset.FITTED, "l_ankle_pitch", 0.086, 0.102),
+        (Offset.FIRST_SECOND, "l_hip_roll", 0.11, 0.21),
     ):
         assert verdicts["prior", source, joint].rmse == pytest.approx(prior, abs=SHOWN)
         assert verdicts["new", source, joint].rmse == pytest.approx(new, abs=SHOWN)
