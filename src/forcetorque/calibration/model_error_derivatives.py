@@ -36,12 +36,12 @@ from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_models import SubModel, sub_models
-from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.tree import BodyTree, Connection, build_tree
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
 _CABLE_JOINTS: Final = 6
-"""Joints on either side of the sensor whose cables reach across it: as many as a limb has."""
+"""Most joints on either side of the sensor whose cables reach across it: as many as a limb has."""
 _BLOCK: Final = 4096
 """Samples that are differentiated at once."""
 _ROUNDING: Final = 1e-6
@@ -166,14 +166,35 @@ def _cable_terms(tree: BodyTree, part: SubModel, tolerance: ModelTolerance) -> I
     if not tolerance.cable_N_rad:
         return
     before = joints_of_cuts(tree, part)
-    sliding = sliding_joints(tree)
-    beyond = [joint for joint in joints_of_part(tree, part) if joint not in before]
+    sliding, known = sliding_joints(tree), joints_of_part(tree, part)
+    beyond = [joint for joint in _limb_beyond(tree, part) if joint in known and joint not in before]
     for joint in (*before[-_CABLE_JOINTS:], *beyond[:_CABLE_JOINTS]):
         if joint not in sliding:
             for axis in "xyz":
                 yield ErrorTerm(name=f"{axis}{PULL}{joint}", kind=TermKind.PULL, deviation=tolerance.cable_N_rad)
                 twist = CABLE_LEVER_M * tolerance.cable_N_rad
                 yield ErrorTerm(name=f"{axis}{TWIST}{joint}", kind=TermKind.TWIST, deviation=twist)
+
+
+def _limb_beyond(tree: BodyTree, part: SubModel) -> Iterator[str]:
+    """Name the joints of the limb beyond a sensor, the nearest first.
+
+    A limb is a chain of links: it ends at a link with more than two joints, such as a pelvis, a chest or a palm. So a
+    leg that stands and carries the robot has its own joints, none of waist, arms and the other leg. Other sensors do
+    not divide a link.
+    """
+    link = {part.base}
+    while True:
+        onward: dict[int, str] = {}
+        for k, body in enumerate(tree.bodies):  # parents come before children
+            if body.parent in link and body.connection is Connection.CUT:
+                link.add(k)
+            elif body.parent in link and body.coordinate is not None:
+                onward[k] = body.coordinate.joint
+        if len(onward) != 1:
+            return
+        yield from onward.values()
+        link = set(onward)
 
 
 def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> tuple[tuple[ErrorTerm, ...], FloatArray]:
