@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -210,6 +211,18 @@ def test_a_tolerance_of_something_unknown_is_refused(arm: Path, key: str, known:
     """With the names that there are."""
     with pytest.raises(ExperimentError, match=rf"\[robot\] tolerance.*{known}"):
         _run(arm, f"tolerance = {{ {key} }}\n")
+
+
+def test_a_tolerance_of_a_joint_that_mimics_is_refused(arm: Path) -> None:
+    """It has no zero of its own; the joint to state is named."""
+    urdf = arm / "arm.urdf"
+    robot = ElementTree.parse(urdf)  # noqa: S314 - the scene wrote it
+    (wrist,) = (joint for joint in robot.iter("joint") if joint.get("name") == "wrist")
+    ElementTree.SubElement(wrist, "mimic", joint="elbow")
+    robot.write(urdf)
+    with pytest.raises(ExperimentError, match=r"tolerance.joints: .* got 'wrist', which mimics 'elbow'; .* of 'elbow'"):
+        _run(arm, "tolerance = { joints = { wrist = 1.0 } }\n")
+    _run(arm, "tolerance = { joints = { elbow = 1.0 } }\n")
 
 
 @pytest.mark.long

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Final
 
 import numpy as np
@@ -32,11 +33,11 @@ from forcetorque.experiment.calibration.robot_model_error import (
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval, MovingSupport, Support
 from forcetorque.robot.mechanics.root_motion import imu_frame
-from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_cuts, joints_of_part
+from forcetorque.robot.mechanics.sub_model_equations import heavy_bodies, joints_of_part
 from forcetorque.robot.mechanics.wrench_derivatives import part_derivatives
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_models import SubModel, sub_models
-from forcetorque.robot.tree import BodyTree, Connection, build_tree
+from forcetorque.robot.tree import Body, BodyTree, Connection, build_tree, path_to_root
 
 SAMPLES_PER_WINDOW: Final = 10
 """Samples of a window at which the columns are computed: what the model may have wrong moves no faster than a robot."""
@@ -162,22 +163,31 @@ class UncertainPart:
 
 
 def _cable_terms(tree: BodyTree, part: SubModel, tolerance: ModelTolerance) -> Iterator[ErrorTerm]:
-    """What cables and covers across a sensor may pull per rad of the joints near it; not of joints that slide."""
+    """What cables and covers across a sensor may pull per rad of the joints near it; not of joints that slide.
+
+    A joint that mimics is no unknown: its cables pull in proportion to the position of its leader, near the sensor or
+    not, which has one unknown for all joints that it moves.
+    """
     if not tolerance.cable_N_rad:
         return
-    before = joints_of_cuts(tree, part)
     sliding, known = sliding_joints(tree), joints_of_part(tree, part)
-    beyond = [joint for joint in _limb_beyond(tree, part) if joint in known and joint not in before]
-    for joint in (*before[-_CABLE_JOINTS:], *beyond[:_CABLE_JOINTS]):
-        if joint not in sliding:
-            for axis in "xyz":
-                yield ErrorTerm(name=f"{axis}{PULL}{joint}", kind=TermKind.PULL, deviation=tolerance.cable_N_rad)
-                twist = CABLE_LEVER_M * tolerance.cable_N_rad
-                yield ErrorTerm(name=f"{axis}{TWIST}{joint}", kind=TermKind.TWIST, deviation=twist)
+    before = [tree.bodies[k] for k in path_to_root(tree, part.base) if tree.bodies[k].coordinate is not None]
+    squares: dict[str, float] = {}
+    for body in (*reversed(before[:_CABLE_JOINTS]), *islice(_limb_beyond(tree, part), _CABLE_JOINTS)):
+        coordinate = body.coordinate
+        if coordinate is None or coordinate.joint not in known:
+            continue
+        if body.connection is Connection.ROTARY and coordinate.joint not in sliding:
+            squares[coordinate.joint] = squares.get(coordinate.joint, 0.0) + coordinate.multiplier**2
+    for joint, square in squares.items():
+        pull = tolerance.cable_N_rad * float(np.sqrt(square))
+        for axis in "xyz":
+            yield ErrorTerm(name=f"{axis}{PULL}{joint}", kind=TermKind.PULL, deviation=pull)
+            yield ErrorTerm(name=f"{axis}{TWIST}{joint}", kind=TermKind.TWIST, deviation=CABLE_LEVER_M * pull)
 
 
-def _limb_beyond(tree: BodyTree, part: SubModel) -> Iterator[str]:
-    """Name the joints of the limb beyond a sensor, the nearest first.
+def _limb_beyond(tree: BodyTree, part: SubModel) -> Iterator[Body]:
+    """Give the bodies behind the joints of the limb beyond a sensor, the nearest first.
 
     A limb is a chain of links: it ends at a link with more than two joints, such as a pelvis, a chest or a palm. So a
     leg that stands and carries the robot has its own joints, none of waist, arms and the other leg. Other sensors do
@@ -185,15 +195,15 @@ def _limb_beyond(tree: BodyTree, part: SubModel) -> Iterator[str]:
     """
     link = {part.base}
     while True:
-        onward: dict[int, str] = {}
+        onward: list[int] = []
         for k, body in enumerate(tree.bodies):  # parents come before children
             if body.parent in link and body.connection is Connection.CUT:
                 link.add(k)
-            elif body.parent in link and body.coordinate is not None:
-                onward[k] = body.coordinate.joint
+            elif body.parent in link:
+                onward.append(k)
         if len(onward) != 1:
             return
-        yield from onward.values()
+        yield tree.bodies[onward[0]]
         link = set(onward)
 
 

@@ -44,7 +44,7 @@ def read_robot(
         The robot, corrected where the file names what a calibration found of it, and how far it may be off.
 
     Raises:
-        ExperimentError: If the tolerance names links or joints that the robot does not have.
+        ExperimentError: If the tolerance names links or joints that the robot does not have, or a joint that mimics.
         RobotError: If the correction is of another robot.
     """
     given = inputs.in_memory.robot
@@ -71,6 +71,12 @@ def read_robot(
                     f"{file}: [robot] tolerance.{key}: expected {key} of robot {model.name!r}, got {name!r}; "
                     f"{known_names(name, known)}"
                 )
+    for name in tolerance.joints:
+        if (mimic := model.joints[name].mimic) is not None:
+            raise ExperimentError(
+                f"{file}: [robot] tolerance.joints: expected joints with a zero of their own, got {name!r}, which "
+                f"mimics {mimic.leader!r}; state the tolerance of {mimic.leader!r}"
+            )
     if tolerance.found_by is None:
         return model, tolerance.model_tolerance({})
     with stated_in(f"{file}: [robot] tolerance.from"):

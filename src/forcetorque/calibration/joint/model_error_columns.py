@@ -79,13 +79,9 @@ def sliding_joints(tree: BodyTree) -> set[str]:
         tree: The robot.
 
     Returns:
-        Their names.
+        Their names; not that of a joint that turns and that a sliding one mimics.
     """
-    return {
-        body.coordinate.joint
-        for body in tree.bodies
-        if body.coordinate is not None and body.connection is Connection.PRISMATIC
-    }
+    return {body.joint for body in tree.bodies if body.joint is not None and body.connection is Connection.PRISMATIC}
 
 
 def _mass_term(tree: BodyTree, k: int, tolerance: ModelTolerance) -> ErrorTerm:
