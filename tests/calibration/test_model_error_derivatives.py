@@ -15,6 +15,7 @@ from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.noise.window_means import means_over
 from forcetorque.base.pose import rotation_about_z
+from forcetorque.calibration.answers import calibration_answer
 from forcetorque.calibration.calibrate import calibrate_sensor, fit_doubts
 from forcetorque.calibration.generative.fit import GenerativeFit, SolvedRows, fit_generative
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
@@ -138,6 +139,44 @@ def test_a_cable_does_not_pass_for_response(arm: Path) -> None:
         named.append(any(error.is_suspicious and "cables" in error.name for error in fit.model_errors))
     assert changes[0] < changes[1] / 3.0
     assert named == [True, False]
+
+
+def test_the_residual_is_stated_with_cables_and_without(arm: Path) -> None:
+    """Cables stay in the residual against the robot model as stated; what the fit leaves of it is the sensor's noise.
+
+    The noise of the simulated sensor is 4 counts, of which means over a second keep a seventh.
+    """
+    run = _run(arm)
+    (samples,) = run.samples(Use.CALIBRATION)
+    (moments,) = recording_moments(run)
+    (clean,) = moments.intervals
+    prior = run.sensor.prior
+    assert prior is not None
+    pull = np.outer(_positions(run, samples)["elbow"], [2.0, -2.0, 1.0, 0.1, 0.0, 0.1])
+    pulled = clean.model_copy(update={"raw": clean.raw + pull @ np.linalg.inv(prior).T})
+    kept = [k for k, term in enumerate(clean.terms) if term.kind not in (TermKind.PULL, TermKind.TWIST)]
+    assert clean.model is not None
+    without = clean.model.reshape(len(clean.time_s), 6, -1)[:, :, kept]
+    unknown = pulled.with_model(tuple(clean.terms[k] for k in kept), without)
+    exact = clean.model_copy(update={"terms": (), "model": None})
+    fits = [
+        calibrate_sensor(None, moments=[moments.model_copy(update={"intervals": (one,)})], code_version="1", created="")
+        for one in (clean, pulled, unknown, exact)
+    ]
+    residual = [float(np.linalg.norm(fit.residual_rms[:3])) for fit in fits]
+    noise = [np.nan if fit.noise_rms is None else float(np.linalg.norm(fit.noise_rms[:3])) for fit in fits]
+    assert residual[1] > 5.0 * residual[0]
+    assert noise[1] < 0.1
+    assert noise[1] < 3.0 * noise[0]
+    assert noise[2] > 0.5 * residual[2] > 5.0 * noise[1]
+    assert fits[3].noise_rms is None
+    lines = [calibration_answer(fit, None, "own.json", saved=True, doubtful=False).why[0] for fit in fits]
+    assert f"{residual[1]:.2f} N, " in lines[1]
+    assert " (RMS of the norm) against the robot model as stated, " in lines[1]
+    assert f", {noise[1]:.2f} N, " in lines[1]
+    assert lines[1].endswith(" N m with its errors and cables as found")
+    assert lines[2].endswith(" N m with its errors as found")
+    assert lines[3].endswith("(RMS of the norm)")
 
 
 def test_a_model_that_is_exact_has_no_columns(arm: Path) -> None:

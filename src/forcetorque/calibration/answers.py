@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.summary import InformationGain, learnt_words
 from forcetorque.experiment.calibration.calibration_file import Calibration
@@ -43,15 +44,13 @@ def calibration_answer(
     sensor, source = calibration.sensor, calibration.provenance
     labels = [interval.label for interval in source.intervals]
     intervals = ", ".join(map(repr, labels)) if len(labels) <= _MOST_INTERVALS else counted(len(labels), "interval")
-    measured = measured_components(calibration.matrix)
-    norms = [
-        f"{np.linalg.norm(calibration.residual_rms[part]):.{digits}f} {unit}"
-        for part, digits, unit in zip(FORCE_AND_MOMENT, (2, 3), ("N", "N m"), strict=True)
-        if measured[part].any()
-    ]
+    residual = f"residual {_norms(calibration, calibration.residual_rms)} (RMS of the norm)"
+    if calibration.noise_rms is not None:
+        cables = " and cables" if any(error.is_of_cables for error in calibration.model_errors) else ""
+        left = _norms(calibration, calibration.noise_rms)
+        residual += f" against the robot model as stated, {left} with its errors{cables} as found"
     fitted = f"{source.samples} samples" if source.means is None else f"{counted(source.means, 'mean')} of 1 s"
     unknowns = 0 if calibration.posterior is None else calibration.posterior.mean.shape[1]
-    residual = f"residual {', '.join(norms)} (RMS of the norm)"
     if source.means is not None and source.means <= unknowns:
         residual = f"too few to leave a residual, with {unknowns} unknowns per component: record longer"
     step, command = "evaluate it on data that were not fitted", typed("evaluate", EXPERIMENT, "-c", file)
@@ -67,4 +66,14 @@ def calibration_answer(
         step=step,
         command=command,
         concern=Concern.UNCERTAIN if doubtful else Concern.NONE,
+    )
+
+
+def _norms(calibration: Calibration, components: FloatArray) -> str:
+    """Norms of force and moment, as far as they are measured."""
+    measured = measured_components(calibration.matrix)
+    return ", ".join(
+        f"{np.linalg.norm(components[part]):.{digits}f} {unit}"
+        for part, digits, unit in zip(FORCE_AND_MOMENT, (2, 3), ("N", "N m"), strict=True)
+        if measured[part].any()
     )

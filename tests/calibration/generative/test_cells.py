@@ -122,6 +122,9 @@ def _assert_same(fit: GenerativeFit, other: GenerativeFit) -> None:
     of_spread = spread[:, :, None] * spread[:, None, :]
     np.testing.assert_allclose(fit.posterior.covariance / of_spread, other.posterior.covariance / of_spread, atol=SAME)
     np.testing.assert_allclose(fit.deviance, other.deviance, atol=1e-6)
+    assert (fit.noise_rms is None) == (other.noise_rms is None) == (not fit.model_errors)
+    if fit.noise_rms is not None and other.noise_rms is not None:
+        np.testing.assert_allclose(fit.noise_rms, other.noise_rms, rtol=SAME)
     assert len(fit.model_errors) == len(other.model_errors) in (0, 7)
     for one, same in zip(fit.model_errors, other.model_errors, strict=True):
         assert one.name == same.name
@@ -138,6 +141,9 @@ def test_offsets_of_a_recording_with_a_shared_session_and_its_own(drift: bool, m
     apart = _fitted(means, PRIOR, drift=drift)
     spread = np.sqrt(np.einsum("kpp->kp", together.posterior.covariance))
     np.testing.assert_allclose((apart.posterior.mean - together.posterior.mean) / spread, 0.0, atol=SAME)
+    assert apart.noise_rms is not None
+    assert together.noise_rms is not None
+    np.testing.assert_allclose(apart.noise_rms, together.noise_rms, rtol=SAME)
     np.testing.assert_allclose(apart.residual, together.residual, rtol=1e-6)
 
 

@@ -154,12 +154,19 @@ class SolvedRows:
     assumptions: Assumptions
     """Full scales, accuracy of the reference and repeatability."""
 
-    def solution(self, variables: Sequence[LinearVariable], wrench: FloatArray) -> tuple[FloatArray, Posterior]:
+    def free(self) -> list[FreeUnknowns]:
+        """Give the offsets and drifts of every row, given its unknowns."""
+        return free_unknowns(self.design, [unknown.noise for unknown in self.unknowns])
+
+    def solution(
+        self, variables: Sequence[LinearVariable], wrench: FloatArray, free: Sequence[FreeUnknowns]
+    ) -> tuple[FloatArray, Posterior]:
         """Give the matrix, and what is known of all unknowns.
 
         Args:
             variables: The linear variables.
             wrench: Wrenches of the means; shape (n, 6); N, N m.
+            free: Offsets and drifts of every row.
 
         Returns:
             The matrix, shape (6, c), and the posterior.
@@ -172,7 +179,6 @@ class SolvedRows:
         own = self.layout["model"]
         shared = self.unknowns[0].covariance[own, own]  # by all rows
         of_model = np.asarray(np.linalg.pinv(shared), dtype=np.float64)
-        free = free_unknowns(self.design, [unknown.noise for unknown in self.unknowns])
         known = [self._row(k, own, of_model) for k, own in enumerate(free)]
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
@@ -216,6 +222,32 @@ class SolvedRows:
             for basis, unknown in zip(self.basis, self.unknowns, strict=True)
         ]
         return self.rows.from_load + np.stack(change)
+
+    def left(self, free: Sequence[FreeUnknowns], to_wrench: FloatArray) -> FloatArray:
+        """Give what all unknowns together leave of the means, which the fit takes as noise.
+
+        Args:
+            free: Offsets and drifts of every row.
+            to_wrench: Error of a wrench per error of a row; shape (6, rows).
+
+        Returns:
+            Root mean square; shape (6,); N, N m.
+        """
+        design, shared = self.design, self.design.derivatives.shared
+        left = np.empty_like(design.response)
+        for k, (unknown, basis, own) in enumerate(zip(self.unknowns, self.basis, free, strict=True)):
+            by_columns, terms = np.split(unknown.coefficients, basis.shape[1:])
+            by_columns = basis @ by_columns
+            offsets = own.response - own.columns @ np.concatenate([by_columns, terms])
+            # what several cells do not share has its means by session only where one cell has the session
+            offsets_of_means = (np.where(design.centred_terms, 0.0, design.model_means[:, k]) @ terms)[design.member]
+            local = np.append(terms, 0.0)[design.local_places[design.derivatives.group]]
+            left[:, k] = design.response[:, k] - design.columns @ by_columns - design.free @ offsets
+            left[:, k] += offsets_of_means - np.einsum("nw,nw->n", design.local[:, k], local)
+            for block in design.blocks:
+                left[block, k] -= design.model(block)[:, k] @ terms[shared]
+        wrench = (left * self.rows.unit) @ to_wrench.T
+        return np.sqrt(np.average(wrench**2, axis=0, weights=design.timeline.share))
 
     def quadratic(self) -> FloatArray:
         """Give what the quadratic terms of the loads add to the rows.
@@ -368,7 +400,11 @@ class GenerativeFit:
     posterior: Posterior
     """Mean and covariance of the unknowns."""
     residual: FloatArray
-    """Root mean square residual of the model on the means; shape (6,); N, N m."""
+    """Root mean square of readings by the model less expected wrenches of the robot model as it is stated; shape (6,);
+    N, N m."""
+    noise_rms: FloatArray | None
+    """Root mean square of what errors of the robot model, cables and quadratic terms leave of that; shape (6,); N, N m;
+    None where the robot model was taken as exact."""
     quadratic: FloatArray
     """What the 21 quadratic terms of the loads add to the rows of the posterior; shape (rows, 21); N, N m or counts."""
     load_to_full_scale: FloatArray
@@ -513,7 +549,8 @@ def _fit(
     deviance: float,
 ) -> GenerativeFit:
     """Read the means by what the rows come to; `moved` are the values of the variables about their centre."""
-    matrix, posterior = solved.solution(variables, wrench)
+    free = solved.free()
+    matrix, posterior = solved.solution(variables, wrench, free)
     design, v, sessions = solved.design, len(variables), len(posterior.sessions)
     mean, to_wrench = posterior.mean, posterior.to_wrench
     offsets = -(to_wrench @ mean[:, LOADS + v : LOADS + v + sessions]).T
@@ -532,6 +569,7 @@ def _fit(
         session_time_s=design.session_time_s,
         posterior=posterior,
         residual=_residual(design, error, offsets, drifts),
+        noise_rms=solved.left(free, to_wrench) if design.derivatives.terms else None,
         quadratic=solved.quadratic(),
         load_to_full_scale=solved.rows.load_to_full_scale,
         means=len(raw),

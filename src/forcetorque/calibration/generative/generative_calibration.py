@@ -236,6 +236,7 @@ def generative_calibration(
         matrix_standard_error=fit.posterior.matrix_error(fit.model.matrix),
         offset_standard_error=sessions[-1].standard_error,
         residual_rms=fit.residual,
+        noise_rms=fit.noise_rms,
         lambda_counts2=None,
         prior=_prior(first, sessions[-1]),
         validity=validity_of(

@@ -170,7 +170,11 @@ class Calibration(StoredTable):
     offset_standard_error: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None
     """Standard error of the offset, likewise; N, N m."""
     residual_rms: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
-    """Root mean square residual on what was FITTED, means over a second or samples; N, N m."""
+    """Root mean square of readings less expected wrenches of the robot model as it is stated, on what was FITTED, means
+    over a second or samples; N, N m."""
+    noise_rms: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None = None
+    """What errors of the robot model, cables and quadratic terms, which the fit found beside the sensor, leave of that;
+    N, N m; None where the model was taken as exact, for other estimators, and in files of earlier versions."""
     lambda_counts2: Lambda | None
     """Lambda of a thesis' type, convention of thesis (5.4); None where every row has its own, see `selection`, and for
     the generative model, which has none."""
