@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -24,8 +25,14 @@ from forcetorque.experiment.calibration import expected_sensor_errors
 from forcetorque.experiment.calibration.calibration_file import Calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
-from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, ModelError, ModelTolerance, TermKind
-from forcetorque.experiment.calibration.stored_moments import read_moments
+from forcetorque.experiment.calibration.robot_model_error import (
+    OF_CABLES,
+    ErrorTerm,
+    ModelError,
+    ModelTolerance,
+    TermKind,
+)
+from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
 from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -125,7 +132,7 @@ def test_a_cable_does_not_pass_for_response(arm: Path) -> None:
     pulls = [np.outer(own, rng.normal(size=6) * ([2.0] * 3 + [0.1] * 3)) for own in _positions(run, samples).values()]
     changes, named = [], []
     for known in (True, False):
-        used = [k for k, term in enumerate(clean.terms) if known or term.kind not in (TermKind.PULL, TermKind.TWIST)]
+        used = [k for k, term in enumerate(clean.terms) if known or term.kind not in OF_CABLES]
         assert clean.model is not None
         columns = clean.model.reshape(len(clean.time_s), 6, -1)[:, :, used]
         matrices = []
@@ -154,7 +161,7 @@ def test_the_residual_is_stated_with_cables_and_without(arm: Path) -> None:
     assert prior is not None
     pull = np.outer(_positions(run, samples)["elbow"], [2.0, -2.0, 1.0, 0.1, 0.0, 0.1])
     pulled = clean.model_copy(update={"raw": clean.raw + pull @ np.linalg.inv(prior).T})
-    kept = [k for k, term in enumerate(clean.terms) if term.kind not in (TermKind.PULL, TermKind.TWIST)]
+    kept = [k for k, term in enumerate(clean.terms) if term.kind not in OF_CABLES]
     assert clean.model is not None
     without = clean.model.reshape(len(clean.time_s), 6, -1)[:, :, kept]
     unknown = pulled.with_model(tuple(clean.terms[k] for k in kept), without)
@@ -236,6 +243,54 @@ def test_recordings_with_and_without_tolerances_are_a_warning(arm: Path) -> None
     both = [uncertain, exact.model_copy(update={"intervals": (apart,)})]
     fit = calibrate_sensor(None, moments=both, code_version="1", created="now")
     assert any("taken as exact in other day: other" in doubt for doubt in fit.warnings)
+
+
+def test_moments_without_cables_beside_others_are_a_warning(arm: Path) -> None:
+    """As an earlier version stored them; not where all are without, nor where one recording has no joint that turns."""
+    (moments,) = recording_moments(_run(arm))
+    (interval,) = moments.intervals
+    columns = interval.means.model
+    assert columns is not None
+
+    def beside(kept: Callable[[ErrorTerm], bool]) -> RecordingMoments:
+        used = [k for k, term in enumerate(interval.terms) if kept(term)]
+        named = interval.interval.model_copy(update={"label": "other", "content": None})
+        apart = interval.model_copy(update={"interval": named, "recording": "other day"})
+        apart = apart.with_model(tuple(interval.terms[k] for k in used), columns[:, :, used])
+        return moments.model_copy(update={"intervals": (apart,), "experiment": "other day"})
+
+    def said(*recordings: RecordingMoments) -> list[str]:
+        fit = calibrate_sensor(None, moments=recordings, code_version="1", created="now")
+        return [warning for warning in fit.warnings if "cables" in warning]
+
+    before = beside(lambda term: term.kind not in OF_CABLES)
+    before.save(arm / "before.json")
+    (warning,) = said(moments, read_moments(arm / "before.json"))
+    assert "the moments of other day: other have no pulls of cables" in warning
+    assert "calibrate from the recordings anew" in warning
+    assert not said(moments, beside(lambda _: True))
+    assert not said(before)
+    assert not said(moments, beside(lambda term: term.kind is TermKind.MASS))
+
+
+def test_joints_at_zero_have_cables(arm: Path) -> None:
+    """Which pull nothing there; moments without them would be taken for those of an earlier version."""
+    run = _run(arm)
+    (samples,) = run.samples(Use.CALIBRATION)
+    expected = set(_columns(run, samples))
+    stream = run.experiment.recording.stream("joints")
+    still = {name: replace(own, values=np.zeros_like(own.values)) for name, own in stream.signals.items()}
+    recording = replace(
+        run.experiment.recording, streams={**run.experiment.recording.streams, "joints": replace(stream, signals=still)}
+    )
+    at_zero = SensorRun(replace(run.experiment, recording=recording), run.sensor)
+    (samples,) = at_zero.samples(Use.CALIBRATION)
+    columns = _columns(at_zero, samples)
+    of_cables = [name for name in expected if " of cables at " in name]
+    assert of_cables
+    assert expected - columns.keys()
+    for name in of_cables:
+        assert not columns[name].any()
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from forcetorque.experiment.calibration.moments import DataSet
 from forcetorque.experiment.calibration.robot_model_error import (
     CABLE_LEVER_M,
     EXACT,
+    OF_CABLES,
     PULL,
     TWIST,
     ZERO,
@@ -230,7 +231,9 @@ def model_columns(run: SensorRun, interval: Interval, data: DataSet) -> tuple[tu
     terms, columns = derivatives_at(run, interval, data.recording, at_ns, _rates(data)[picked])
     means = _means(columns, window[picked], int(window[-1]) + 1)
     effect = np.abs(means).max(axis=(0, 1)) * [term.deviation for term in terms]
-    moved = effect > _ROUNDING * effect.max(initial=0.0)
+    # moments without cables are of an earlier version; where all joints are at zero they pull nothing
+    of_cables = np.array([term.kind in OF_CABLES for term in terms], dtype=bool)
+    moved = of_cables | (effect > _ROUNDING * effect.max(initial=0.0))
     return tuple(term for term, used in zip(terms, moved, strict=True) if used), means[:, :, moved]
 
 

@@ -26,7 +26,7 @@ from forcetorque.base.noise.window_means import means_over
 from forcetorque.base.wrench import FORCE_AND_MOMENT
 from forcetorque.calibration.model_error_derivatives import derivatives_at
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
-from forcetorque.experiment.calibration.robot_model_error import TermKind
+from forcetorque.experiment.calibration.robot_model_error import OF_CABLES
 from forcetorque.experiment.sensor_reading import Correction
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.recording.recording import Interval
@@ -133,7 +133,7 @@ def signals_of(run: SensorRun, correction: Correction, interval: Interval) -> Si
     load = means[:, LOADS:]
     at_ns: IntArray = start_ns + np.round(time_s * 1e9).astype(np.int64)
     rates = np.gradient(load, time_s, axis=0) if len(time_s) > 1 else np.zeros_like(load)
-    terms, derivatives = derivatives_at(run, interval, "", at_ns, rates, without=(TermKind.PULL, TermKind.TWIST))
+    terms, derivatives = derivatives_at(run, interval, "", at_ns, rates, without=OF_CABLES)
     known = np.isfinite(derivatives).all(axis=(1, 2))
     columns = np.empty((int(np.count_nonzero(known)), 2 * LOADS + LOADS * len(terms)))
     columns[:, : 2 * LOADS] = means[known]

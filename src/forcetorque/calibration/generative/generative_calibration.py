@@ -43,6 +43,7 @@ from forcetorque.experiment.calibration.quadratic_correction import (
     quadratic_terms,
     steepness,
 )
+from forcetorque.experiment.calibration.robot_model_error import OF_CABLES, TermKind
 from forcetorque.experiment.calibration.sensor_model import (
     LinearVariable,
     WrenchModel,
@@ -249,6 +250,7 @@ def generative_calibration(
         warnings=(
             *dict.fromkeys(d for recording in recordings for d in recording.warnings),
             *_exact_beside_uncertain(intervals),
+            *_without_cables_beside_others(intervals),
             *_disagreeing(fit, stretches),
         ),
         model_errors=fit.model_errors,
@@ -358,6 +360,23 @@ def _exact_beside_uncertain(intervals: Sequence[IntervalMoments]) -> Iterator[st
         yield (
             f"the robot model is taken as exact in {', '.join(exact)}, and as uncertain in the other intervals; state "
             "[robot] tolerance in all files, and store moments anew"
+        )
+
+
+def _without_cables_beside_others(intervals: Sequence[IntervalMoments]) -> Iterator[str]:
+    """Name intervals with joints that turn, and no pulls of cables among their unknowns, where others have these."""
+    kinds = [{term.kind for term in interval.terms} for interval in intervals]
+    without = [
+        f"{interval.recording}: {interval.interval.label}"
+        for interval, own in zip(intervals, kinds, strict=True)
+        if TermKind.ZERO in own and own.isdisjoint(OF_CABLES)
+    ]
+    if without and not set().union(*kinds).isdisjoint(OF_CABLES):
+        yield (
+            f"the moments of {', '.join(without)} have no pulls of cables, which are unknowns of the other intervals: "
+            "there cables pass for response of the sensor. They were stored by an earlier version, or with "
+            "cable_N_rad = 0: calibrate from the recordings anew, or store their moments anew; where nothing crosses "
+            "the sensor state cable_N_rad = 0 in [robot] tolerance of all files"
         )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.base.arrays import ArrayRecord, FloatArray, IntArray, array, check_arrays, require_shape
 from forcetorque.base.errors import FitError
-from forcetorque.experiment.calibration.robot_model_error import MountTolerance, TermKind
+from forcetorque.experiment.calibration.robot_model_error import OF_CABLES, MountTolerance, TermKind
 from forcetorque.experiment.calibration.sensor_model import LinearVariable, measured_components
 
 ACCURACY_SHARE: Final = 1e-3
@@ -123,7 +123,7 @@ def variable_sizes(variable: LinearVariable, from_load: FloatArray, extent: floa
 
 def model_scale(kind: TermKind) -> Scale:
     """Give the expected size of errors of the robot model of one kind, over their tolerance."""
-    if kind in (TermKind.PULL, TermKind.TWIST):
+    if kind in OF_CABLES:
         return CABLE
     return MASS if kind is TermKind.MASS else MODEL
 

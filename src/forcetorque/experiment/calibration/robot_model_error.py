@@ -50,6 +50,8 @@ class TermKind(StrEnum):
         return _UNITS[self]
 
 
+OF_CABLES: Final = (TermKind.PULL, TermKind.TWIST)
+"""Kinds of what cables and covers do, which are no numbers of the robot model itself."""
 _UNITS: Final = {
     TermKind.MASS: "",
     TermKind.CENTRE: "m",
