@@ -22,7 +22,7 @@ from forcetorque.calibration.generative.fit import GenerativeFit, SolvedRows, fi
 from forcetorque.calibration.model_error_derivatives import SAMPLES_PER_WINDOW, model_columns
 from forcetorque.calibration.reduced_recordings import recording_moments
 from forcetorque.experiment.calibration import expected_sensor_errors
-from forcetorque.experiment.calibration.calibration_file import Calibration
+from forcetorque.experiment.calibration.calibration_file import Calibration, read_calibration
 from forcetorque.experiment.calibration.expected_sensor_errors import Scale
 from forcetorque.experiment.calibration.moments import WindowMeans
 from forcetorque.experiment.calibration.robot_model_error import (
@@ -537,5 +537,8 @@ def test_the_errors_of_the_model_are_in_the_file(arm: Path) -> None:
     calibration.save(arm / "own.json")
     content = json.loads((arm / "own.json").read_text(encoding="utf-8"))
     assert {"name", "unit", "value", "standard_error", "tolerance"} == set(content["model_errors"][0])
+    assert read_calibration(arm / "own.json") == calibration
+    covariance = content["posterior"]["model"]["term_covariance"]
+    assert [len(row) for row in covariance] == list(range(1, len(calibration.model_errors) + 1))
     del content["model_errors"]
     assert Calibration.model_validate(content).model_errors == ()

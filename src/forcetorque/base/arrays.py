@@ -274,8 +274,11 @@ class ArrayField:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(
             self._validate,
-            serialization=core_schema.plain_serializer_function_ser_schema(lambda array: array.tolist()),
+            serialization=core_schema.plain_serializer_function_ser_schema(self._listed),
         )
+
+    def _listed(self, array: FloatArray) -> list[Any]:
+        return list(array.tolist())
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         described: dict[str, Any] = {"type": "number"}
@@ -286,6 +289,49 @@ class ArrayField:
             if length is not None:
                 described |= {"minItems": length, "maxItems": length}
         return described
+
+
+@dataclass(frozen=True, slots=True)
+class SymmetricField(ArrayField):
+    """Annotation of a symmetric matrix, of which JSON has the lower triangle: rows of one number, two, three and so on.
+
+    A matrix with all its rows is read too.
+    """
+
+    shape: tuple[int | None, ...] = (None, None)
+
+    def _validate(self, values: Any) -> FloatArray:
+        if isinstance(values, list) and all(isinstance(row, list) for row in values):
+            lengths = [len(row) for row in values]
+            if lengths == list(range(1, len(values) + 1)):
+                numbers = ArrayField((None,))._validate([number for row in values for number in row])
+                matrix = np.zeros((len(values), len(values)))
+                matrix[np.tril_indices(len(values))] = numbers
+                values = matrix + np.tril(matrix, -1).T
+        matrix = ArrayField._validate(self, values)
+        if matrix.shape[0] != matrix.shape[1]:
+            raise ValueError(f"expected as many rows as columns, or a lower triangle, got shape {matrix.shape}")
+        return matrix
+
+    def _listed(self, array: FloatArray) -> list[Any]:
+        if not np.array_equal(array, array.T):  # rounding, of a matrix that is no fit's
+            return list(array.tolist())
+        return [row[: k + 1].tolist() for k, row in enumerate(array)]
+
+
+def rounded(values: FloatArray, digits: int) -> FloatArray:
+    """Round to significant digits, of which text then has no more.
+
+    Args:
+        values: Finite numbers; any shape.
+        digits: Number of digits.
+
+    Returns:
+        The numbers; a symmetric matrix stays one.
+    """
+    size = np.where(values == 0.0, 1.0, np.abs(values))
+    scale = 10.0 ** (digits - 1 - np.floor(np.log10(size)))
+    return np.asarray(np.round(values * scale) / scale)
 
 
 class ArrayModel(BaseModel):

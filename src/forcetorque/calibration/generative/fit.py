@@ -333,10 +333,10 @@ class SolvedRows:
         terms, deviations, own = self.design.derivatives.terms, self.design.derivatives.deviations, self.layout["model"]
         if not terms:
             return None
-        return ModelPart(
-            terms=terms,
-            term_covariance=self.unknowns[0].covariance[own, own] * np.outer(deviations, deviations),
-            response=np.stack(by_model) / deviations,
+        return ModelPart.fitted(
+            terms,
+            self.unknowns[0].covariance[own, own] * np.outer(deviations, deviations),
+            np.stack(by_model) / deviations,
         )
 
     def _matrix(self, change: FloatArray, noise: Sequence[RowNoise]) -> tuple[FloatArray, FloatArray]:

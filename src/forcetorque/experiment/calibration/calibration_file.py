@@ -362,8 +362,9 @@ def write_calibration(path: Path | str, calibration: Calibration) -> None:
         calibration: What to write.
     """
     content = calibration.model_dump(mode="json", by_alias=True)
-    # no indent inside a field: it takes four times as long, and half as much space again
-    lines = ",\n".join(f'  "{name}": {json.dumps(value, allow_nan=False)}' for name, value in content.items())
+    # no indent or space inside a field: an indent takes four times as long, and half as much space again
+    texts = {name: json.dumps(value, allow_nan=False, separators=(",", ":")) for name, value in content.items()}
+    lines = ",\n".join(f'  "{name}": {text}' for name, text in texts.items())
     write_bytes_atomically(Path(path), f"{{\n{lines}\n}}\n".encode())
 
 

@@ -4,16 +4,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.base.arrays import ArrayField, FloatArray, require_shape
+from forcetorque.base.arrays import ArrayField, FloatArray, SymmetricField, require_shape, rounded
 from forcetorque.base.errors import ShapeError, require_known
 from forcetorque.base.stored_table import StoredTable
 from forcetorque.experiment.calibration.expected_sensor_errors import LOADS
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm
+
+_DIGITS: Final = 9
+"""Significant digits of what a fit knows of errors of the robot model."""
 
 
 class RowNoise(StoredTable):
@@ -32,11 +35,25 @@ class ModelPart(StoredTable):
 
     terms: tuple[ErrorTerm, ...]
     """The errors, t of them, with their deviations before any data."""
-    term_covariance: Annotated[FloatArray, ArrayField((None, None))]
+    term_covariance: Annotated[FloatArray, SymmetricField()]
     """Their covariance; shape (t, t); products of their units."""
     response: Annotated[FloatArray, ArrayField((None, None, None))]
     """By how much the mean of the unknowns of every row would change per unit of each error, were it known; shape
     (rows, p, t)."""
+
+    @classmethod
+    def fitted(cls, terms: tuple[ErrorTerm, ...], covariance: FloatArray, response: FloatArray) -> ModelPart:
+        """Keep what a fit found, to `_DIGITS` digits: it is the largest part of a file of a calibration.
+
+        Args:
+            terms: As of the class.
+            covariance: As `term_covariance` of the class.
+            response: As of the class.
+
+        Returns:
+            The part.
+        """
+        return cls(terms=terms, term_covariance=rounded(covariance, _DIGITS), response=rounded(response, _DIGITS))
 
     @classmethod
     def exact(cls, rows: int, unknowns: int) -> ModelPart:
