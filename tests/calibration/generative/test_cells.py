@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from forcetorque.base.arrays import FloatArray
+from forcetorque.base.arrays import BoolArray, FloatArray
 from forcetorque.base.noise.slow_noise import CANDIDATES
 from forcetorque.calibration.generative import design_matrix as design
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
@@ -115,7 +116,7 @@ def test_blocks_change_no_number(together: int, monkeypatch: pytest.MonkeyPatch)
     _assert_same(_fitted(means, PRIOR, drift=True), at_once)
 
 
-def _assert_same(fit: GenerativeFit, other: GenerativeFit) -> None:
+def _assert_same(fit: GenerativeFit, other: GenerativeFit, *, terms: int = 7) -> None:
     spread = np.sqrt(np.einsum("kpp->kp", other.posterior.covariance))
     assert fit.posterior.noise[0].time_constant_s == other.posterior.noise[0].time_constant_s
     np.testing.assert_allclose((fit.posterior.mean - other.posterior.mean) / spread, 0.0, atol=SAME)
@@ -125,7 +126,7 @@ def _assert_same(fit: GenerativeFit, other: GenerativeFit) -> None:
     assert (fit.noise_rms is None) == (other.noise_rms is None) == (not fit.model_errors)
     if fit.noise_rms is not None and other.noise_rms is not None:
         np.testing.assert_allclose(fit.noise_rms, other.noise_rms, rtol=SAME)
-    assert len(fit.model_errors) == len(other.model_errors) in (0, 7)
+    assert len(fit.model_errors) == len(other.model_errors) in (0, terms)
     for one, same in zip(fit.model_errors, other.model_errors, strict=True):
         assert one.name == same.name
         np.testing.assert_allclose(one.value, same.value, atol=SAME * same.standard_error)
@@ -158,3 +159,43 @@ def test_terms_of_one_recording_are_kept_beside_it() -> None:
     assert model_terms(means, [0] * 5).columns.shape[2] == 7
     none = model_terms([replace(one, terms=(), model=None) for one in means], range(5))
     assert none.columns.shape[2] == none.local_columns.shape[2] == 0
+
+
+def _with_pulls(means: list[WindowMeans], axes: str) -> list[WindowMeans]:
+    """Beside the terms of each recording pulls of a joint that moves, along axes, and of one that stays at zero."""
+    rng = np.random.default_rng(8)
+    pulled = []
+    for one in means:
+        assert one.model is not None
+        names = [*(f"{axis} pull of cables at knee" for axis in axes), "z pull of cables at hip"]
+        columns = np.zeros((len(one), 6, len(names)))
+        position = rng.normal(size=len(one))
+        for k, axis in enumerate(axes):
+            columns[:, "xyz".index(axis), k] = position
+        terms = (*one.terms, *(ErrorTerm(name=name, kind=TermKind.PULL, deviation=1.0) for name in names))
+        raw = one.raw + np.outer(position, [0.0, 3.0, 0.0, 0.0, 0.0, 0.0]) @ np.linalg.inv(PRIOR).T
+        pulled.append(replace(one, terms=terms, model=np.concatenate([one.model, columns], axis=2), raw=raw))
+    return pulled
+
+
+@pytest.mark.parametrize("together", [5, 1], ids=["one cell", "cells"])
+def test_terms_are_left_out_of_rows_that_they_do_not_act_on(together: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """That changes no number; a pull is found along its axis, and one that acts on no row keeps its tolerance."""
+    monkeypatch.setattr(design, "MOST_TOGETHER", together)
+    means = _with_pulls(_recordings(5, 2), "xy")
+    few = _fitted(means, PRIOR, drift=False)
+    errors = {error.name: error for error in few.model_errors}
+    pull, none = errors["y pull of cables at knee"], errors["z pull of cables at hip"]
+    assert pull.value == pytest.approx(3.0, abs=1.0)
+    assert pull.standard_error < 0.5
+    assert none.value == 0.0
+    assert none.standard_error > 1.0
+    centred = design._centred_terms
+
+    def on_all_rows(*arguments: Any) -> tuple[FloatArray, FloatArray, BoolArray]:
+        local, of_sessions, acting = centred(*arguments)
+        assert not acting.all()
+        return local, of_sessions, np.ones_like(acting)
+
+    monkeypatch.setattr(design, "_centred_terms", on_all_rows)
+    _assert_same(few, _fitted(means, PRIOR, drift=False), terms=10)

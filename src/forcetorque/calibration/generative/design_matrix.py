@@ -69,6 +69,9 @@ class Design:
     """Terms of the robot model, of which the columns of s that several cells have are computed as they are used."""
     reading: FloatArray
     """How the rows read errors of the loads; shape (rows, 6)."""
+    acting: BoolArray
+    """Which of the s terms that several cells have act on each row; shape (rows, s). A cable that pulls along one axis
+    acts on one row where rows are components of the wrench; one that pulls nothing is counted to the first row."""
     member: IntArray
     """Number of the session of every mean; shape (n,)."""
     local: FloatArray
@@ -162,7 +165,7 @@ def design_of(
     elapsed, session_time = _centred(time[:, None], member, count)
     ones = (member[:, None] == np.arange(len(sessions))).astype(np.float64)
     alone = np.array([len(np.unique(cell[member == number])) == 1 for number in range(len(sessions))])
-    local, model_means = _centred_terms(model, reading, member, count, alone)
+    local, model_means, acting = _centred_terms(model, reading, member, count, alone)
     centred_terms = np.ones((len(sessions), len(model.terms)), dtype=bool)
     for number in np.flatnonzero(~alone):
         of_cells = model.local[np.unique(cell[member == number])]
@@ -172,6 +175,7 @@ def design_of(
         columns=columns,
         derivatives=model,
         reading=reading,
+        acting=acting,
         member=member,
         local=local,
         local_places=model.local,
@@ -210,14 +214,17 @@ def _local_in_rows(model: TermColumns, reading: FloatArray) -> FloatArray:
 
 def _centred_terms(
     model: TermColumns, reading: FloatArray, member: IntArray, count: FloatArray, alone: BoolArray
-) -> tuple[FloatArray, FloatArray]:
-    """Local columns of terms without their means by session, where these are taken off, and means of all columns."""
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Local columns of terms, without means by session where these are taken off; means of all; rows they act on."""
     cell, weight = model.group, np.bincount(member, weights=count)
     means = np.zeros((len(alone), len(reading), len(model.terms)))
     of_shared = np.zeros((len(alone), len(reading), len(model.shared)))
+    acting = np.zeros((len(reading), len(model.shared)), dtype=bool)
     for rows in blocks_of(len(member)):
         columns = _shared_in_rows(model, reading, rows)
         np.add.at(of_shared, member[rows], columns * count[rows, None, None])
+        acting |= columns.any(axis=0)
+    acting[0] |= ~acting.any(axis=0)
     means[:, :, model.shared] = of_shared / weight[:, None, None]
     local = _local_in_rows(model, reading)
     for number, places in enumerate(model.local):
@@ -228,7 +235,7 @@ def _centred_terms(
             means[session][:, places[used]] = mean[:, used]
             if alone[session]:
                 local[inside] -= mean
-    return local, means
+    return local, means, acting
 
 
 def _own_sessions(member: IntArray, cell: IntArray, alone: BoolArray, *, drift: bool) -> IntArray:

@@ -507,11 +507,13 @@ def fit_generative(
             RowData(
                 data=whitened,
                 basis=own,
-                terms=derivatives.shared,
+                terms=derivatives.shared[acting],
                 accuracy=float(accuracy) if noise_floor else 0.0,
                 freedom=max(len(raw) - design.free.shape[1], 1),
             )
-            for whitened, own, accuracy in zip(whiten(design, shapes), basis, rows.accuracy, strict=True)
+            for whitened, own, acting, accuracy in zip(
+                whiten(design, shapes), basis, design.acting, rows.accuracy, strict=True
+            )
         ]
         sizes = layout.sizes(rows.group, terms, assumptions, with_prior=prior is not None)
         best = infer(data, sizes, local=design.local_places.ravel(), sensor=np.arange(LOADS), start=start)

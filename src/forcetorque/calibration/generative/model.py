@@ -70,7 +70,7 @@ class _Row:
         self.data, self.basis, self.freedom, self.places = data, row.basis, row.freedom, model.places[number]
         self.start = row.start
         self.terms = row.basis.shape[1] + row.terms
-        self._place = number, len(model.places), model.own
+        self._place = number, model.own
         self.response = np.array([one.response for one in data])
         self.log_determinant = np.array([one.log_determinant for one in data])
         ratio = np.array([one.noise.ratio for one in data])
@@ -222,7 +222,7 @@ class RowData:
     """What the columns without those of terms of the robot model are worth in the unknowns of the row without these
     terms, which stand last; shape (a, b)."""
     terms: IntArray
-    """Places of the terms that all cells have among those of the row; shape (s,)."""
+    """Places, among all terms of the row, of those that all cells have and that act on it; shape (s,)."""
     accuracy: float
     """Slow error of the reference, which the noise cannot fall below."""
     freedom: int
@@ -312,6 +312,14 @@ def _have_rank(products: FloatArray) -> bool:
     return bool(np.linalg.eigvalsh(products / np.outer(size, size))[0] > _RANK**2)
 
 
+def _prepared_together(rows: Sequence[_Row], *, apart: bool) -> list[list[_Row]]:
+    """Rows of as many unknowns; each by itself where cells have terms, since what is prepared of it is large."""
+    groups: dict[object, list[_Row]] = {}
+    for number, row in enumerate(rows):
+        groups.setdefault(number if apart else (row.basis.shape, len(row.terms)), []).append(row)
+    return list(groups.values())
+
+
 def _ascend(
     rows: Sequence[_Row],
     model: Sizes,
@@ -327,23 +335,20 @@ def _ascend(
     # of terms of single cells every row has the same place
     local = np.where(local_terms >= 0, model.places[0][rows[0].basis.shape[1] + local_terms], -1)
     if len(local):
-        blocks, beside = local, [row.places[np.r_[: row.basis.shape[1], row.terms]] for row in rows]
+        blocks, first = local, 0
     else:
-        blocks, beside = (
-            np.concatenate([places[: model.own] for places in model.places]),
-            [row.places[model.own :] for row in rows],
-        )
+        blocks, first = np.concatenate([places[: model.own] for places in model.places]), model.own
+    beside = [row.places[np.r_[first : row.basis.shape[1], row.terms]] for row in rows]
+    together = _prepared_together(rows, apart=len(local) > 0)
     for sweep in range(_SWEEPS):
         deviations = sizes[model.size]
         of_local = np.where(local >= 0, deviations[local], 0.0)
         deviance = model.deviance(sizes)
         if sweep in choices:
-            # where cells have terms what is prepared of a row is large
-            alike = not len(local) and len({len(places) for places in model.places}) == 1
-            for together in [rows] if alike else [[row] for row in rows]:
-                candidates = [np.flatnonzero(row.allowed) for row in together]
-                of_shapes = _settle(together, candidates, deviations, of_local, rounds=4)
-                for row, shapes, of_row in zip(together, candidates, of_shapes, strict=True):
+            for alike in together:
+                candidates = [np.flatnonzero(row.allowed) for row in alike]
+                of_shapes = _settle(alike, candidates, deviations, of_local, rounds=4)
+                for row, shapes, of_row in zip(alike, candidates, of_shapes, strict=True):
                     row.choose(int(shapes[np.argmin(of_row)]))
         if not coupled:
             chosen = [np.array([row.shape]) for row in rows]

@@ -115,7 +115,7 @@ class _Bordered:
     """The evidence where there are terms of single cells, which `solve_together` eliminates."""
 
     def __init__(self, data: Sequence[tuple[Whitened, RowPrior]]) -> None:
-        self._rows = [(in_unknowns(one, prior.root, 0, 1, 0), prior.local) for one, prior in data]
+        self._rows = [(in_unknowns(one, prior.root, 0, 0), prior.local) for one, prior in data]
 
     def at(self, variance: FloatArray) -> EvidenceTerms:
         """Evaluate the evidence."""

@@ -16,14 +16,13 @@ from forcetorque.base.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.whitening import Border, Whitened
 
 
-def in_unknowns(data: Whitened, basis: FloatArray, row: int, rows: int, own: int) -> Whitened:
+def in_unknowns(data: Whitened, basis: FloatArray, row: int, own: int) -> Whitened:
     """Change products of columns to products of unknowns: of those in no block, and, as its border, those of blocks.
 
     Args:
         data: Products of the columns of a row.
         basis: What the columns without those of terms are worth in unknowns; shape (a, b).
         row: Number of the row.
-        rows: Number of all rows.
         own: Number of unknowns that the row has for itself, which are its first and are a block where no single cell
             has terms.
 
@@ -37,15 +36,13 @@ def in_unknowns(data: Whitened, basis: FloatArray, row: int, rows: int, own: int
     if border.own.size:
         worth = np.hstack([border.columns[:, :a] @ basis, border.columns[:, a:]])
         return replace(data, columns=columns, shared=shared, border=replace(border, columns=worth))
-    here = slice(row * own, (row + 1) * own)
     blocks = Border(
-        own=np.zeros((rows, own, own)),
-        columns=np.zeros((rows * own, len(columns) - own)),
-        free=np.zeros((rows * own, 0)),
-        response=np.zeros(rows * own),
+        own=columns[None, :own, :own],
+        columns=columns[:own, own:],
+        free=np.zeros((own, 0)),
+        response=shared[:own],
+        first=row,
     )
-    blocks.own[row], blocks.columns[here] = columns[:own, :own], columns[:own, own:]
-    blocks.response[here] = shared[:own]
     return replace(data, columns=columns[own:, own:], shared=shared[own:], free=np.zeros((0, 0)), border=blocks)
 
 
@@ -121,7 +118,8 @@ def solve_together(
     known, free = len(everywhere), len(rows[0].free)
     own_places = [np.searchsorted(everywhere, own) for own in places]
     free_places = [np.arange(known + k * free, known + (k + 1) * free) for k in range(len(rows))]
-    size, (cells, width, _) = known + free * len(rows), rows[0].border.own.shape
+    size, width = known + free * len(rows), rows[0].border.own.shape[1]
+    cells = len(local) // width if width else len(rows[0].border.own)
     products, shared = np.zeros((size, size)), np.zeros(size)
     border, response = np.zeros((cells * width, size)), np.zeros(cells * width)
     own = np.zeros((cells, width, width))
@@ -129,10 +127,11 @@ def solve_together(
         products[np.ix_(at, at)] += row.columns / variance
         products[np.ix_(at_free, at_free)] += row.free / variance
         shared[at] += row.shared / variance
-        border[:, at] += row.border.columns / variance
-        border[:, at_free] += row.border.free / variance
-        response += row.border.response / variance
-        own += row.border.own / variance
+        here, of_row = _cells_of(row.border)
+        border[of_row, at] += row.border.columns / variance
+        border[of_row, at_free] += row.border.free / variance
+        response[of_row] += row.border.response / variance
+        own[here] += row.border.own / variance
     scale = np.r_[deviations[everywhere], np.ones(size - known)]
     local_scale = np.where(local >= 0, deviations[local], 0.0)
     of_cell = local_scale.reshape(cells, width)
@@ -192,6 +191,12 @@ def solve_together(
     )
 
 
+def _cells_of(border: Border) -> tuple[slice, slice]:
+    """Cells that a row has among all that are solved together, and their unknowns."""
+    cells, width, _ = border.own.shape
+    return slice(border.first, border.first + cells), slice(border.first * width, (border.first + cells) * width)
+
+
 def _of_row(
     row: Whitened,
     at: IntArray,
@@ -204,6 +209,8 @@ def _of_row(
 ) -> tuple[float, float]:
     """Sum of squares that is left of the response of a row, and the trace of its products and the covariance."""
     border = row.border
+    here, of_row = _cells_of(border)
+    local, across, of_cells = local[of_row], across[of_row], of_cells[here]
     own, free = values[at], values[at_free]
     by_cell = local.reshape(of_cells.shape[:2])
     left = row.response - 2.0 * float(own @ row.shared + local @ border.response)

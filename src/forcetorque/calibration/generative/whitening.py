@@ -31,6 +31,8 @@ class Border:
     """Products with the h free columns that several cells have; shape (cells w, h)."""
     response: FloatArray
     """Products with the response; shape (cells w,)."""
+    first: int = 0
+    """Number of the first of these cells among all that are solved together."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -89,15 +91,15 @@ class _Stacked:
     """All columns of a design side by side, each divided by its largest value, in blocks of means."""
 
     def __init__(self, design: Design) -> None:
-        rows, shared = len(design.reading), len(design.derivatives.shared)
+        rows, terms = len(design.reading), int(design.acting.sum())
         width, self._width_free = design.local_places.shape[1], design.free_places.shape[1]
         self.rows, self.cells, self._design = rows, len(design.free_places), design
-        widths = (design.columns.shape[1], rows * shared, rows, len(design.shared_free), rows * width, self._width_free)
+        widths = (design.columns.shape[1], terms, rows, len(design.shared_free), rows * width, self._width_free)
         ends = np.cumsum(widths).tolist()
         self._total, self._everywhere = ends[-1], ends[3]
         self.response, self.free = np.arange(ends[1], ends[2]), np.arange(ends[2], ends[3])
-        of_model = ends[0] + np.arange(rows * shared).reshape(rows, shared)
-        self.columns = [np.r_[: ends[0], of_model[row]] for row in range(rows)]
+        of_model = np.split(np.arange(ends[0], ends[1]), np.cumsum(design.acting.sum(axis=1))[:-1])
+        self.columns = [np.r_[: ends[0], own] for own in of_model]
         self.local = np.arange(rows * width).reshape(rows, width)
         self.own_free = rows * width + np.arange(self._width_free)
         self._size = np.zeros(self._total)
@@ -105,6 +107,7 @@ class _Stacked:
             block = self._block(means)
             np.maximum(self._size, np.abs(block).max(axis=0, initial=0.0), out=self._size)
         self._size[self._size == 0.0] = 1.0
+        self._sizes = np.outer(self._size[: self._everywhere], self._size[: self._everywhere])
         count = len(design.member) * self._total
         (scaled,) = rows_for(count, [((), np.float64)])
         for means in design.blocks:
@@ -120,7 +123,7 @@ class _Stacked:
             own[start:end, used] = design.free[means][start:end, design.free_places[cell][used]]
         parts = (
             design.columns[means],
-            design.model(means).reshape(count, -1),
+            design.model(means)[:, design.acting],
             design.response[means],
             design.free[means][:, design.shared_free],
             design.local[means].reshape(count, -1),
@@ -152,7 +155,7 @@ class _Stacked:
                 of_cells[cells[0][0]] += np.outer(before[m:], solved.across)
             before = solved.after
             forget_pages([self._scaled])
-        product *= np.outer(self._size[:m], self._size[:m])
+        product *= self._sizes
         of_cells *= np.outer(self._size[m:], self._size)
         own = of_cells[:, :, m:]
         return _Products(
@@ -178,9 +181,11 @@ def _whitened(stacked: _Stacked, products: _Products, noise: SlowNoise) -> list[
     several = everywhere[np.ix_(stacked.free, stacked.free)]
     log_determinant = products.log_determinant + _log_determinant(own_free) + _log_determinant(several)
     # columns and response are projected on the free columns of several cells, terms of one cell are not
-    by_free = symmetric_pseudo_inverse(several) @ everywhere[stacked.free]
-    everywhere = everywhere - everywhere[:, stacked.free] @ by_free
-    projected = border - border[:, :, stacked.free] @ by_free
+    projected = border
+    if len(several):
+        by_free = symmetric_pseudo_inverse(several) @ everywhere[stacked.free]
+        everywhere = everywhere - everywhere[:, stacked.free] @ by_free
+        projected = border - border[:, :, stacked.free] @ by_free
     return [
         Whitened(
             noise=noise,
@@ -247,7 +252,7 @@ def _free_of_row(design: Design, stacked: _Stacked, products: _Products, row: in
     several, own, local = design.shared_free, stacked.own_free, stacked.local[row]
     # a row and a column beside the others take what cells have fewer of
     product, shared = np.zeros((f + 1, f + 1)), np.zeros((f + 1, a + 1 + terms + 1))
-    everywhere = np.r_[:a, a + 1 + terms, a + design.derivatives.shared]
+    everywhere = np.r_[:a, a + 1 + terms, a + design.derivatives.shared[design.acting[row]]]
     of_all = np.r_[columns[:a], response, columns[a:]]
     product[np.ix_(several, several)] = products.everywhere[np.ix_(stacked.free, stacked.free)]
     shared[np.ix_(several, everywhere)] = products.everywhere[np.ix_(stacked.free, of_all)]
