@@ -167,6 +167,23 @@ def test_an_exact_model_gives_the_plan_of_before_and_another_a_larger_error(
     assert any("joint zeros 0.5 deg, by the same" in words for words in without)
 
 
+def test_a_calibration_without_cables_is_a_warning(arm: Path) -> None:
+    """As of an earlier version, where the plan has cables; not where it has none, or the calibration has them."""
+
+    def said(tolerance: str, calibrated_with: str) -> list[str]:
+        run = _planning(arm, calibrated_with)
+        posterior = calibrate_sensor(run, code_version="1", created="2020-01-01T00:00:00+00:00").posterior
+        assert posterior is not None
+        planned = _planning(arm, tolerance).experiment.fit_options.tolerance
+        limits = limits_of(calibrated=True, posterior=posterior, tolerance=planned)
+        return [words for words in limits if "does not know pulls of cables" in words]
+
+    usual, none = "tolerance = {}\n", "tolerance = { cable_N_rad = 0.0 }\n"
+    assert len(said(usual, none)) == 1
+    assert not said(none, none)
+    assert not said(usual, usual)
+
+
 def test_a_calibration_that_took_the_model_as_exact_is_a_warning(arm: Path) -> None:
     """Only where the plan does not."""
     fitted = calibrate_sensor(

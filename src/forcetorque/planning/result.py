@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.evaluation.load_cases.load_case import LoadCase
 from forcetorque.evaluation.load_cases.predicted_error import PredictedError
-from forcetorque.experiment.calibration.posterior import Posterior
-from forcetorque.experiment.calibration.robot_model_error import EXACT, ModelTolerance
+from forcetorque.experiment.calibration.posterior import ModelPart, Posterior
+from forcetorque.experiment.calibration.robot_model_error import EXACT, OF_CABLES, ModelTolerance, TermKind
 from forcetorque.planning.information import ASSUMED_NOISE
 from forcetorque.planning.posture_search import HELPS, Criterion
 from forcetorque.planning.proposed_recordings import NOTHING, Proposal, Workplace
@@ -300,7 +300,7 @@ def limits_of(*, calibrated: bool, posterior: Posterior, tolerance: ModelToleran
     model = (
         "what a recording is expected to teach leaves room for quadratic terms, and none for what differentiation "
         "flattens",
-        *_robot_model(tolerance, unknown=calibrated and posterior.model is None),
+        *_robot_model(tolerance, known=posterior.model, calibrated=calibrated),
     )
     if calibrated:
         return unchecked, *model
@@ -312,8 +312,8 @@ def limits_of(*, calibrated: bool, posterior: Posterior, tolerance: ModelToleran
     return assumed, unchecked, *model
 
 
-def _robot_model(tolerance: ModelTolerance, *, unknown: bool) -> Iterator[str]:
-    """What is assumed of the robot model, and whether that is unknown of the calibration."""
+def _robot_model(tolerance: ModelTolerance, *, known: ModelPart | None, calibrated: bool) -> Iterator[str]:
+    """What is assumed of the robot model, and what of it a calibration did not take as unknown."""
     if tolerance == EXACT:
         yield "the robot model is taken as exact, as [robot] tolerance states"
         return
@@ -324,10 +324,16 @@ def _robot_model(tolerance: ModelTolerance, *, unknown: bool) -> Iterator[str]:
         f"the same in all recordings, and by acceleration {tolerance.acceleration:.2g} m/s2 and delay "
         f"{1e3 * tolerance.delay_s:.2g} ms, anew in each; state others in [robot] tolerance"
     )
-    if unknown:
+    if calibrated and known is None:
         yield (
             "the calibration took the robot model as exact, so that predicted errors do not have what errors of the "
             "model made of it; calibrate with [robot] tolerance"
+        )
+    kinds = {term.kind for term in known.terms} if calibrated and known is not None else set()
+    if tolerance.cable_N_rad and TermKind.ZERO in kinds and kinds.isdisjoint(OF_CABLES):
+        yield (
+            "the calibration does not know pulls of cables, as a joint one or that of an earlier version, so that "
+            "predicted errors do not have what these made of it; calibrate the sensor from its recordings anew"
         )
 
 
