@@ -32,7 +32,7 @@ from forcetorque.experiment.calibration.robot_model_error import (
     ModelTolerance,
     TermKind,
 )
-from forcetorque.experiment.calibration.stored_moments import RecordingMoments, read_moments
+from forcetorque.experiment.calibration.stored_moments import IntervalMoments, RecordingMoments, read_moments
 from forcetorque.experiment.interval_samples import IntervalSamples
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
@@ -120,28 +120,40 @@ def test_cables_pull_and_twist_in_proportion_to_positions(arm: Path) -> None:
     assert _columns(without, samples).keys() == _columns(run, samples).keys() - of_cables.keys()
 
 
+def _with_pull(run: SensorRun, interval: IntervalMoments, pull: FloatArray) -> IntervalMoments:
+    """An interval in which something pulls beside the load; pull of shape (w, 6); N, N m."""
+    assert run.sensor.prior is not None
+    return interval.model_copy(update={"raw": interval.raw + pull @ np.linalg.inv(run.sensor.prior).T})
+
+
+def _with_terms(interval: IntervalMoments, kept: Callable[[ErrorTerm], bool]) -> IntervalMoments:
+    """An interval with some of its terms of the robot model."""
+    used, columns = [k for k, term in enumerate(interval.terms) if kept(term)], interval.means.model
+    assert columns is not None
+    return interval.with_model(tuple(interval.terms[k] for k in used), columns[:, :, used])
+
+
+def _of_model(term: ErrorTerm) -> bool:
+    return term.kind not in OF_CABLES
+
+
 def test_a_cable_does_not_pass_for_response(arm: Path) -> None:
     """Cables of 2 N/rad change the matrix by a third of what they change where they are no unknowns, and are named."""
     run = _run(arm)
     (samples,) = run.samples(Use.CALIBRATION)
     (moments,) = recording_moments(run)
     (clean,) = moments.intervals
-    prior = run.sensor.prior
-    assert prior is not None
-    to_raw, rng = np.linalg.inv(prior), np.random.default_rng(3)
+    rng = np.random.default_rng(3)
     pulls = [np.outer(own, rng.normal(size=6) * ([2.0] * 3 + [0.1] * 3)) for own in _positions(run, samples).values()]
     changes, named = [], []
     for known in (True, False):
-        used = [k for k, term in enumerate(clean.terms) if known or term.kind not in OF_CABLES]
-        assert clean.model is not None
-        columns = clean.model.reshape(len(clean.time_s), 6, -1)[:, :, used]
         matrices = []
         for load in (np.zeros_like(pulls[0]), np.sum(pulls, axis=0)):
-            one = clean.model_copy(update={"raw": clean.raw + load @ to_raw.T})
-            one = one.with_model(tuple(clean.terms[k] for k in used), columns)
+            one = _with_pull(run, clean if known else _with_terms(clean, _of_model), load)
             stored = moments.model_copy(update={"intervals": (one,)})
             fit = calibrate_sensor(None, moments=[stored], code_version="1", created="now")
-            matrices.append((fit.matrix @ to_raw)[:3, :3])
+            assert fit.secondary_matrix() is not None
+            matrices.append(np.asarray(fit.secondary_matrix())[:3, :3])
         changes.append(np.abs(matrices[1] - matrices[0]).max())
         named.append(any(error.is_suspicious and "cables" in error.name for error in fit.model_errors))
     assert changes[0] < changes[1] / 3.0
@@ -157,14 +169,9 @@ def test_the_residual_is_stated_with_cables_and_without(arm: Path) -> None:
     (samples,) = run.samples(Use.CALIBRATION)
     (moments,) = recording_moments(run)
     (clean,) = moments.intervals
-    prior = run.sensor.prior
-    assert prior is not None
     pull = np.outer(_positions(run, samples)["elbow"], [2.0, -2.0, 1.0, 0.1, 0.0, 0.1])
-    pulled = clean.model_copy(update={"raw": clean.raw + pull @ np.linalg.inv(prior).T})
-    kept = [k for k, term in enumerate(clean.terms) if term.kind not in OF_CABLES]
-    assert clean.model is not None
-    without = clean.model.reshape(len(clean.time_s), 6, -1)[:, :, kept]
-    unknown = pulled.with_model(tuple(clean.terms[k] for k in kept), without)
+    pulled = _with_pull(run, clean, pull)
+    unknown = _with_terms(pulled, _of_model)
     exact = clean.model_copy(update={"terms": (), "model": None})
     fits = [
         calibrate_sensor(None, moments=[moments.model_copy(update={"intervals": (one,)})], code_version="1", created="")
@@ -249,21 +256,17 @@ def test_moments_without_cables_beside_others_are_a_warning(arm: Path) -> None:
     """As an earlier version stored them; not where all are without, nor where one recording has no joint that turns."""
     (moments,) = recording_moments(_run(arm))
     (interval,) = moments.intervals
-    columns = interval.means.model
-    assert columns is not None
 
     def beside(kept: Callable[[ErrorTerm], bool]) -> RecordingMoments:
-        used = [k for k, term in enumerate(interval.terms) if kept(term)]
         named = interval.interval.model_copy(update={"label": "other", "content": None})
-        apart = interval.model_copy(update={"interval": named, "recording": "other day"})
-        apart = apart.with_model(tuple(interval.terms[k] for k in used), columns[:, :, used])
+        apart = _with_terms(interval, kept).model_copy(update={"interval": named, "recording": "other day"})
         return moments.model_copy(update={"intervals": (apart,), "experiment": "other day"})
 
     def said(*recordings: RecordingMoments) -> list[str]:
         fit = calibrate_sensor(None, moments=recordings, code_version="1", created="now")
         return [warning for warning in fit.warnings if "cables" in warning]
 
-    before = beside(lambda term: term.kind not in OF_CABLES)
+    before = beside(_of_model)
     before.save(arm / "before.json")
     (warning,) = said(moments, read_moments(arm / "before.json"))
     assert "the moments of other day: other have no pulls of cables" in warning
