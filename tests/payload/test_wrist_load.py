@@ -266,13 +266,13 @@ def test_a_fitted_drift_beyond_its_half_width_is_a_reason(
     """The details have it with its half-width in any case."""
     weighed = _weighed(_write(tmp_path))
     drift = {"drift_per_s": (0.0, 0.0, -0.005, 0.0, 0.0, 0.0), "drift_half_width_95_per_s": (half_width,) * 6}
+    assert weighed.sessions[0].length_s == 39.0  # 40 rows without a time, a second apart
     drifting = weighed.model_copy(update={"sessions": (weighed.sessions[0].model_copy(update=drift),)})
     (answer,) = payload_answers(drifting)
-    half = 3600.0 * half_width
-    text = f"fz by {plus_minus(-18.0, half, 'N/h')}"
-    assert (f"the bias drifts: {text}" in answer.why) is is_stated
-    assert any(text in block for block in drifting.blocks() if isinstance(block, str))
-    assert not any("drifts: " in block for block in weighed.blocks() if isinstance(block, str))
+    text = f"from its first sample to its last: fz by {plus_minus(-0.195, 39.0 * half_width, 'N')}"
+    assert (f"the bias drifts {text}" in answer.why) is is_stated
+    assert any("fz" + text.partition("fz")[2] in block for block in drifting.blocks() if isinstance(block, str))
+    assert not any(" drifts " in block for block in weighed.blocks() if isinstance(block, str))
 
 
 def test_counts_without_a_prior_weigh_nothing(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.formats.arm_log import BAG
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
-from forcetorque.payload.result import fitted_drifts, gravity_words, mount_words, tilt_words
+from forcetorque.payload.result import FROM_FIRST_TO_LAST, fitted_drifts, gravity_words, mount_words, tilt_words
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names
@@ -133,7 +133,7 @@ def _drift(weighed: WeighedLoad) -> Iterator[str]:
     if beyond:
         _, session, text = max(beyond)
         of = f" of {session!r}" if len(weighed.sessions) > 1 else ""
-        yield f"the bias{of} drifts: {text}"
+        yield f"the bias{of} drifts {FROM_FIRST_TO_LAST}: {text}"
 
 
 def _bias(weighed: WeighedLoad) -> str:
