@@ -128,7 +128,7 @@ def test_gravity_that_is_assumed_stands_in_the_answer(tmp_path: Path) -> None:
     """Of orientations, which tell its direction alone; negative control: gravity in the log."""
     weighed = _weighed(write_postures(tmp_path, seed=5, postures=Rotation.random(8, random_state=4), known=False))
     assert weighed.assumed_gravity_m_per_s2 == pytest.approx(9.80665, rel=1e-12)
-    assert any("assumed: gravity 9.80665 m/s2, whose relative error" in line for line in _answer(weighed).why)
+    assert any("assumed: gravity 9.80665 m/s2 and the gain of" in line for line in _answer(weighed).why)
     logged = _weighed(_write(tmp_path))
     assert logged.assumed_gravity_m_per_s2 is None
     assert not any("assumed" in line for line in _answer(logged).why)
@@ -168,7 +168,7 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
         answer = _answer(weighed, disagreeing=(row,) * count)
         assert answer.concern is Concern.NONE
         assert answer.why[0].startswith("bias to be subtracted")
-        assert answer.why[1].startswith("its interval holds in this recording")
+        assert answer.why[1].startswith("the interval of the bias holds in this recording")
         assert len(answer.why) == 3
         assert "--to" in answer.command
     answer = _answer(weighed, disagreeing=(row,) * 3)

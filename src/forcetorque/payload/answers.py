@@ -155,7 +155,7 @@ def _bias_elsewhere(weighed: WeighedLoad) -> str:
     between = [test.largest_difference for test in weighed.bias_tests if test.of == "sessions"]
     moved = [value for value in between[0] if value is not None] if between else []
     if len(moved) < len(WRENCH_COMPONENTS):
-        return "its interval holds in this recording, not on another day: tare before use"
+        return "the interval of the bias holds in this recording, not on another day: tare before use"
     within = [max(moved[part]) <= _largest_half_width(weighed, part) for part in FORCE_AND_MOMENT]
     if all(within):
         return "power cycles moved the bias by no more than its interval"

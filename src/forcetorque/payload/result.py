@@ -340,7 +340,7 @@ class ArmLog(Row):
 
 
 def gravity_words(gravity: float) -> str:
-    """Say which gravity was taken, and what its error does.
+    """Say which gravity was taken, and what its error and that of the gain of the sensor do.
 
     Args:
         gravity: Its size; m/s2.
@@ -348,7 +348,9 @@ def gravity_words(gravity: float) -> str:
     Returns:
         The words.
     """
-    return f"gravity {gravity:.6g} m/s2, whose relative error is that of the mass"
+    return (
+        f"gravity {gravity:.6g} m/s2 and the gain of the sensor, whose relative errors the mass has beside its interval"
+    )
 
 
 class WeighedLoad(DrawnResult):
