@@ -108,6 +108,10 @@ def test_legs_of_an_icub(data_dir: Path) -> None:
     leg = [q.question for q in draft.questions if q.key == "joints"][1]
     assert '["r_hip_pitch", "r_hip_roll", "r_hip_yaw", "r_knee", "r_ankle_pitch", "r_ankle_roll"]' in leg
     assert "l_hip_pitch" not in leg
+    assert "torso of iCub" not in leg
+    (torso,) = (q.question for q in draft.questions if q.key == "joints" and "3 joints" in q.question)
+    assert '["torso_pitch", "torso_roll", "torso_yaw"], from the inner one outwards' in torso
+    assert torso.endswith("a torso of iCub sends yaw, roll, pitch, from the outer one inwards")
 
 
 def test_an_insole(data_dir: Path) -> None:
