@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 _PROGRAMS = {"ur_rtde": LoadFormat.UR, "franka": LoadFormat.FRANKA}
 """Program that reads the load of an arm, by the format of its log."""
+_FILES = {LoadFormat.UR: "load.script", LoadFormat.FRANKA: "load.py"}
+"""Usual names of files of such programs."""
 
 
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
@@ -59,7 +61,7 @@ def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
     more = "record more postures that turn the wrist"
     controller = held.arms[-1].controller
     specified = [word for entry in held.arms[-1].specified for word in ("--recording", entry)]
-    write = typed("payload", EXPERIMENT, *specified, "--to", controller, "-o", "load.txt")
+    write = _write(LoadFormat(controller), *specified)
     yield Answer(
         subject="joint torques",
         verdict=_load_verdict(held.load),
@@ -195,10 +197,15 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     step = "write it to a file that the robot reads"
     specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
     if not weighed.arms and weighed.log_format in _PROGRAMS:
-        return step, typed("payload", EXPERIMENT, "--to", _PROGRAMS[weighed.log_format].value, "-o", "load.txt")
+        return step, _write(_PROGRAMS[weighed.log_format])
     if not weighed.arms or weighed.arms[-1].controller == BAG:
         return step, typed("payload", EXPERIMENT, *specified, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
-    return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")
+    return step, _write(LoadFormat(weighed.arms[-1].controller), *specified)
+
+
+def _write(form: LoadFormat, *specified: str) -> str:
+    """The command that writes a load for the program of an arm."""
+    return typed("payload", EXPERIMENT, *specified, "--to", form.value, "-o", _FILES[form])
 
 
 def tare_answers(tare: Tare) -> Iterator[Answer]:
