@@ -12,7 +12,7 @@ from forcetorque.experiment.loading import load_experiment
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.answers import payload_answers
 from forcetorque.payload.identify import weigh_load
-from forcetorque.payload.load_warnings import reason_to_withhold
+from forcetorque.payload.load_warnings import reason_to_withhold, reference_doubts
 
 MASS, CENTRE, ARM = 0.9, np.array([0.0, 0.0, 0.04]), 0.6
 GRAVITY, RATE_HZ = 9.80665, 100.0
@@ -77,7 +77,8 @@ def _turn(seconds: float) -> np.ndarray:
 
 def test_a_wrist_that_turns_while_it_weighs_is_named(tmp_path: Path) -> None:
     """Its mass is off by more than the interval says, and no file is written for a robot."""
-    weighed = weigh_load(_run(_turn(4.0), tmp_path))
+    run = _run(_turn(4.0), tmp_path)
+    weighed = weigh_load(run)
     (load,) = weighed.loads
     assert load.mass_kg is not None
     assert load.mass_half_width_95_kg is not None
@@ -88,14 +89,17 @@ def test_a_wrist_that_turns_while_it_weighs_is_named(tmp_path: Path) -> None:
     withheld = reason_to_withhold(weighed)
     assert withheld is not None
     assert withheld.startswith("motion of the arm: the sensor turns in ")
+    assert any(words.startswith("motion of the arm: ") for words in reference_doubts(run))
 
 
 def test_a_slow_turn_is_not_named(tmp_path: Path) -> None:
     """A minute for the same turn leaves the mass within its interval."""
-    weighed = weigh_load(_run(_turn(60.0), tmp_path))
+    run = _run(_turn(60.0), tmp_path)
+    weighed = weigh_load(run)
     (load,) = weighed.loads
     assert load.mass_kg == pytest.approx(MASS, abs=load.mass_half_width_95_kg)
     assert not weighed.hypotheses
+    assert not any(words.startswith("motion of the arm") for words in reference_doubts(run))
 
 
 def test_held_poses_are_not_named(tmp_path: Path) -> None:

@@ -254,6 +254,8 @@ def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterato
     for hypothesis in () if solution is None else solution.hypotheses:
         if cautions or hypothesis.severity == "contradiction":
             yield f"the load was estimated, and the readings contradict the file: {hypothesis.description}"
+    if solution is not None:
+        yield from (f"{row.name}: {row.description}" for row in moving_without_acceleration(run, solution.loads))
     yield from overweight_loads(run)
     yield from reversed_sense(run)
 
