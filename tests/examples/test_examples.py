@@ -121,6 +121,21 @@ def test_the_readme_shows_what_the_demo_prints(demo: tuple[Path, str]) -> None:
     printed = [line.rstrip() for line in output.splitlines()]
     assert len(shown) >= 6
     assert printed[-len(shown) :] == shown
+    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    before, after = (line.partition(": ")[2].partition(" N,")[0] for line in printed if " matrix, push of 50 N" in line)
+    assert f"reads a push of 50 N wrong by {before} N with the matrix of its data sheet, and by {after} N after" in text
+
+
+def test_the_readme_says_of_the_real_log_what_was_measured() -> None:
+    """Force errors of example 02 before and after, rounded from the page of measured figures."""
+    measured = (ROOT / "docs" / "measured.md").read_text(encoding="utf-8")
+    row = re.search(
+        r"^\| force error, fitted offset, prior -> new \| yoga, 02 03 04 05 \| (.*?) N", measured, re.MULTILINE
+    )
+    assert row is not None
+    before, after = (float(part.split()[0]) for part in row[1].split("->"))
+    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    assert f"a leg sensor goes from {before:.1f} N to {after:.1f} N, and the tool says" in text
 
 
 @pytest.mark.usefixtures("blank_pictures")

@@ -86,8 +86,9 @@ def test_three_clocks_of_a_wrist(data_dir: Path, tmp_path: Path) -> None:
     assert (imu.delay_s, imu.delay_half_width_s) == (pytest.approx(0.0059, abs=5e-4), pytest.approx(0.00028, abs=1e-4))
     assert (orientation.delay_s, orientation.delay_half_width_s) == (0.0, None)
     assert [len(experiment.recording.stream(name)) for name in ("wrench", "imu", "orientation")] == [13126, 4778, 1880]
-    load = weigh_load(SensorRun(experiment, experiment.sensors[0])).loads[0]
-    assert load.mass_kg == pytest.approx(0.932, abs=0.04)
+    weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
+    assert weighed.loads[0].mass_kg == pytest.approx(0.932, abs=0.04)  # twice its interval away from still poses
+    assert [row.name for row in weighed.hypotheses] == ["motion of the arm"]
 
 
 @pytest.mark.long

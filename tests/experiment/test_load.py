@@ -14,7 +14,7 @@ import pytest
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.experiment.loading import load_experiment
-from forcetorque.formats.icub_matrix import read_matrix_file
+from forcetorque.formats.icub_matrix import read_matrix_file, write_matrix_file
 from forcetorque.recording.recording import Use
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.robot.model import SensorFrame
@@ -134,6 +134,23 @@ def test_a_prior_named_after_its_own_sensor_is_taken(arm: Path) -> None:
     edit(arm / PARQUET, '"matrix_SIM001.txt"', '"matrix_SN026.txt"')
     (sensor,) = load_experiment(edit(arm / PARQUET, '"SIM001"', '"SN026"')).sensors
     assert (sensor.serial, sensor.prior_source) == ("SN026", "matrix_SN026.txt")
+
+
+def test_the_matrix_of_another_board_is_refused(arm: Path) -> None:
+    """A log in steps of full scales shows by which matrix it was sent; one without steps shows none."""
+    file = read_matrix_file(arm / "matrix_SIM001.txt")
+    load_experiment(arm / YARP)  # wrenches that were not rounded
+    step = np.array(file.full_scale) / 2**15
+    lines = [line.split() for line in (arm / FT_LOG).read_text().splitlines()]
+    wrench = np.round(np.array([line[2:] for line in lines], dtype=float) / step) * step
+    sent = [[*line[:2], *(f"{value:.6f}" for value in row)] for line, row in zip(lines, wrench, strict=True)]
+    (arm / FT_LOG).write_text("\n".join(map(" ".join, sent)) + "\n")
+    load_experiment(arm / YARP)
+    scales = (file.full_scale[0] + 111, *file.full_scale[1:])
+    write_matrix_file(arm / "matrix_SIM001.txt", replace(file, full_scale=scales))
+    sizes = [", ".join(map(str, one)) for one in (file.full_scale, scales)]
+    with pytest.raises(ExperimentError, match=f"steps of the full scales {sizes[0]} N, .* with {sizes[1]}; name"):
+        load_experiment(arm / YARP)
 
 
 def test_a_sensor_is_found_by_any_of_its_names(arm: Path) -> None:

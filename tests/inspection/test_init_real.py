@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -107,9 +108,33 @@ def test_legs_of_an_icub(data_dir: Path) -> None:
     leg = [q.question for q in draft.questions if q.key == "joints"][1]
     assert '["r_hip_pitch", "r_hip_roll", "r_hip_yaw", "r_knee", "r_ankle_pitch", "r_ankle_roll"]' in leg
     assert "l_hip_pitch" not in leg
+    assert "torso of iCub" not in leg
+    (torso,) = (q.question for q in draft.questions if q.key == "joints" and "3 joints" in q.question)
+    assert '["torso_pitch", "torso_roll", "torso_yaw"], from the inner one outwards' in torso
+    assert torso.endswith("a torso of iCub sends yaw, roll, pitch, from the outer one inwards")
 
 
 def test_an_insole(data_dir: Path) -> None:
     """What looks like nothing is listed with its shape."""
     file = data_dir / "insole_skin_belli" / "left_insole" / "calibration_dataset.mat"
     assert "experiment.C (25435 x 282), experiment.P (25339 x 1)" in _questions([file])["variable"]
+
+
+def test_the_matrix_of_each_sensor_is_found_by_the_steps_of_the_log(data_dir: Path) -> None:
+    """Six of 32 files, as the serial numbers beside the log say; without those six none is taken."""
+    folder, files = data_dir / "icub_genova02_yoga", data_dir / "icub_workbench_matrices"
+    own = {"l_arm": "153", "l_foot": "229", "l_leg": "217", "r_arm": "151", "r_foot": "230", "r_leg": "026"}
+    log, urdf = folder / "dumperLeftLegNoIMU", folder / "robots" / "iCubGenova02.urdf"
+    sensors = tomllib.loads(draft_experiment([log], urdf=urdf, matrices=files).content)["sensor"]
+    named = {one["name"].removesuffix("_ft_sensor"): (one["serial"], Path(one["prior"]).name) for one in sensors}
+    assert named == {name: (f"SN{serial}", f"matrix_SN{serial}.txt") for name, serial in own.items()}
+
+
+def test_no_matrix_of_another_sensor_is_taken(data_dir: Path, tmp_path: Path) -> None:
+    """Where the own one is not in the folder, the file is asked for as before."""
+    folder, files = data_dir / "icub_genova02_yoga", data_dir / "icub_workbench_matrices"
+    for path in files.glob("matrix_SN2*.txt"):
+        shutil.copy(path, tmp_path)
+    log, urdf = folder / "dumperLeftLegNoIMU", folder / "robots" / "iCubGenova02.urdf"
+    draft = draft_experiment([log], urdf=urdf, matrices=tmp_path, sensors=["r_leg_ft_sensor"])
+    assert [one.key for one in draft.questions if one.key in ("prior", "serial")] == ["prior", "serial"]

@@ -73,13 +73,17 @@ def test_the_bar_shows_the_time_without_events() -> None:
     assert any(line.startswith("1 remark(s) on the whole log: this is not_estimated") for line in answer.why)
 
 
-def test_turns_of_a_joint_take_nothing_of_the_time() -> None:
-    """All of them are one finding from the first to the last, and cost the samples within them alone."""
-    turns = _row("joint_spike", 5.0, 50.0, stream="joints").model_copy(update={"count": 12})
+@pytest.mark.parametrize("kind", ["joint_spike", "repeated_stamp", "backward_stamp"])
+def test_single_samples_take_nothing_of_the_time(kind: str) -> None:
+    """All of them are one finding from the first to the last, and cost no more than themselves."""
+    turns = _row(kind, 5.0, 50.0, stream="joints").model_copy(update={"count": 12})
     answer = inspection_answer(_inspection(_row("contact", 20.0, 40.0), turns))
     assert answer.verdict == "1 EVENT"
-    assert any(line.startswith("1 remark(s) on the whole log: this is joint_spike") for line in answer.why)
-    alone = inspection_answer(_inspection(_row("joint_spike", 5.0, 5.1, stream="joints")))
+    assert any(line.startswith(f"1 remark(s) on the whole log: this is {kind}") for line in answer.why)
+    (bar,) = (line for line in answer.why if "|" in line)
+    cells = bar.split("|")[1]
+    assert cells.count("░") == pytest.approx(len(cells) / 3, abs=2)  # the contact alone
+    alone = inspection_answer(_inspection(_row(kind, 5.0, 5.1, stream="joints")))
     assert alone.step.startswith("no interval uses a sample of these events")
 
 

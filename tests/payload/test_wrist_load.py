@@ -128,7 +128,7 @@ def test_gravity_that_is_assumed_stands_in_the_answer(tmp_path: Path) -> None:
     """Of orientations, which tell its direction alone; negative control: gravity in the log."""
     weighed = _weighed(write_postures(tmp_path, seed=5, postures=Rotation.random(8, random_state=4), known=False))
     assert weighed.assumed_gravity_m_per_s2 == pytest.approx(9.80665, rel=1e-12)
-    assert any("assumed: gravity 9.80665 m/s2, whose relative error" in line for line in _answer(weighed).why)
+    assert any("assumed: gravity 9.80665 m/s2 and the gain of" in line for line in _answer(weighed).why)
     logged = _weighed(_write(tmp_path))
     assert logged.assumed_gravity_m_per_s2 is None
     assert not any("assumed" in line for line in _answer(logged).why)
@@ -168,7 +168,7 @@ def test_a_load_that_samples_agree_on_may_be_written(tmp_path: Path) -> None:
         answer = _answer(weighed, disagreeing=(row,) * count)
         assert answer.concern is Concern.NONE
         assert answer.why[0].startswith("bias to be subtracted")
-        assert answer.why[1].startswith("its interval holds in this recording")
+        assert answer.why[1].startswith("the interval of the bias holds in this recording")
         assert len(answer.why) == 3
         assert "--to" in answer.command
     answer = _answer(weighed, disagreeing=(row,) * 3)
@@ -266,13 +266,13 @@ def test_a_fitted_drift_beyond_its_half_width_is_a_reason(
     """The details have it with its half-width in any case."""
     weighed = _weighed(_write(tmp_path))
     drift = {"drift_per_s": (0.0, 0.0, -0.005, 0.0, 0.0, 0.0), "drift_half_width_95_per_s": (half_width,) * 6}
+    assert weighed.sessions[0].length_s == 39.0  # 40 rows without a time, a second apart
     drifting = weighed.model_copy(update={"sessions": (weighed.sessions[0].model_copy(update=drift),)})
     (answer,) = payload_answers(drifting)
-    half = 3600.0 * half_width
-    text = f"fz by {plus_minus(-18.0, half, 'N/h')}"
-    assert (f"the bias drifts: {text}" in answer.why) is is_stated
-    assert any(text in block for block in drifting.blocks() if isinstance(block, str))
-    assert not any("drifts: " in block for block in weighed.blocks() if isinstance(block, str))
+    text = f"from its first sample to its last: fz by {plus_minus(-0.195, 39.0 * half_width, 'N')}"
+    assert (f"the bias drifts {text}" in answer.why) is is_stated
+    assert any("fz" + text.partition("fz")[2] in block for block in drifting.blocks() if isinstance(block, str))
+    assert not any(" drifts " in block for block in weighed.blocks() if isinstance(block, str))
 
 
 def test_counts_without_a_prior_weigh_nothing(tmp_path: Path) -> None:

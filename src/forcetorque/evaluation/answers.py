@@ -84,16 +84,19 @@ def _of_uses(
     agree = len({use.decision for use in uses}) == 1
     decision = worst.decision.upper()
     reason = worst.reasons[0]
-    # what was measured speaks in the second line; other reasons, such as warnings, are said here
-    first = "; ".join(error.text for error in worst.errors) or reason.text
+    # what was measured speaks in the last line; other reasons, such as warnings, are said here
+    said = "; ".join(error.text for error in worst.errors) or reason.text
     if worst.load_case != RECORDED:
-        first = f"{worst.loads}: {first}"
+        said = f"{worst.loads}: {said}"
+    reasons = [said] if _is_said(worst) else [said, reason.text]
+    if worst.decision == "do not use":  # of several sensors the first line alone is shown
+        reasons.reverse()
     beyond = () if worst.beyond_range is None else (worst.beyond_range,)
     step, command = next_step(worst)
     return Answer(
         subject=subject,
         verdict=decision if agree and worst.load_case != RECORDED else f"{decision} for {worst.load_case}",
-        why=(first, *beyond, *(() if _is_said(worst) else (reason.text,)), *_measured(row, compared)),
+        why=(reasons[0], *beyond, *reasons[1:], *_measured(row, compared)),
         step=step,
         lines=next_lines(worst),
         command=command,

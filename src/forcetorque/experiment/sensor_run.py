@@ -29,6 +29,11 @@ from forcetorque.robot.tree import build_tree, path_to_root
 _Answer = TypeVar("_Answer")
 _Options = ParamSpec("_Options")
 
+_ALL_AT_ONCE = "calibrate all at once, --jointly, from Python calibrate_jointly"
+"""What needs no interval without contacts to fit a sensor to."""
+_NET_FORCE = "evaluate the net force on all contacts, `forcetorque robot coherence`"
+"""What needs no interval without contacts to evaluate sensors on."""
+
 
 class SensorRun:
     """One sensor of one experiment. Questions take it, and share what they have in common."""
@@ -131,12 +136,15 @@ class SensorRun:
         support = interval.support
         return self._beyond(support, present) if present and isinstance(support, Support) else ()
 
-    def known(self, intervals: Sequence[Interval], which: str = "an interval") -> tuple[Interval, ...]:
+    def known(
+        self, intervals: Sequence[Interval], which: str = "an interval", remedy: str = _ALL_AT_ONCE
+    ) -> tuple[Interval, ...]:
         """Leave out intervals in which nobody knows what the sensor must read.
 
         Args:
             intervals: At least one interval.
             which: What they are, for messages.
+            remedy: What does without such intervals, for messages.
 
         Returns:
             Those in which nothing touches the robot beyond the sensor.
@@ -150,8 +158,7 @@ class SensorRun:
             raise ExperimentError(
                 f"expected {which} in which nothing touches the robot beyond {self.sensor.name!r}, but by [[contact]] "
                 f"or contact_links {', '.join(names)} does in every one, so that nobody knows what the sensor must "
-                "read; record it with that in the air, or calibrate all at once, --jointly, from Python "
-                "calibrate_jointly"
+                f"read; record it with that in the air, or {remedy}"
             )
         return known
 
@@ -376,7 +383,8 @@ class SensorRun:
         require_fit(name, calibration, self.experiment, self.sensor)
 
     def _known_intervals(self, use: Use) -> tuple[Interval, ...]:
-        return self.known(self.experiment.intervals(use), f'an interval with use = "{use}"')
+        remedy = _NET_FORCE if use is Use.VALIDATION else _ALL_AT_ONCE
+        return self.known(self.experiment.intervals(use), f'an interval with use = "{use}"', remedy)
 
     def _beyond(self, support: Support | MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
         tree = build_tree(self.experiment.model, support.frame)

@@ -19,6 +19,7 @@ from forcetorque.experiment.experiment import ExperimentSensor, SensorVariable
 from forcetorque.experiment.experiment_file_tables import PriorTable, Sensor, Variable
 from forcetorque.experiment.named_files import Inputs, stated_in
 from forcetorque.formats.icub_matrix import serial_number_in_name
+from forcetorque.formats.icub_wrench_steps import full_scales_of_steps, is_in_steps
 from forcetorque.formats.prior.prior_file import PriorFile, RawUnit
 from forcetorque.formats.prior.registry import read_prior_file
 from forcetorque.recording.named_columns import ScalarSource
@@ -39,6 +40,8 @@ class SpecifiedPrior:
     """Its file, as the experiment names it; `identity` where the reading itself takes the place of counts."""
     full_scale: FloatArray | None = None
     """Full scale by the maker; shape (6,); N, N m; None to take it from the counts that a channel can have."""
+    board_scale: FloatArray | None = None
+    """Full scales in whose steps a board sends wrenches; shape (6,); N, N m; None where it sends none."""
 
 
 def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | None:
@@ -76,6 +79,7 @@ def read_prior(where: str, entry: Sensor, inputs: Inputs) -> SpecifiedPrior | No
         source=specified.path.as_posix(),
         # counts that a board's channel can have say its full scale; volts that a card may see do not
         full_scale=file.full_scale if maker else None,
+        board_scale=None if maker else file.full_scale,
     )
 
 
@@ -268,6 +272,8 @@ def _sensor(
         )
     prior = read_prior(where, entry, inputs)
     full_scale = full_scale_of(entry, prior)
+    if present[0] == "wrench" and prior is not None:
+        _require_own_steps(where, entry, prior, stream.signal("wrench").values)
     _require_components(where, entry, prior, present[0], channels)
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
@@ -289,6 +295,23 @@ def _sensor(
             _variable(f"{where}: variable[{k}]", variable, entry, recording)
             for k, variable in enumerate(entry.variable)
         ),
+    )
+
+
+def _require_own_steps(where: str, entry: Sensor, prior: SpecifiedPrior, wrench: FloatArray) -> None:
+    """Refuse the matrix of another sensor than the one that sent a log: counts recovered through it are wrong."""
+    if prior.board_scale is None or is_in_steps(wrench, prior.board_scale):
+        return
+    scales = full_scales_of_steps(wrench)
+    if scales is None:  # of another device, or moved to another frame: nothing shows the matrix
+        return
+    ratios = {full / one for full, one in zip(prior.board_scale, scales, strict=True) if one is not None}
+    if len(ratios) == 1:  # means of as many messages have as much smaller steps
+        return
+    sent, named = (", ".join("-" if one is None else f"{one:g}" for one in row) for row in (scales, prior.board_scale))
+    raise ExperimentError(
+        f"{where}: expected the matrix by which {entry.stream!r} was sent, in the steps of the full scales {sent} "
+        f"N, N m, got {prior.source} with {named}; name the matrix file that has these, and its serial number"
     )
 
 

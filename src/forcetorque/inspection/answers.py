@@ -110,9 +110,21 @@ class Event:
 
 
 _LEFT_OUT: Final = frozenset(
-    {"gap", "frozen", "stuck", "saturation", "lost_messages", "missing", "backward_stamp", "joint_spike"}
+    {
+        "gap",
+        "frozen",
+        "stuck",
+        "saturation",
+        "lost_messages",
+        "missing",
+        "repeated_stamp",
+        "backward_stamp",
+        "joint_spike",
+    }
 )
 """Kinds whose samples no fit has, or measures no force by."""
+_COUNTED: Final = frozenset({"repeated_stamp", "backward_stamp", "joint_spike"})
+"""Kinds that count single samples, of which one finding spans the time from the first to the last."""
 _TOUCHED: Final = 0.1
 """Share of the time in use above which a contact may explain that a measurement is implausible."""
 _LEVER_M: Final = 0.1
@@ -228,9 +240,9 @@ def is_about_all(row: FindingRow, duration_s: float) -> bool:
         duration_s: Duration of the recording; s.
 
     Returns:
-        Whether it has no time, takes nearly all of it, or counts jumps of a joint that cost no more than their samples.
+        Whether it has no time, takes nearly all of it, or counts single samples that cost no more than themselves.
     """
-    if row.kind == "joint_spike" and row.count > 1:
+    if row.kind in _COUNTED and row.count > 1:
         return True
     return row.start_s is None or row.end_s is None or row.end_s - row.start_s > _WHOLE * duration_s
 

@@ -77,7 +77,8 @@ def init(
 
     Exit codes with --resume: 0 nothing is left, 2 error, 4 questions or proposals are open.
 
-    Python: `inspection.draft_experiment("log.csv", urdf="robot.urdf")`, `inspection.resume_experiment("x.toml")`
+    Python: `inspection.draft_experiment("log.csv", "x.toml", urdf="robot.urdf", sensors=["arm_ft"])`,
+    `inspection.resume_experiment("x.toml")`
     """
     if resume is not None:
         of_log = {
@@ -119,7 +120,10 @@ def init(
 
 def _required(logs: list[Path] | None) -> list[Path]:
     if not logs:
-        raise ExperimentError("init: expected a log, or an experiment file by --resume, got neither")
+        raise ExperimentError(
+            "init: expected a log, or an experiment file by --resume, got neither; a file without a log, for "
+            "`forcetorque plan`, is written by hand, as docs/planning.md shows"
+        )
     return logs
 
 

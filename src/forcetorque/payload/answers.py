@@ -10,7 +10,7 @@ from forcetorque.base.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 from forcetorque.formats.arm_log import BAG
 from forcetorque.payload.export.formats import LoadFormat
 from forcetorque.payload.load_warnings import reason_to_withhold, samples_disagree, torque_doubt
-from forcetorque.payload.result import fitted_drifts, gravity_words, mount_words, tilt_words
+from forcetorque.payload.result import FROM_FIRST_TO_LAST, fitted_drifts, gravity_words, mount_words, tilt_words
 from forcetorque.results.answer import EXPERIMENT, FIRST_EXPERIMENT, Answer, Concern, typed
 from forcetorque.results.number_text import amount, plus_minus
 from forcetorque.results.table import short_names
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 _PROGRAMS = {"ur_rtde": LoadFormat.UR, "franka": LoadFormat.FRANKA}
 """Program that reads the load of an arm, by the format of its log."""
+_FILES = {LoadFormat.UR: "load.script", LoadFormat.FRANKA: "load.py"}
+"""Usual names of files of such programs."""
 
 
 def payload_answers(weighed: WeighedLoad) -> Iterator[Answer]:
@@ -59,7 +61,7 @@ def torque_answers(held: TorqueLoad) -> Iterator[Answer]:
     more = "record more postures that turn the wrist"
     controller = held.arms[-1].controller
     specified = [word for entry in held.arms[-1].specified for word in ("--recording", entry)]
-    write = typed("payload", EXPERIMENT, *specified, "--to", controller, "-o", "load.txt")
+    write = _write(LoadFormat(controller), *specified)
     yield Answer(
         subject="joint torques",
         verdict=_load_verdict(held.load),
@@ -133,7 +135,7 @@ def _drift(weighed: WeighedLoad) -> Iterator[str]:
     if beyond:
         _, session, text = max(beyond)
         of = f" of {session!r}" if len(weighed.sessions) > 1 else ""
-        yield f"the bias{of} drifts: {text}"
+        yield f"the bias{of} drifts {FROM_FIRST_TO_LAST}: {text}"
 
 
 def _bias(weighed: WeighedLoad) -> str:
@@ -155,7 +157,7 @@ def _bias_elsewhere(weighed: WeighedLoad) -> str:
     between = [test.largest_difference for test in weighed.bias_tests if test.of == "sessions"]
     moved = [value for value in between[0] if value is not None] if between else []
     if len(moved) < len(WRENCH_COMPONENTS):
-        return "its interval holds in this recording, not on another day: tare before use"
+        return "the interval of the bias holds in this recording, not on another day: tare before use"
     within = [max(moved[part]) <= _largest_half_width(weighed, part) for part in FORCE_AND_MOMENT]
     if all(within):
         return "power cycles moved the bias by no more than its interval"
@@ -195,10 +197,15 @@ def _payload_step(weighed: WeighedLoad) -> tuple[str, str]:
     step = "write it to a file that the robot reads"
     specified = [word for arm in weighed.arms[-1:] for entry in arm.specified for word in ("--recording", entry)]
     if not weighed.arms and weighed.log_format in _PROGRAMS:
-        return step, typed("payload", EXPERIMENT, "--to", _PROGRAMS[weighed.log_format].value, "-o", "load.txt")
+        return step, _write(_PROGRAMS[weighed.log_format])
     if not weighed.arms or weighed.arms[-1].controller == BAG:
         return step, typed("payload", EXPERIMENT, *specified, "--to", LoadFormat.FT_TOOLS.value, "-o", "load.yaml")
-    return step, typed("payload", EXPERIMENT, *specified, "--to", weighed.arms[-1].controller, "-o", "load.txt")
+    return step, _write(LoadFormat(weighed.arms[-1].controller), *specified)
+
+
+def _write(form: LoadFormat, *specified: str) -> str:
+    """The command that writes a load for the program of an arm."""
+    return typed("payload", EXPERIMENT, *specified, "--to", form.value, "-o", _FILES[form])
 
 
 def tare_answers(tare: Tare) -> Iterator[Answer]:

@@ -17,13 +17,14 @@ from forcetorque.experiment.recording_notes import with_recording_notes
 from forcetorque.experiment.sensor_run import SensorRun
 from forcetorque.payload.held_load import held_load
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
-from forcetorque.payload.identification.load_estimates import LoadEstimate, LoadSolution, three
+from forcetorque.payload.identification.load_estimates import HypothesisRow, LoadEstimate, LoadSolution, three
 from forcetorque.payload.identification.loads_with_intervals import solve
 from forcetorque.payload.identification.measurement_model import instants, load_wrench
 from forcetorque.payload.load_on_wrist_sensor import WristLoads, wrist_loads
 from forcetorque.payload.load_warnings import (
     behind_flange,
     load_doubts,
+    moving_without_acceleration,
     overweight_loads,
     payload_doubts,
     reversed_sense,
@@ -179,8 +180,9 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     with_mount = first.sensor.mount_is_unknown or (table is not None and table.mount is not None)
     with_tilt = table is not None and table.tilt is not None
     placed = () if table is None or solution.hypotheses else tuple(behind_flange(table.frame, solution.loads))
-    accounts = (*solution.hypotheses, *placed)
     alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
+    moving = () if solution.hypotheses else _moving(campaign, solution, disagree=any(disagreements(alone)))
+    accounts = (*solution.hypotheses, *placed, *moving)
     result = WeighedLoad(
         experiment=", ".join(campaign.experiments),
         sensor=first.sensor.name,
@@ -214,6 +216,19 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     )
     doubts = (*payload_doubts(result), *of_runs)
     return result.model_copy(update={"warnings": doubts, "no_robot_file": _no_robot_file(first, result)})
+
+
+def _moving(campaign: Campaign, solution: LoadSolution, *, disagree: bool) -> tuple[HypothesisRow, ...]:
+    """Recordings in which the arm moves, where all of them do, or do not agree on a load."""
+    rows = {
+        name: row
+        for name, run in zip(campaign.recordings, campaign.runs, strict=True)
+        for row in moving_without_acceleration(run, solution.loads)
+    }
+    if not disagree and len(rows) < len(campaign.runs):
+        return ()
+    of = {name: f"{name!r}: " if len(campaign.runs) > 1 else "" for name in rows}
+    return tuple(row.model_copy(update={"description": f"{of[name]}{row.description}"}) for name, row in rows.items())
 
 
 def _no_robot_file(run: SensorRun, weighed: WeighedLoad) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from forcetorque.base.arrays import FloatArray, IntArray
+from forcetorque.base.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.base.errors import ExperimentError
 from forcetorque.base.wrench import MeasureDirection, reading_sign
 from forcetorque.experiment.sensor_run import SensorRun
@@ -19,6 +19,7 @@ from forcetorque.payload.load_on_wrist_sensor import inertia_of_stated, wrist_lo
 from forcetorque.payload.loads_on_robot_links import LinkLoads, link_loads
 from forcetorque.payload.result import LoadRow, WeighedLoad, bias_words
 from forcetorque.recording.recording import Support, Use
+from forcetorque.recording.stream import Stream
 from forcetorque.results.number_text import amount, plus_minus
 
 
@@ -78,6 +79,78 @@ def behind_flange(frame: str, loads: Sequence[LoadEstimate]) -> Iterator[Hypothe
             yield HypothesisRow(
                 name="moment about another point", description=words, residual_share=1.0, severity="caution"
             )
+
+
+_ARM_M = 0.5
+"""Distance of a wrist from the joint about which it turns; m (heuristic)."""
+_TURNING_RAD_S = 0.05
+"""Angular speed above which a sensor turns; rad/s (heuristic)."""
+_TURNING_SHARE = 0.25
+"""Share of samples in which a sensor turns, from which on they decide on the load (heuristic)."""
+_STEP_S = 0.05
+"""Length of a window in which a turn is differentiated; s."""
+_MOST_WINDOWS = 20000
+"""Windows of a recording, at most."""
+_POSE_S = 0.2
+"""Samples farther apart than this are single poses, between which nothing was recorded; s."""
+
+
+def moving_without_acceleration(run: SensorRun, loads: Sequence[LoadEstimate]) -> Iterator[HypothesisRow]:
+    """Name a wrist sensor that turns while it weighs, where the log has its orientation and no acceleration.
+
+    Args:
+        run: The sensor.
+        loads: Loads on it, with their intervals.
+
+    Yields:
+        A row where the centripetal acceleration of a wrist that turns so fast makes more of the mass than its interval;
+        none for single poses.
+    """
+    wrist = wrist_loads(run.experiment)
+    half_widths = [load.mass_half_width / load.mass for load in loads if load.estimated and load.mass > 0.0]
+    if wrist is None or not half_widths or not run.has(Use.CALIBRATION):
+        return
+    recording = run.experiment.recording
+    motion = [recording.stream(name) for name in wrist.table.motion or ()]
+    turned = next((stream for stream in motion if "gravity" in stream.signals), None)
+    if turned is None or len(turned) < len("xyz"):
+        return
+    step_s = 1e-9 * float(np.median(np.diff(turned.stamp_ns)))
+    if not 0.0 < step_s < _POSE_S:
+        return
+    used = np.zeros(len(turned), dtype=bool)
+    for use in (Use.CALIBRATION, Use.IGNORE):
+        for interval in recording.intervals:
+            if interval.use is use:
+                used[interval.holds(turned.stamp_ns)] = use is Use.CALIBRATION
+    speeds = _turning_speeds(turned, used, max(len("xyz"), round(_STEP_S / step_s)))
+    turning = speeds[speeds > _TURNING_RAD_S]
+    if len(turning) <= _TURNING_SHARE * len(speeds):
+        return
+    share, speed = len(turning) / len(speeds), float(np.median(turning))
+    of_weight = speed**2 * _ARM_M / run.experiment.processing.gravity
+    if share * of_weight > min(half_widths):
+        words = (
+            f"the sensor turns in {100 * share:.0f} % of the samples, at {speed:.2g} rad/s in the median, and its "
+            f"orientation gives gravity alone: the acceleration of the arm, {100 * of_weight:.2g} % of gravity at "
+            f"{_ARM_M:g} m from the axis, passes for weight, and no interval holds it; give intervals at rest in "
+            "several postures, or log proper_acceleration and angular_velocity of the sensor"
+        )
+        yield HypothesisRow(name="motion of the arm", description=words, residual_share=1.0, severity="caution")
+
+
+def _turning_speeds(turned: Stream, used: BoolArray, steps: int) -> FloatArray:
+    """How fast gravity turns in windows of so many steps, rad/s; a cut between two poses is one step, and no motion."""
+    starts = np.arange(0, len(turned) - steps, max(1, len(turned) // _MOST_WINDOWS))
+    rows = starts[:, None] + np.arange(steps + 1)
+    rows = rows[used[rows].all(axis=1)]
+    down = turned.signal("gravity").values[rows]
+    down = down / np.linalg.norm(down, axis=2, keepdims=True)
+    seconds = 1e-9 * np.diff(turned.stamp_ns[rows], axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        single = np.median(np.linalg.norm(np.diff(down, axis=1), axis=2) / seconds, axis=1)
+        speeds: FloatArray = np.minimum(single, np.linalg.norm(down[:, -1] - down[:, 0], axis=1) / seconds.sum(axis=1))
+    return speeds[np.isfinite(speeds)]
 
 
 _BETTER = 0.7
@@ -181,6 +254,8 @@ def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterato
     for hypothesis in () if solution is None else solution.hypotheses:
         if cautions or hypothesis.severity == "contradiction":
             yield f"the load was estimated, and the readings contradict the file: {hypothesis.description}"
+    if solution is not None:
+        yield from (f"{row.name}: {row.description}" for row in moving_without_acceleration(run, solution.loads))
     yield from overweight_loads(run)
     yield from reversed_sense(run)
 

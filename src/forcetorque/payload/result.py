@@ -231,27 +231,29 @@ def drift_words(drift: DriftRow) -> str:
     return f"{taken}, {why}: error {drift.error_with:.2f} with, {drift.error_without:.2f} without drift{masses}"
 
 
-_HOUR_S = 3600.0
+FROM_FIRST_TO_LAST = "from its first sample to its last"
+"""Time over which a drift is shown: rows of a table without a time have no hours."""
 
 
 def fitted_drifts(session: BiasRow) -> Iterator[tuple[str, str, float, float]]:
     """Give the drift of the bias of a session.
 
     Yields:
-        Name and unit of a component, its drift and the half-width of its 95 % interval; N/h, N m/h. None where no drift
-        was fitted, or where it is not identifiable.
+        Name and unit of a component, its drift from the first sample to the last, and the half-width of its 95 %
+        interval; N, N m. None where no drift was fitted, or where it is not identifiable.
     """
-    if session.drift_per_s is None or session.drift_half_width_95_per_s is None:
+    length_s = session.length_s
+    if session.drift_per_s is None or session.drift_half_width_95_per_s is None or length_s is None:
         return
     numbers = zip(session.drift_per_s, session.drift_half_width_95_per_s, strict=True)
     for name, unit, (drift, half_width) in zip(WRENCH_COMPONENTS, WRENCH_UNITS, numbers, strict=True):
         if drift is not None and half_width is not None:
-            yield name, f"{unit}/h", _HOUR_S * drift, _HOUR_S * half_width
+            yield name, unit, length_s * drift, length_s * half_width
 
 
 def _drift_text(session: BiasRow) -> str | None:
     drifts = [f"{name} by {plus_minus(drift, half, unit)}" for name, unit, drift, half in fitted_drifts(session)]
-    return f"the bias of {session.session!r} drifts: {', '.join(drifts)}" if drifts else None
+    return f"the bias of {session.session!r} drifts {FROM_FIRST_TO_LAST}: {', '.join(drifts)}" if drifts else None
 
 
 def bias_words(test: BiasTestRow, loads: Sequence[LoadRow]) -> str:
@@ -338,7 +340,7 @@ class ArmLog(Row):
 
 
 def gravity_words(gravity: float) -> str:
-    """Say which gravity was taken, and what its error does.
+    """Say which gravity was taken, and what its error and that of the gain of the sensor do.
 
     Args:
         gravity: Its size; m/s2.
@@ -346,7 +348,9 @@ def gravity_words(gravity: float) -> str:
     Returns:
         The words.
     """
-    return f"gravity {gravity:.6g} m/s2, whose relative error is that of the mass"
+    return (
+        f"gravity {gravity:.6g} m/s2 and the gain of the sensor, whose relative errors the mass has beside its interval"
+    )
 
 
 class WeighedLoad(DrawnResult):

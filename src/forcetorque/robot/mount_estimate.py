@@ -74,7 +74,8 @@ def rotation_vector(rotation: FloatArray) -> FloatArray:
     """
     from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
 
-    return np.asarray(Rotation.from_matrix(rotation).as_rotvec(), dtype=np.float64)
+    # a copy: before scipy 1.16 no rotation is made of an array that is read-only
+    return np.asarray(Rotation.from_matrix(np.array(rotation)).as_rotvec(), dtype=np.float64)
 
 
 def rotation_words(vector: FloatArray) -> str:

@@ -126,7 +126,12 @@ def test_a_constant_error_is_red_unless_the_use_allows_it(arm: Path) -> None:
     # the lines are the load case with that offset
     assert kept.tared_load_case == PUSH.replace('"push"', '"kept"').strip()
     assert tared.tared_load_case is None
-    # negative control: as it was fitted
+    (answer,) = evaluate(run, {"new": shifted}).answers()
+    assert answer.why[0] == kept.reasons[0].text  # of several sensors this line alone is shown
+    assert answer.why[1].startswith(f"{kept.loads}: force error")
+    # negative control: as it was fitted, the predicted errors come first
+    (answer,) = evaluate(run, {"new": calibration}).answers()
+    assert "force error" in answer.why[0]
     assert "do not use" not in [one.decision for one in use_verdicts(run, {"new": calibration})]
 
 

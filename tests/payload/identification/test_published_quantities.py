@@ -187,6 +187,7 @@ RULES: dict[str, Rule] = {
     "load estimated": Rule(),
     "session observations": Rule(),
     "session at_s": Rule(time=1),
+    "session length_s": Rule(time=1),
     "session bias": Rule(force=1, shape="six", reading=True),
     "session bias_half_width_95": Rule(force=1, shape="six"),
     "session drift_per_s": Rule(force=1, time=-1, shape="six", reading=True),

@@ -37,7 +37,13 @@ from forcetorque.inspection.draft.logged_robot import (
     wrist_interval_lines,
     wrist_load_lines,
 )
-from forcetorque.inspection.draft.priors import MatrixFile, accuracy_lines, matrix_files, prior_lines
+from forcetorque.inspection.draft.priors import (
+    MatrixFile,
+    accuracy_lines,
+    matrix_files,
+    matrix_that_sent,
+    prior_lines,
+)
 from forcetorque.inspection.draft.recording_table import (
     ColumnNames,
     draft_log,
@@ -469,8 +475,11 @@ def _written(
     if model is not None:
         lines += standing_lines(log, sensors, model, base)
     lines += ["", *recorded, *clock_lines(log, first_look)]
+    readable = () if log.description is None else log.description.reading.streams
+    readings = {stream.name: stream for stream in readable} if first_look is None else first_look.streams
     for sensor in sensors:
-        own = prior_lines(sensor, sensors, priors, folder, on_robot=model is not None)
+        sent = matrix_that_sent(readings.get(sensor.stream), priors)
+        own = prior_lines(sensor, sensors, priors, folder, sent=sent, on_robot=model is not None)
         lines += sensor_lines(sensor, own, on_robot=model is not None)
         lines += _variable_lines(sensor, log, is_alone=model is None and _is_of_sensor_alone(log))
     for stream in log.streams:

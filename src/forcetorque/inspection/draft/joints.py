@@ -23,6 +23,9 @@ _LIMBS = {
     "leg": {"leg", "hip", "knee", "ankle"},
 }
 """Words in the names of streams and joints of a limb."""
+_TORSO = {"torso", "yaw", "roll", "pitch"}
+"""Words in the names of the joints of the torso of an iCub."""
+_TORSO_INWARD = "; a torso of iCub sends yaw, roll, pitch, from the outer one inwards"
 
 
 def joints_question(count: int, where: str, model: RobotModel | None, *, key: str = "joints") -> str:
@@ -45,7 +48,10 @@ def joints_question(count: int, where: str, model: RobotModel | None, *, key: st
     rows = joint_rows(model, count, where)
     if rows:
         choices = " or ".join(toml_value(row) for row in rows[:_MOST_ROWS])
-        return question(key, f"{words}; the robot has {choices}")
+        inward = (
+            _TORSO_INWARD if any({word for joint in row for word in _words(joint)} >= _TORSO for row in rows) else ""
+        )
+        return question(key, f"{words}; the robot has {choices}, from the inner one outwards{inward}")
     limbs = _limbs_called(_words(where))
     names = [name for name, joint in model.joints.items() if joint.type.moves]
     likely = [name for name in names if not (limbs and _is_of_another([name], limbs))]

@@ -7,17 +7,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from forcetorque.base.arrays import FloatArray
 from forcetorque.base.errors import FormatError, MissingFileError
 from forcetorque.base.output_file import relative_path
+from forcetorque.formats.icub_wrench_steps import full_scales_of_steps, is_in_steps
+from forcetorque.formats.prior.prior_file import RawUnit
 from forcetorque.formats.prior.registry import holds_prior, read_prior_file
 from forcetorque.inspection.draft.sensors_and_supports import DraftedSensor, is_called
 from forcetorque.inspection.draft.toml_lines import line, listed, question, remark
+from forcetorque.recording.stream import Stream
 
 _SCALES = "of fx fy fz in N and tx ty tz in N m, of its data sheet, as [300, 300, 300, 30, 30, 30]"
 _MOST_FILES = 12
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MatrixFile:
     """The calibration that a sensor came with."""
 
@@ -25,6 +29,22 @@ class MatrixFile:
     """The file."""
     serial: str | None
     """Serial number of the sensor; None where the file has none."""
+    board_scale: FloatArray | None = None
+    """Full scales in whose steps a board sends wrenches; shape (6,); N, N m; None where it sends none."""
+
+    @classmethod
+    def of(cls, path: Path) -> MatrixFile:
+        """Look at a file, of which another form may need more to be read.
+
+        Returns:
+            What it says of the sensor.
+        """
+        try:
+            file = read_prior_file(path)
+        except FormatError:
+            return cls(path=path, serial=None)
+        scale = file.full_scale if file.raw_unit is RawUnit.COUNTS else None
+        return cls(path=path, serial=file.serial, board_scale=scale)
 
 
 def matrix_files(folder: Path) -> tuple[MatrixFile, ...]:
@@ -48,22 +68,24 @@ def matrix_files(folder: Path) -> tuple[MatrixFile, ...]:
             f"--matrices {folder}: expected a folder with matrix files, got one without any; `forcetorque inspect "
             "FILE` says what a file is"
         )
-    return tuple(MatrixFile(path=path, serial=serial_of(path)) for path in files)
+    return tuple(MatrixFile.of(path) for path in files)
 
 
-def serial_of(path: Path) -> str | None:
-    """Read the serial number of the sensor that a calibration is of.
+def matrix_that_sent(logged: Stream | None, files: Sequence[MatrixFile]) -> MatrixFile | None:
+    """Find the matrix by which a board made the wrenches of a stream.
 
     Args:
-        path: The file.
+        logged: The stream; None where it cannot be read yet.
+        files: Calibrations.
 
     Returns:
-        Its serial number; None where the file has none, or needs to be told more to be read.
+        The only one in whose steps the wrenches are; None else.
     """
-    try:
-        return read_prior_file(path).serial
-    except FormatError:
+    if logged is None or "wrench" not in logged.signals:
         return None
+    wrench = logged.signal("wrench").values
+    sent = [one for one in files if one.board_scale is not None and is_in_steps(wrench, one.board_scale)]
+    return sent[0] if len(sent) == 1 and full_scales_of_steps(wrench) is not None else None
 
 
 def matrix_of(
@@ -91,6 +113,7 @@ def prior_lines(
     files: Sequence[MatrixFile],
     folder: Path,
     *,
+    sent: MatrixFile | None = None,
     on_robot: bool = True,
 ) -> list[str]:
     """Write serial number, prior and full scale of a `[[sensor]]`.
@@ -100,16 +123,18 @@ def prior_lines(
         sensors: All sensors.
         files: Calibrations that the user named; none if empty.
         folder: Folder of the experiment file, from which paths count.
+        sent: As of `matrix_that_sent`.
         on_robot: Whether there is a robot; the load of a wrist sensor by itself is estimated without full scale.
 
     Returns:
         Its lines; full scale is a question where a calibration of a single sensor needs it.
     """
     serial = question("serial", "its serial number, or another mark that tells it from others")
-    if (matrix := matrix_of(sensor, sensors, files)) is not None:
+    if (matrix := sent or matrix_of(sensor, sensors, files)) is not None:
         if matrix.serial is not None:
             serial = line("serial", matrix.serial, "of its matrix file")
-        return [serial, line("prior", relative_path(matrix.path, folder))]
+        words = "" if sent is None else "the log is in steps of its full scales, and of those of no other file"
+        return [serial, line("prior", relative_path(matrix.path, folder), words)]
     if files:
         names = listed([file.path.name for file in files], _MOST_FILES)
         place = relative_path(files[0].path.parent, folder)

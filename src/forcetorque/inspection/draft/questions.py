@@ -21,7 +21,7 @@ from forcetorque.base.toml_file import (
 from forcetorque.experiment.experiment_file import experiment_file
 from forcetorque.experiment.workbench_file import BenchFile
 from forcetorque.inspection.draft.draft import LEFT_OUT, Draft, ProposalRow, QuestionRow
-from forcetorque.inspection.draft.priors import serial_of
+from forcetorque.inspection.draft.priors import MatrixFile
 from forcetorque.inspection.draft.proposals import Proposal, proposals, settle
 from forcetorque.inspection.draft.toml_lines import tables_of, text_of, toml_value, write_text_of
 from forcetorque.inspection.draft.workbench_file import is_bench, logs_of_bench
@@ -166,7 +166,7 @@ def with_serials(text: str, folder: Path) -> str:
     for key, sensor in zip(keys, open_sensors, strict=True):
         prior = sensor.get("prior")
         path = folder / str(prior.get("path") if isinstance(prior, dict) else prior)
-        serial = serial_of(path) if path.is_file() else None
+        serial = MatrixFile.of(path).serial if path.is_file() else None
         if serial is not None:
             text = with_answer(text, key, toml_value(serial))
     return text

@@ -97,6 +97,8 @@ class BiasRow(Row):
     """Number of means or poses in it."""
     at_s: Annotated[float | None, Shown("at", "s", digits=0)]
     """Instant of the bias; s from the earliest stamp."""
+    length_s: float | None
+    """Time from its first observation to its last; s."""
     bias: Annotated[Six, ShownWrench(digits=4)]
     """Bias; N, N m."""
     bias_half_width_95: Six

@@ -360,10 +360,12 @@ def _session(fitted: Fit, number: int, half: FloatArray) -> BiasRow:
     bias, drift = places(listed, Kind.BIAS, number), places(listed, Kind.DRIFT, number)
     values = np.where(np.isfinite(half), fitted.guess.values, np.nan)
     mine = problem.rows.session == number
+    at_s = instants(problem.rows)[mine]
     return BiasRow(
         session=problem.sessions[number],
         observations=int(mine.sum()),
-        at_s=float(instants(problem.rows)[mine].mean()) if mine.any() else None,
+        at_s=float(at_s.mean()) if mine.any() else None,
+        length_s=float(np.ptp(at_s)) if mine.any() else None,
         bias=six(values[bias]) if bias else (None,) * 6,
         bias_half_width_95=six(half[bias]) if bias else (None,) * 6,
         drift_per_s=six(values[drift]) if drift else None,
