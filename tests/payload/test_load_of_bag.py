@@ -80,7 +80,7 @@ def _topics(form: str, *, sign: float = 1.0, frame: str = "ft", push: float = 0.
 
 
 def _transform(types: Any, k: int, pose: FloatArray, parent: str, child: str) -> Any:
-    return types.transform(k, Rotation.from_matrix(pose[:3, :3]).as_quat(), pose[:3, 3], parent, child)
+    return types.transform(k, Rotation.from_matrix(np.array(pose[:3, :3])).as_quat(), pose[:3, 3], parent, child)
 
 
 def _written(folder: Path, form: str, topics: Topics, *left_out: str) -> Path:

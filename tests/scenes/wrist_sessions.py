@@ -25,7 +25,7 @@ def write_sessions(folder: Path) -> Path:
     force = turned.inv().apply([0.0, 0.0, -9.80665 * MASS])
     wrench = np.hstack([force, np.cross(CENTRE, force)]) + BIAS + WHITE * rng.normal(size=(len(time), 6))
     wrench += np.where(time[:, None] >= SESSION_S, SECOND_OFFSET, 0.0)
-    columns = np.column_stack([time, wrench, turned.as_quat(scalar_first=True)])
+    columns = np.column_stack([time, wrench, turned.as_quat()[:, [3, 0, 1, 2]]])
     header = "t,fx,fy,fz,tx,ty,tz,qw,qx,qy,qz"
     np.savetxt(folder / "log.csv", columns, delimiter=",", header=header, comments="", fmt="%.9g")
     head = TEXT[: TEXT.index("[[interval]]")].replace('name = "two postures"', 'name = "two sessions"')

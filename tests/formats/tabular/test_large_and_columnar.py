@@ -145,6 +145,10 @@ def test_lists_of_parquet_are_a_column_per_element(tmp_path: Path, kind: str) ->
     assert [column.is_number for column in sketch.columns] == [True] * 7 + [False]
     assert sketch.columns[3].largest == columns["fz"].max()
     pq.write_table(pa.table(table | {"wrench": pa.array([None, *rows[1:]], type=LISTS[kind])}), path)
+    if kind == "fixed length" and int(pa.__version__.split(".")[0]) < 26:  # which cannot read what it writes then
+        with pytest.raises(FormatError, match="expected a whole table, got one that cannot be read"):
+            _stream(path, OF_LIST)
+        return
     values = _stream(path, OF_LIST).signal("wrench").values
     assert np.isnan(values[0]).all()
     assert np.isfinite(values[1:]).all()
