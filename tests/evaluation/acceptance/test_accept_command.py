@@ -231,12 +231,13 @@ def test_files_fit_the_printed_schema(run: Run) -> None:
 
 @pytest.mark.long
 @pytest.mark.real_data
-def test_a_real_leg_sensor_passes_with_its_calibration_and_fails_with_the_factory_matrix(
+def test_a_real_leg_sensor_lacks_information_and_the_factory_matrix_reads_contacts_worse(
     data_dir: Path, tmp_path: Path, run: Run
 ) -> None:
-    """By the example's own limits, against the other 31 sensors; by contact force the factory matrix is rejected.
+    """By the example's own limits, against the other 31 sensors, all but the information on fz hold, as errors do.
 
-    The forces of the log hardly move, so that the calibration is undecided.
+    The forces of the log hardly move: the data narrow fz by 8.9 %, and 10 % are asked. So the calibration is undecided
+    where errors alone are limited, and there the factory matrix is rejected.
     """
     experiment = tmp_path / "yoga.toml"
     text = YOGA.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix())
@@ -244,8 +245,9 @@ def test_a_real_leg_sensor_passes_with_its_calibration_and_fails_with_the_factor
     fitted, others = tmp_path / "leg.json", data_dir / "icub_workbench_matrices"
     assert run("calibrate", experiment, "-o", fitted).code == 0
     words = ("accept", experiment, "--population", others, "--format", "json")
-    result = _parsed(run(*words, "--spec", EXAMPLE, "-c", fitted), 3)
+    result = _parsed(run(*words, "--spec", EXAMPLE, "-c", fitted), 1)
     assert len(result["criteria"]) == 30
+    assert [row["criterion"] for row in result["criteria"] if not row["passed"]] == ["information_gain.fz"]
     assert result["measured"][0]["population_count"] == 31
     tighter = tmp_path / "force.toml"
     tighter.write_text(HEAD + "[validate]\nforce_mean_N = 1.5\noffset = 'fitted'\n", encoding="utf-8")
