@@ -27,6 +27,7 @@ from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.study.candidate_errors import push_error
 from tests.calibration.push_error import LIMIT_COUNTS, TEMPERATURE, cases
 from tests.calibration.synthetic import GRAVITY, MOUNTED, OFFSET, PRIOR, assumptions
+from tests.cases import some_cases
 
 RATE_HZ, DURATION_S, MASS_KG = 50.0, 60.0, 5.0
 RESPONSE = np.linalg.inv(MOUNTED)
@@ -155,7 +156,7 @@ def test_a_second_interval_tells_that_the_first_was_touched() -> None:
     assert span.label == "swing"
 
 
-@pytest.mark.parametrize(("moving", "times"), [((20.0, 28.0), -1.0), ((40.0, 60.0), 4.0)])
+@some_cases(("moving", "times"), [((20.0, 28.0), -1.0), ((40.0, 60.0), 4.0)])
 def test_a_motion_that_the_prior_does_not_read_is_no_contact(moving: tuple[float, float], times: float) -> None:
     """Where sense or masses are wrong the fit is refused; without the only motion there would be one."""
     loads = _limb(moving=moving)

@@ -42,6 +42,7 @@ def _fitted(stretch: Stretch, priors: Mapping[str, SensorPrior]) -> JointFit:
     return fit
 
 
+@pytest.mark.long
 def test_a_slope_is_found_and_no_change_of_the_matrix_stands_for_it() -> None:
     """A sensor that warms up by 8 degrees: within four standard deviations, and its matrix as well known as cold."""
     cold, (sensor, *_) = swaying(11), SENSORS

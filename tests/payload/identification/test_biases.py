@@ -19,6 +19,7 @@ from forcetorque.payload.identification.bias_drift_and_jumps import (
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.loads_with_intervals import load_estimates, session_estimates, solve
 from forcetorque.payload.identification.robust_fit import fit
+from tests.cases import some_cases
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 SEEDS = 200
@@ -257,7 +258,7 @@ def _stepped(seed: int, *, size: float, lasting: bool) -> tuple[LoadProblem, int
     return problem_of(weight(gravity) + SIZES * noise, gravity, time_s=np.arange(60.0)), row, axis
 
 
-@pytest.mark.parametrize("lasting", [False, True])
+@some_cases("lasting", [False, True])
 def test_a_step_is_found_in_its_row_and_axis_and_noise_has_none(lasting: bool) -> None:
     """Of 10 draws of noise none: if one in a thousand has one, 1 % of such runs fail. Steps of 8 and 12 deviations.
 

@@ -17,6 +17,7 @@ from forcetorque.payload.identification.estimation_problem import Load, LoadProb
 from forcetorque.payload.identification.frame_unit_and_clock_errors import _lag, hypotheses, unexplained
 from forcetorque.payload.identification.loads_with_intervals import load_estimates, solve
 from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
+from tests.cases import some_cases
 from tests.payload.identification.payloads import (
     CENTRE,
     GRAVITY as GRAVITY_SIZE,
@@ -249,7 +250,7 @@ def test_units_are_not_doubted_where_the_interval_reaches_the_limit(
 
 
 @pytest.mark.parametrize(("turned", "names"), [(MOVING, ["frozen log"]), (RESTING, [])], ids=["moving", "resting"])
-@pytest.mark.parametrize("rounding", [0.0, 1e-16])
+@some_cases("rounding", [0.0, 1e-16])
 @pytest.mark.parametrize("loads", [(Load(name="tool"),), KNOWN], ids=["unknown", "stated"])
 def test_a_frozen_log_has_no_other_cause(
     turned: Rotation, names: list[str], rounding: float, loads: tuple[Load, ...]
