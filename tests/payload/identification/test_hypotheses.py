@@ -335,6 +335,19 @@ def test_loads_stated_as_nothing_have_no_size() -> None:
         assert not _is_of_another_size(problem)
 
 
+@pytest.mark.parametrize(("stated", "sizes"), [(KNOWN[0], ["mass_kg", "moments are in N mm"]), (None, ["mass_kg"])])
+def test_moments_have_a_size_where_every_load_that_hangs_has_a_centre_of_mass(
+    stated: Load | None, sizes: list[str]
+) -> None:
+    """A bare sensor beside it needs none. Forces are twelve times as large, which no unit makes, moments in N mm."""
+    load = np.repeat([0, 1], COUNT // 2)
+    hanging = Load(name="tool", mass=MASS) if stated is None else stated
+    reading = np.where(load[:, None] == 0, BIAS, BIAS + (_reading() - BIAS) * np.repeat([12.0, 1000.0], 3))
+    problem = problem_of(reading, GRAVITY, loads=(Load(name="bare", mass=0.0), hanging), load=load)
+    named = [row.description for row in scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True)]
+    assert [words in text for words, text in zip(sizes, named, strict=True)] == [True] * len(sizes)
+
+
 def test_the_share_that_a_reversed_sense_leaves_is_that_of_what_the_stated_one_does() -> None:
     """Each sense by its own least squares: a tenth of the noise leaves a tenth."""
     shares = []
