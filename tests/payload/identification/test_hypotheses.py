@@ -348,6 +348,40 @@ def test_moments_have_a_size_where_every_load_that_hangs_has_a_centre_of_mass(
     assert [words in text for words, text in zip(sizes, named, strict=True)] == [True] * len(sizes)
 
 
+@pytest.mark.parametrize(
+    ("name", "noise_N", "named"),
+    [
+        ("wrench in world axes", 0.9, True),
+        ("wrench in world axes", 1.6, False),
+        ("wrench turned twice", 0.1, True),
+        ("wrench turned twice", 0.4, False),
+    ],
+)
+def test_forces_alone_name_other_axes_where_they_leave_less_than_a_fifth(
+    name: str, noise_N: float, named: bool
+) -> None:
+    """Of what they leave as stated: all, or a third. By least squares of forces; moments are noise and say nothing."""
+    in_world, rng = name == "wrench in world axes", np.random.default_rng(4)
+    small = Rotation.from_rotvec(0.4 * np.random.default_rng(7).normal(size=(COUNT, 3))).as_matrix()
+    rotations = ROTATIONS if in_world else small
+    gravity = np.einsum("nji,j->ni", rotations, [0.0, 0.0, -9.80665])
+    own = weight(gravity)[:, :3] + noise_N * rng.normal(size=(COUNT, 3))
+    stated = np.einsum("nij,nj->ni" if in_world else "nji,nj->ni", rotations, own)
+    shares = []
+    for force in (own, stated):
+        columns = np.column_stack([gravity.ravel(), np.tile(np.eye(3), (COUNT, 1))])
+        (_, left, *_) = np.linalg.lstsq(columns, force.ravel())
+        shares.append(np.sqrt(left[0] / ((force - force.mean(axis=0)) ** 2).sum()))
+    assert (shares[1] > 0.9) == in_world
+    share = shares[0] / shares[1]
+    assert (share < 0.2) == named
+    problem = problem_of(np.hstack([stated, 2.0 * rng.normal(size=(COUNT, 3))]), gravity, orientation=rotations)
+    found = [row for row in hypotheses(fit(problem, drift=False), drift=False) if row.name == name]
+    assert len(found) == named
+    for row in found:
+        assert row.residual_share == pytest.approx(share, rel=0.02)
+
+
 def test_the_share_that_a_reversed_sense_leaves_is_that_of_what_the_stated_one_does() -> None:
     """Each sense by its own least squares: a tenth of the noise leaves a tenth."""
     shares = []
