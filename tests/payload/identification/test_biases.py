@@ -271,6 +271,17 @@ def test_a_step_is_found_in_its_row_and_axis_and_noise_has_none(lasting: bool) -
     assert sum(one is not None and abs(one[0] - row) <= 2 and one[1] == axis for one, row, axis in found) >= 8
 
 
+def test_a_power_up_without_a_row_is_listed_without_numbers() -> None:
+    """Such as one whose samples were all left out; the other has the bias of a solution without it."""
+    gravity = poses(12, np.random.default_rng(5))
+    reading = weight(gravity) + SIZES * np.random.default_rng(6).normal(size=(12, 6))
+    one, empty = session_estimates(fit(problem_of(reading, gravity, sessions=("first", "second")), drift=False))
+    (alone,) = session_estimates(fit(problem_of(reading, gravity), drift=False))
+    assert (one.observations, one.bias, one.bias_half_width_95) == (12, alone.bias, alone.bias_half_width_95)
+    assert (empty.session, empty.observations, empty.at_s, empty.drift_per_s) == ("second", 0, None, None)
+    assert empty.bias == empty.bias_half_width_95 == (None,) * 6
+
+
 def test_blocks_are_sixths_of_every_power_up_that_has_two_rows_in_each() -> None:
     """In the order of the rows, power-ups in turn too; a power-up of eleven rows is held out nowhere."""
     session = np.concatenate([np.tile([0, 1, 2], 11), np.repeat([0, 2], [19, 1])])
