@@ -243,6 +243,22 @@ def test_a_constant_load_does_not_hide_a_direction_that_is_lost() -> None:
             assert _loses_direction(loads + shift, marks) is is_lost
 
 
+@pytest.mark.parametrize(("share", "counts"), [(0.095, False), (0.105, True)])
+def test_a_direction_is_lost_that_has_a_tenth_of_the_largest_spread(share: float, counts: bool) -> None:
+    """Of two forces with a common part and a difference that is independent of it; in any unit."""
+    rng = np.random.default_rng(3)
+    common, difference, marks = rng.normal(size=80), np.zeros(80), np.arange(80) < 40
+    common -= common.mean()
+    beside = np.column_stack([np.ones(40), common[:40]])
+    drawn = rng.normal(size=40)
+    difference[:40] = drawn - beside @ np.linalg.lstsq(beside, drawn)[0]
+    difference *= share * common.std() / difference.std()
+    loads = np.zeros((80, 6))
+    loads[:, 0], loads[:, 2] = common + difference, common - difference
+    for unit in (1.0, 1e3):
+        assert _loses_direction(unit * loads, marks) is counts
+
+
 @pytest.mark.parametrize("start_s", [0.0, 100.1, 1e6 + 0.3])
 def test_noise_of_a_window_is_that_of_its_quarters_on_any_clock(start_s: float) -> None:
     """By hand: the variance of four means over four, of quarters of a second from the first sample on."""
