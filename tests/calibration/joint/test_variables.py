@@ -65,6 +65,18 @@ def test_a_slope_is_found_and_no_change_of_the_matrix_stands_for_it() -> None:
     assert off(_fitted(replace(stretch, variables={}), {})) > 3.0 * steady
 
 
+def test_a_slope_of_a_variable_that_does_not_move_keeps_its_prior() -> None:
+    """Of every component its own size, and zero in the mean."""
+    stretch, (sensor, *_) = swaying(11, duration_s=1.0).stretch, SENSORS
+    parts, size = untouched_parts(stretch.tree, SENSORS, FEET), np.arange(1.0, 7.0)
+    warm = replace(stretch, variables={(sensor, "temperature"): np.zeros((len(stretch), 1))})
+    priors = {sensor: replace(EVEN, slopes={"temperature": size})}
+    fit = fit_jointly(part_windows(warm, parts, ()), priors=priors)
+    slope = fit.places.slope(sensor, "temperature")
+    np.testing.assert_allclose(fit.mean[slope], 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.sqrt(np.diag(fit.covariance)[slope]), size, rtol=1e-6)
+
+
 @pytest.mark.parametrize("stated", [False, True])
 def test_a_joint_calibration_knows_what_the_temperature_adds(recorded: Path, stated: bool) -> None:
     """The channels drift by some 10 counts per degree in the study that is simulated: found within four deviations.
