@@ -4,9 +4,10 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 WORKERS := -n auto --dist loadfile --no-loadscope-reorder
+ON_WINDOWS := --platform win32 --cache-dir .mypy_cache/win32
 SUITE := tests $(WORKERS) --data=$(DATA) -m "not long"
 
-.PHONY: demo test test-long test-matrix lint types compiled bench docs web web-test web-check web-types clean
+.PHONY: demo test test-long test-matrix lint types types-windows compiled bench docs web web-test web-check web-types clean
 
 # where the surroundings forbid bytecode, every process of the tests would compile the library anew
 export PYTHONDONTWRITEBYTECODE :=
@@ -19,7 +20,7 @@ test: $(VENV)/test.stamp
 	# a worker for every core: threads of their linear algebra would only wait for each other
 	OMP_NUM_THREADS=1 $(BIN)/pytest $(SUITE)
 
-test-long: $(VENV)/test.stamp $(VENV)/test-long.stamp $(VENV)/docs.stamp
+test-long: $(VENV)/test.stamp $(VENV)/test-long.stamp $(VENV)/docs.stamp types-windows
 	OMP_NUM_THREADS=1 $(BIN)/pytest tests $(WORKERS) --data=$(DATA) -m "long or fuzz" --all-examples
 
 # every Python of pyproject.toml, the oldest with the oldest dependencies; ONLY=3.12 runs one of them
@@ -30,13 +31,18 @@ lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
+# each platform has its own cache: one would make the other's useless; every file for Windows is of the long run
 types: $(VENV)/test.stamp
 	$(BIN)/mypy
-	$(BIN)/mypy --platform win32
+	$(BIN)/mypy $(ON_WINDOWS) $(shell grep -rlE 'sys\.platform|os\.name' src --include='*.py')
 
-# what every worker of the tests would else compile for itself
+types-windows: $(VENV)/test.stamp
+	$(BIN)/mypy $(ON_WINDOWS)
+
+# what every worker of the tests would else compile for itself, functions and tests; the run shows errors of tests
 compiled: $(VENV)/test.stamp
 	$(BIN)/python -m tests.compile_ahead
+	$(BIN)/pytest tests --collect-only --quiet > /dev/null || true
 
 bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json

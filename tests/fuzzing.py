@@ -31,6 +31,6 @@ def sampled(count: int) -> int:
         count: Number of the long run.
 
     Returns:
-        That number, or a hundredth of it.
+        That number, or a two-hundredth of it.
     """
-    return count if SHARE[0] == 1 else count // 100
+    return count if SHARE[0] == 1 else count // 200

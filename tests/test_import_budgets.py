@@ -23,6 +23,7 @@ from forcetorque.app.python.experiment import load_experiment
 from forcetorque.experiment.calibration.calibration_file import write_calibration
 from forcetorque.formats import registry
 from forcetorque.formats.registry import LOG_FORMATS
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, YARP, write_experiments
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -123,7 +124,7 @@ def _format_modules(modules: set[str]) -> set[str]:
     return modules.intersection(reference.partition(":")[0] for reference in LOG_FORMATS.values()) - {registry.__name__}
 
 
-@pytest.mark.parametrize(("file", "formats"), [(YARP, {"forcetorque.formats.yarp.log_format"}), (PARQUET, set())])
+@some_cases(("file", "formats"), [(YARP, {"forcetorque.formats.yarp.log_format"}), (PARQUET, set())])
 def test_an_evaluation_loads_one_log_format(
     bytecode: dict[str, str], tmp_path: Path, file: str, formats: set[str]
 ) -> None:

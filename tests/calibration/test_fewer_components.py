@@ -26,6 +26,7 @@ from forcetorque.inspection.findings import inspect_experiment
 from forcetorque.recording.storage import write_recording
 from tests.app.outcome import Run
 from tests.calibration.synthetic import LIMIT_COUNTS, MOUNTED, PRIOR, anyhow, assumptions, read_by
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, edit
 
 FULL_SCALE = np.array([500.0, 500.0, 1000.0, 20.0, 20.0, 10.0])
@@ -55,7 +56,7 @@ def _fitted(prior: FloatArray, response: FloatArray, *, seed: int = 0) -> Genera
     return fit_generative([read_by(wrench, response=response, seed=seed)], prior, known)
 
 
-@pytest.mark.parametrize("measured", [[2], [0, 1, 2], [2, 3]])
+@some_cases("measured", [[2], [0, 1, 2], [2, 3]])
 def test_stated_errors_are_those_of_loads_that_disturb_it(measured: list[int]) -> None:
     """Errors over 8 sensors are as large as stated, mostly by cross-talk that no matrix takes away."""
     load = FULL_SCALE * np.random.default_rng(3).uniform(-0.5, 0.5, (200, 6))

@@ -83,7 +83,7 @@ REFUSED: dict[str, tuple[Damage, str]] = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-@pytest.mark.parametrize("regularisation", ["held-out", "1000"])
+@some_cases("regularisation", ["held-out", "1000"])
 def test_a_wrong_model_is_refused(arm: Path, run: Run, name: str, regularisation: str) -> None:
     """Exit code 2, nothing written, and one line that names the likely cause."""
     damage, words = REFUSED[name]

@@ -27,6 +27,7 @@ from forcetorque.experiment.calibration.moments import DataSet, WindowMeans
 from forcetorque.study.candidate_errors import push_error
 from tests.calibration.push_error import LIMIT_COUNTS, TEMPERATURE, cases
 from tests.calibration.synthetic import GRAVITY, MOUNTED, OFFSET, PRIOR, assumptions
+from tests.cases import some_cases
 
 RATE_HZ, DURATION_S, MASS_KG = 50.0, 60.0, 5.0
 RESPONSE = np.linalg.inv(MOUNTED)
@@ -155,7 +156,7 @@ def test_a_second_interval_tells_that_the_first_was_touched() -> None:
     assert span.label == "swing"
 
 
-@pytest.mark.parametrize(("moving", "times"), [((20.0, 28.0), -1.0), ((40.0, 60.0), 4.0)])
+@some_cases(("moving", "times"), [((20.0, 28.0), -1.0), ((40.0, 60.0), 4.0)])
 def test_a_motion_that_the_prior_does_not_read_is_no_contact(moving: tuple[float, float], times: float) -> None:
     """Where sense or masses are wrong the fit is refused; without the only motion there would be one."""
     loads = _limb(moving=moving)
@@ -240,6 +241,22 @@ def test_a_constant_load_does_not_hide_a_direction_that_is_lost() -> None:
         loads[:, 0], loads[:, 2] = common + change, common - change
         for shift in (0.0, np.array([300.0, 0.0, -100.0, 0.0, 20.0, 0.0])):
             assert _loses_direction(loads + shift, marks) is is_lost
+
+
+@pytest.mark.parametrize(("share", "counts"), [(0.095, False), (0.105, True)])
+def test_a_direction_is_lost_that_has_a_tenth_of_the_largest_spread(share: float, counts: bool) -> None:
+    """Of two forces with a common part and a difference that is independent of it; in any unit."""
+    rng = np.random.default_rng(3)
+    common, difference, marks = rng.normal(size=80), np.zeros(80), np.arange(80) < 40
+    common -= common.mean()
+    beside = np.column_stack([np.ones(40), common[:40]])
+    drawn = rng.normal(size=40)
+    difference[:40] = drawn - beside @ np.linalg.lstsq(beside, drawn)[0]
+    difference *= share * common.std() / difference.std()
+    loads = np.zeros((80, 6))
+    loads[:, 0], loads[:, 2] = common + difference, common - difference
+    for unit in (1.0, 1e3):
+        assert _loses_direction(unit * loads, marks) is counts
 
 
 @pytest.mark.parametrize("start_s", [0.0, 100.1, 1e6 + 0.3])

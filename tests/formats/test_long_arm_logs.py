@@ -16,6 +16,7 @@ from forcetorque.formats.franka.log_format import FrankaFormat
 from forcetorque.formats.log_format import LogDescription
 from forcetorque.formats.ur_rtde import recorded_fields
 from forcetorque.formats.ur_rtde.log_format import UrRtdeFormat
+from tests.cases import some_cases
 from tests.formats.franka.states import states, write_states, write_table
 from tests.formats.ur_rtde.recordings import Tool, accelerometer, recorded, write_binary, write_text
 from tests.payload.simulated_ur5 import about_tcp, simulated
@@ -51,7 +52,7 @@ def _in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rows_on_disk, "_WITHOUT_FILE", 0)
 
 
-@pytest.mark.parametrize("log", _LOGS)
+@some_cases("log", sorted(_LOGS, key="point by motion".__eq__), quick=4)
 def test_blocks_change_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, log: str) -> None:
     """Streams, findings, loads, motions and contradictions, while the arrays are views of files."""
     whole = _LOGS[log](tmp_path / "log")

@@ -26,6 +26,7 @@ from forcetorque.recording.recording import Recording
 from forcetorque.recording.storage import write_recording
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.simulation.robots import BIPED_URDF
+from tests.cases import some_cases
 from tests.scenes.tutorial_log import FOLDER
 
 ANSWERS = {
@@ -305,7 +306,7 @@ def _drafted_streams(text: str) -> list[str]:
     return [one["name"] for one in tomllib.loads(text)["recording"]["stream"]]
 
 
-@pytest.mark.parametrize("pose", ["joints", "orientation", "orientation beside a variable"])
+@some_cases("pose", ["joints", "orientation beside a variable", "orientation"], quick=2)
 @pytest.mark.parametrize("late", [0, 3])
 def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pose: str, late: int) -> None:
     """Of an arm and a wrist with the wrench three samples late; what is proposed leaves none, no delay gets it."""
@@ -334,7 +335,7 @@ def test_a_delay_within_one_table_is_proposed_as_two_streams(tmp_path: Path, pos
     assert not [one for one in proposals(file) if one.kind == "delay"]
 
 
-@pytest.mark.parametrize("form", ["one line", "lines", "comment in it"])
+@some_cases("form", ["lines", "comment in it", "one line"], quick=2)
 def test_signals_in_a_list_are_divided(tmp_path: Path, form: str) -> None:
     """Also on several lines; where comments between them would be lost, it is left to a person, as `inspect` says."""
     text = _late_wrist(tmp_path, 3)

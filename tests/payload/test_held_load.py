@@ -30,6 +30,7 @@ from forcetorque.robot.model import Joint, JointType, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.tree import build_tree
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, SECOND_SENSOR, TWO
 from tests.scenes.robots import example_robot
 
@@ -218,7 +219,7 @@ def test_what_no_file_holds_is_not_proposed(arm: Path) -> None:
         assert ("got 'elbow', 'wrist' beyond it, which move or are not logged" in answer.step) is not proposed
 
 
-@pytest.mark.parametrize("first", ["arm_ft", "tool_ft"])
+@some_cases("first", ["arm_ft", "tool_ft"])
 def test_of_two_sensors_the_one_that_weighs_has_the_file(arm: Path, run: Run, first: str, tmp_path: Path) -> None:
     """The nearest one inboard of the load, in either order of the experiment file; the other one is refused."""
     text = (arm / TWO).read_text(encoding="utf-8")

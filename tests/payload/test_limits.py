@@ -3,15 +3,19 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from forcetorque.base.wrench import MeasureDirection
 from forcetorque.formats.arm_log import FLANGE
+from forcetorque.payload.identification.estimation_problem import Load
 from forcetorque.payload.identification.load_estimates import BiasTestRow
 from forcetorque.payload.load_warnings import (
+    _doubled,
     behind_flange,
     payload_doubts,
     reason_to_withhold,
@@ -115,3 +119,37 @@ def test_a_load_is_withheld_for_the_first_reason() -> None:
     specified = (SimpleNamespace(estimated=False),)
     assert _withheld(**rest, hypotheses=hypotheses, loads=specified) == "turned mount: words"
     assert _withheld(hypotheses=hypotheses[:1], loads=specified) is None
+
+
+@pytest.mark.parametrize(("share", "named"), [(0.0, True), (0.4, True), (0.45, False), (1.0, False)])
+def test_a_load_that_the_urdf_has_too_is_named_where_readings_fit_better_without_it(share: float, named: bool) -> None:
+    """Where the one residual is below 0.7 of the other: up to a share of 0.41 of its weight that the URDF lacks.
+
+    Both by hand, the share and the rest of the weight about its mean in each interval.
+    """
+    rng = np.random.default_rng(3)
+    gravity, known, block = 9.8 * rng.normal(size=(40, 3)), rng.normal(size=(40, 6)), np.repeat([0, 1], 20)
+    weight = np.hstack([2.0 * gravity, np.zeros((40, 3))])
+    columns = np.zeros((40, 6, 10))
+    columns[:, :3, 0] = -gravity
+    bias = np.array([[5.0] * 6, [-3.0] * 6])[block]
+    problem = SimpleNamespace(
+        direction=MeasureDirection.CHILD_TO_PARENT,
+        rows=SimpleNamespace(
+            columns=columns,
+            known=known,
+            wrench=known + share * weight + bias,
+            load=np.zeros(40, dtype=np.int64),
+            block=block,
+        ),
+    )
+    load = Load(name="tool", mass=2.0, centre_of_mass=np.array([0.0, 0.0, 0.1]))
+    run: Any = SimpleNamespace(experiment=None)
+    loads: Any = SimpleNamespace(loads=(load,), problem=lambda _: problem)
+    words = list(_doubled(run, loads))
+    assert len(words) == named
+    about = 2.0 * (gravity.reshape(2, 20, 3) - gravity.reshape(2, 20, 3).mean(axis=1, keepdims=True))
+    whole_N = np.sqrt((about**2).sum(axis=2).mean())
+    for text in words:
+        with_it, without = (float(match) for match in re.findall(r"(\S+) N with", text))
+        assert (with_it, without) == pytest.approx(((1.0 - share) * whole_N, share * whole_N), rel=5e-3, abs=1e-9)

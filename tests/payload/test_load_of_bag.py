@@ -21,6 +21,7 @@ from forcetorque.robot.tree import build_tree
 from forcetorque.robot.urdf import read_urdf
 from forcetorque.simulation.robots import ARM_URDF
 from tests.app.outcome import Run
+from tests.cases import some_cases
 
 bags = pytest.importorskip("tests.formats.ros.bags")
 bag_module = pytest.importorskip("forcetorque.formats.ros.bag")
@@ -88,7 +89,7 @@ def _written(folder: Path, form: str, topics: Topics, *left_out: str) -> Path:
     return written
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("form", "left_out", "sign"),
     [
         ("mcap", ("/joint_states", "/robot_description"), 1.0),

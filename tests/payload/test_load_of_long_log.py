@@ -13,6 +13,7 @@ from forcetorque.payload import samples_from_recordings
 from forcetorque.payload.identify import weigh_load
 from forcetorque.payload.log_without_experiment import described_log, experiment_of_description
 from forcetorque.payload.result import WeighedLoad
+from tests.cases import some_cases
 from tests.formats.ur_rtde.recordings import Tool, recorded, write_binary
 from tests.scenes.segments import short_segments
 
@@ -36,7 +37,7 @@ _SHARE = 1e-6
 """Of an interval, for sums in another order."""
 
 
-@pytest.mark.parametrize("lost", [0, 20])
+@some_cases("lost", [20, 0])
 def test_segments_change_nothing(tmp_path: Path, lost: int) -> None:
     """Loads and what is left out, wherever segments end."""
     log = _log(tmp_path, samples=400, lost=lost)

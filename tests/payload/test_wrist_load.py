@@ -217,6 +217,18 @@ def test_errors_on_poses_that_were_not_fitted_are_those_of_the_load_about_their_
     assert weighed.mount_rad is None
 
 
+@pytest.mark.parametrize(("share", "contact"), [(0.18, False), (0.22, True)])
+def test_a_push_of_a_fifth_of_the_weight_on_a_pose_that_was_not_fitted_is_a_contact(
+    tmp_path: Path, share: float, contact: bool
+) -> None:
+    """Of one pose of twenty; its size is found to three deviations of the noise."""
+    push_N = share * MASS * 9.80665
+    size = push_N / np.linalg.norm([-8.0, 2.0, 1.0])
+    (row,) = _weighed(_write(tmp_path, pushed=slice(50, 51), sizes=(size,))).validation
+    assert row.largest_force_N == pytest.approx(push_N, abs=3.0 * NOISE[0])
+    assert row.contact == contact
+
+
 def test_an_unknown_mount_is_the_rotation_from_the_axes_of_the_motion_to_those_of_the_sensor(tmp_path: Path) -> None:
     """A sensor that is turned by a known vector: each component within 1.5 of its half-widths, each below 1 degree."""
     turn = np.array([0.2, -0.3, 0.5])

@@ -17,6 +17,7 @@ from forcetorque.experiment.calibration.expected_sensor_errors import Assumption
 from forcetorque.experiment.calibration.moments import WindowMeans, model_terms
 from forcetorque.experiment.calibration.robot_model_error import ErrorTerm, TermKind
 from forcetorque.experiment.calibration.sensor_model import LinearVariable
+from tests.cases import some_cases
 
 PRIOR = 0.01 * np.diag([1.0, 1.0, 1.0, 0.05, 0.05, 0.05])
 SAME = 1e-7
@@ -91,10 +92,11 @@ def _fitted(means: list[WindowMeans], prior: FloatArray | None, *, drift: bool) 
     return fit_generative(means, prior, assumptions, variables=[TEMPERATURE], drift=drift, shapes=SHAPES)
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("sessions", "drift", "prior"),
     [(5, False, PRIOR), (2, True, PRIOR), (1, False, PRIOR), (5, True, None)],
     ids=["a session each", "recordings share sessions that drift", "one session", "no prior"],
+    quick=2,
 )
 def test_cells_change_no_number(
     sessions: int, drift: bool, prior: FloatArray | None, monkeypatch: pytest.MonkeyPatch
@@ -133,7 +135,7 @@ def _assert_same(fit: GenerativeFit, other: GenerativeFit, *, terms: int = 7) ->
         np.testing.assert_allclose(one.standard_error, same.standard_error, rtol=SAME)
 
 
-@pytest.mark.parametrize("drift", [False, True])
+@some_cases("drift", [False, True])
 def test_offsets_of_a_recording_with_a_shared_session_and_its_own(drift: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each session has the offset that it has in one cell; derivatives have means far from zero."""
     means = _one_with_two_sessions(4)

@@ -18,6 +18,7 @@ from forcetorque.calibration.joint.untouched_interval import part_residuals
 from forcetorque.experiment.experiment import Experiment
 from forcetorque.experiment.loading import load_experiment
 from forcetorque.recording.recording import Use
+from tests.cases import some_cases
 from tests.scenes.experiments import TWO, edit, write_experiments
 from tests.scenes.segments import SEGMENT_S, short_segments, within
 from tests.scenes.studies import CALIBRATION, SENSOR
@@ -110,7 +111,7 @@ def _both(experiment: Experiment) -> tuple[dict[str, int], float]:
     return {one.sensor.name: one.provenance.samples for one in calibrations}, float(error.mean())
 
 
-@pytest.mark.parametrize(("stream", "share"), [("tool_ft", 0.5), ("joints", 1.0)])
+@some_cases(("stream", "share"), [("tool_ft", 0.5), ("joints", 1.0)])
 def test_a_stream_that_ends_early_takes_nothing_from_the_others(tmp_path: Path, stream: str, share: float) -> None:
     """In segments without a sample of it, samples of the other sensors count as in the whole recording."""
     write_experiments(tmp_path)

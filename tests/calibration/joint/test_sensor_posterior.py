@@ -8,10 +8,13 @@ from functools import cache
 import numpy as np
 import pytest
 
+from forcetorque.calibration.joint.fit import fit_jointly
+from forcetorque.calibration.joint.model_error_columns import error_terms
 from forcetorque.calibration.joint.posterior_and_calibrations import sensor_posterior
-from forcetorque.calibration.joint.robust_fit import UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.unknowns import UNITS, JointFit
+from forcetorque.calibration.joint.windows import part_windows
 from forcetorque.experiment.calibration.posterior import Posterior
+from forcetorque.experiment.calibration.robot_model_error import ModelTolerance
 from forcetorque.robot.mechanics.sub_model_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, swaying
 
@@ -21,9 +24,10 @@ LOADS = np.array([[0.0, 0.0, 200.0, 0.0, 0.0, 0.0], [20.0, -10.0, 100.0, 3.0, 2.
 
 @cache
 def _fit() -> JointFit:
-    motion = swaying(61, mass=0.02, joint_zero_rad=0.005)
-    parts = untouched_parts(motion.stretch.tree, SENSORS, FEET)
-    return fit_stretches([UntouchedStretch(stretch=motion.stretch, parts=parts)]).fit
+    stretch = swaying(61, duration_s=5.0, mass=0.02, joint_zero_rad=0.005).stretch
+    parts = untouched_parts(stretch.tree, SENSORS, FEET)
+    terms = error_terms(stretch.tree, parts, ModelTolerance())
+    return fit_jointly(part_windows(stretch, parts, terms), terms)
 
 
 def _posterior(repeatability: float = 0.0) -> Posterior:

@@ -42,6 +42,7 @@ def _fitted(stretch: Stretch, priors: Mapping[str, SensorPrior]) -> JointFit:
     return fit
 
 
+@pytest.mark.long
 def test_a_slope_is_found_and_no_change_of_the_matrix_stands_for_it() -> None:
     """A sensor that warms up by 8 degrees: within four standard deviations, and its matrix as well known as cold."""
     cold, (sensor, *_) = swaying(11), SENSORS
@@ -62,6 +63,18 @@ def test_a_slope_is_found_and_no_change_of_the_matrix_stands_for_it() -> None:
     assert off(fit) < 1.5 * steady
     # negative control: taken as constant the warming passes for a change of the matrix
     assert off(_fitted(replace(stretch, variables={}), {})) > 3.0 * steady
+
+
+def test_a_slope_of_a_variable_that_does_not_move_keeps_its_prior() -> None:
+    """Of every component its own size, and zero in the mean."""
+    stretch, (sensor, *_) = swaying(11, duration_s=1.0).stretch, SENSORS
+    parts, size = untouched_parts(stretch.tree, SENSORS, FEET), np.arange(1.0, 7.0)
+    warm = replace(stretch, variables={(sensor, "temperature"): np.zeros((len(stretch), 1))})
+    priors = {sensor: replace(EVEN, slopes={"temperature": size})}
+    fit = fit_jointly(part_windows(warm, parts, ()), priors=priors)
+    slope = fit.places.slope(sensor, "temperature")
+    np.testing.assert_allclose(fit.mean[slope], 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.sqrt(np.diag(fit.covariance)[slope]), size, rtol=1e-6)
 
 
 @pytest.mark.parametrize("stated", [False, True])

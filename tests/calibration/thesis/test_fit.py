@@ -13,9 +13,9 @@ from forcetorque.base.errors import FitError, ShapeError
 from forcetorque.base.pose import make_pose, rotation_from_rpy
 from forcetorque.base.wrench import wrench_matrix
 from forcetorque.calibration.thesis.regression import fit_matrix, solve
-from forcetorque.experiment.calibration.estimation_type import Estimation
+from forcetorque.experiment.calibration.estimation_type import Estimation, EstimationType
 from forcetorque.experiment.calibration.moments import Moments
-from forcetorque.experiment.calibration.sensor_model import WrenchModel
+from forcetorque.experiment.calibration.sensor_model import LinearVariable, WrenchModel
 from tests.fuzzing import examples
 
 EXACT = 1e-9
@@ -53,6 +53,23 @@ def test_noise_free_data_give_the_true_matrix() -> None:
     np.testing.assert_allclose(fit.offset, offset, atol=1e-6)
     assert fit.excitation.rank == 6
     assert all(fit.excitation.excited)
+
+
+def test_noise_free_data_with_a_temperature_give_its_slope_and_the_offset_at_its_reference() -> None:
+    """The wrench that is added per degree from 25 degrees on, and the offset that is left there; at 30 to 50."""
+    (matrix, offset), rng = _truth(2), np.random.default_rng(4)
+    raw = rng.normal(size=(400, 6)) * [3000, 2000, 1500, 900, 600, 400] + 5000.0
+    degrees, slope = rng.uniform(30.0, 50.0, size=(400, 1)), rng.normal(size=(6, 1))
+    reference = raw @ matrix.T + offset + (degrees - 25.0) @ slope.T
+    estimation = Estimation(
+        kind=EstimationType(with_variables=True),
+        variables=(LinearVariable(name="temperature", unit="degC"),),
+        reference_values=np.array([25.0]),
+    )
+    model = solve(Moments.of(raw, reference, degrees), estimation, 0.0)
+    np.testing.assert_allclose(model.matrix, matrix, rtol=EXACT, atol=EXACT * np.abs(matrix).max())
+    np.testing.assert_allclose(model.coefficients, slope, atol=1e-8)
+    np.testing.assert_allclose(model.offset, offset, atol=1e-6)
 
 
 @settings(max_examples=examples(50))

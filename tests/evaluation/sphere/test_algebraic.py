@@ -58,22 +58,28 @@ def _quadric(v: np.ndarray, shift: np.ndarray, scale: float) -> tuple[np.ndarray
     return shift + scale * centre, a / (centre @ a @ centre - v[9]) / scale**2
 
 
+TRIED = (1000.0, 100.0, 30.0, 10.0, 6.0, 4.0)
+"""Values of k of the direct fit; 4 gives ellipsoids only."""
+
+
 def _li_griffiths(cloud: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Li and Griffiths (2004), equations 5 to 15, on the design matrix, with the largest k that gives an ellipsoid."""
+    """Li and Griffiths (2004), with the largest k that gives an ellipsoid."""
+    fits = (_with_k(cloud, k) for k in TRIED)
+    return next((centre, shape) for centre, shape in fits if np.linalg.eigvalsh(shape)[0] > 0.0)
+
+
+def _with_k(cloud: np.ndarray, k: float) -> tuple[np.ndarray, np.ndarray]:
+    """Equations 5 to 15, on the design matrix."""
     x, shift, scale = _design(cloud)
     design = np.column_stack(
         [x**2, 2 * x[:, 1] * x[:, 2], 2 * x[:, 0] * x[:, 2], 2 * x[:, 0] * x[:, 1], 2 * x, np.ones(len(x))]
     )
     scatter = design.T @ design
-    for k in (1000.0, 100.0, 30.0, 10.0, 6.0, 4.0):
-        c1 = np.full((3, 3), k / 2 - 1) - k / 2 * np.eye(3)
-        constraint = scipy.linalg.block_diag(c1, -k * np.eye(3), np.zeros((4, 4)))
-        # S v = lambda C v, turned over because C is singular and S is not
-        mu, vectors = scipy.linalg.eig(constraint, scatter)
-        centre, shape = _quadric(vectors[:, np.argmax(mu.real)].real, shift, scale)
-        if np.linalg.eigvalsh(shape)[0] > 0.0:
-            return centre, shape
-    raise AssertionError("k = 4 leaves ellipsoids only")
+    c1 = np.full((3, 3), k / 2 - 1) - k / 2 * np.eye(3)
+    constraint = scipy.linalg.block_diag(c1, -k * np.eye(3), np.zeros((4, 4)))
+    # S v = lambda C v, turned over because C is singular and S is not
+    mu, vectors = scipy.linalg.eig(constraint, scatter)
+    return _quadric(vectors[:, np.argmax(mu.real)].real, shift, scale)
 
 
 def _taubin(cloud: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -101,6 +107,23 @@ def test_fits_agree_with_the_literature(name: str, oracle: object, cloud: str) -
     size = np.sqrt(np.abs(np.diag(shape)))
     np.testing.assert_allclose(ours.shape[0] / size / size[:, None], shape / size / size[:, None], atol=AGREEMENT)
     np.testing.assert_allclose(ours.centre[0], centre, atol=AGREEMENT / size.min())
+
+
+@pytest.mark.parametrize(
+    ("across", "size", "k"),
+    [(-0.05, 7.0, 100), (-0.05, 8.0, 30), (-0.05, 9.0, 10), (-0.05, 12.0, 6), (-0.2, 12.0, 4)],
+)
+def test_the_largest_k_that_gives_an_ellipsoid_is_taken(across: float, size: float, k: int) -> None:
+    """Of noisy saddles, which need another one each, by the literature; the next larger one gives no ellipsoid."""
+    rng = np.random.default_rng(5)
+    x, y = rng.uniform(-10.0, 10.0, size=(2, 500))
+    cloud = np.column_stack([x, y, (x**2 + across * y**2) / size + 0.3 * rng.normal(size=500)])
+    centre, shape = _li_griffiths(cloud)
+    ours = _fit("direct", cloud)
+    np.testing.assert_allclose(ours.centre[0], centre, atol=AGREEMENT * np.linalg.norm(centre))
+    np.testing.assert_allclose(ours.shape[0], shape, atol=AGREEMENT * np.abs(shape).max())
+    smallest = [np.linalg.eigvalsh(_with_k(cloud, one)[1])[0] for one in TRIED]
+    assert [one for one, value in zip(TRIED, smallest, strict=True) if value > 0.0][0] == k
 
 
 def test_the_two_methods_are_told_apart() -> None:

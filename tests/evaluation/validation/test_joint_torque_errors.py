@@ -23,6 +23,7 @@ from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_models import sub_models
 from forcetorque.robot.tree import BodyTree, build_tree
+from tests.cases import some_cases
 from tests.robot.mechanics.idyntree_oracle import IDynTree
 from tests.robot.mechanics.random_robots import robots
 from tests.robot.mechanics.simulated import Simulation, random_root
@@ -118,7 +119,7 @@ def _inboard_on_outboard(model: RobotModel, robot: _Robot) -> float:
     return 1.0 if child_is_far == (tag.direction is MeasureDirection.PARENT_TO_CHILD) else -1.0
 
 
-@pytest.mark.parametrize("name", CASES)
+@some_cases("name", CASES, quick=2)
 def test_torque_is_the_transposed_jacobian_of_pinocchio(name: str) -> None:
     """Virtual work: the contact beyond the sensor gives -w and that before it w, so the joints bear (J - J')^T w.
 

@@ -70,7 +70,7 @@ def test_without_errors_it_changes_its_support_and_stands(biped: Biped, setting:
 def test_a_constant_offset_shifts_the_posture_and_does_not_swing(biped: Biped, setting: LoopSetting) -> None:
     """10 N and 1 N m too much on all sensors: it comes to rest elsewhere."""
     bias = np.tile(np.repeat([10.0, 1.0], 3), (1, len(SENSORS), 1))
-    run = pushed(biped, setting, Phase.DOUBLE, errors_of(np.zeros((1, 4, 6, 6)), bias), seconds=2.0, push_N=0.0)
+    run = pushed(biped, setting, Phase.DOUBLE, errors_of(np.zeros((1, 4, 6, 6)), bias), seconds=1.4, push_N=0.0)
     shift_mm = 1e3 * run.centre_error[0]
     assert np.abs(shift_mm[-1]).max() > 1.0
     assert np.ptp(shift_mm[-500:], axis=0).max() < 0.5

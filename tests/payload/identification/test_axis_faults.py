@@ -66,7 +66,7 @@ def test_a_planted_fault_is_named(fault: str) -> None:
     assert _named(fault, 5) >= 4
 
 
-@pytest.mark.parametrize(("first", "second"), [(0, 1), (0, 2), (1, 2), (3, 4), (4, 5)])
+@some_cases(("first", "second"), [(0, 1), (0, 2), (1, 2), (3, 4), (4, 5)], quick=2)
 def test_the_share_that_exchanged_axes_leave_is_that_of_these_axes(first: int, second: int) -> None:
     """Noise of both columns over their misfit as they are listed, by the geometric mean; others do not count."""
     rng = np.random.default_rng(11)
@@ -140,7 +140,7 @@ def test_the_forces_that_a_turned_mount_leaves_are_those_of_its_fit() -> None:
     assert f": residual {before:.2g} -> {after:.2g} N; " in row.description
 
 
-@pytest.mark.parametrize("fault", FAULTS[:3])
+@some_cases("fault", FAULTS[:3])
 def test_the_size_of_the_loads_changes_no_name(fault: str) -> None:
     """Wrenches with their noise, a thousand times as large, leave the same share."""
     problem, words = _problem(fault, FIRST_SEED)

@@ -19,6 +19,7 @@ from forcetorque.payload.identification.bias_drift_and_jumps import (
 from forcetorque.payload.identification.estimation_problem import LoadProblem, together
 from forcetorque.payload.identification.loads_with_intervals import load_estimates, session_estimates, solve
 from forcetorque.payload.identification.robust_fit import fit
+from tests.cases import some_cases
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 SEEDS = 200
@@ -257,7 +258,7 @@ def _stepped(seed: int, *, size: float, lasting: bool) -> tuple[LoadProblem, int
     return problem_of(weight(gravity) + SIZES * noise, gravity, time_s=np.arange(60.0)), row, axis
 
 
-@pytest.mark.parametrize("lasting", [False, True])
+@some_cases("lasting", [False, True])
 def test_a_step_is_found_in_its_row_and_axis_and_noise_has_none(lasting: bool) -> None:
     """Of 10 draws of noise none: if one in a thousand has one, 1 % of such runs fail. Steps of 8 and 12 deviations.
 
@@ -268,6 +269,17 @@ def test_a_step_is_found_in_its_row_and_axis_and_noise_has_none(lasting: bool) -
     steps = [_stepped(800 + k, size=12.0 if lasting else 8.0, lasting=lasting) for k in range(10)]
     found = [(strongest_jump(fit(one, drift=False)), row, axis) for one, row, axis in steps]
     assert sum(one is not None and abs(one[0] - row) <= 2 and one[1] == axis for one, row, axis in found) >= 8
+
+
+def test_a_power_up_without_a_row_is_listed_without_numbers() -> None:
+    """Such as one whose samples were all left out; the other has the bias of a solution without it."""
+    gravity = poses(12, np.random.default_rng(5))
+    reading = weight(gravity) + SIZES * np.random.default_rng(6).normal(size=(12, 6))
+    one, empty = session_estimates(fit(problem_of(reading, gravity, sessions=("first", "second")), drift=False))
+    (alone,) = session_estimates(fit(problem_of(reading, gravity), drift=False))
+    assert (one.observations, one.bias, one.bias_half_width_95) == (12, alone.bias, alone.bias_half_width_95)
+    assert (empty.session, empty.observations, empty.at_s, empty.drift_per_s) == ("second", 0, None, None)
+    assert empty.bias == empty.bias_half_width_95 == (None,) * 6
 
 
 def test_blocks_are_sixths_of_every_power_up_that_has_two_rows_in_each() -> None:

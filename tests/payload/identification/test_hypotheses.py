@@ -17,6 +17,7 @@ from forcetorque.payload.identification.estimation_problem import Load, LoadProb
 from forcetorque.payload.identification.frame_unit_and_clock_errors import _lag, hypotheses, unexplained
 from forcetorque.payload.identification.loads_with_intervals import load_estimates, solve
 from forcetorque.payload.identification.robust_fit import FALSE_ALARMS, fit, plain_fit, row_weights, scales
+from tests.cases import some_cases
 from tests.payload.identification.payloads import (
     CENTRE,
     GRAVITY as GRAVITY_SIZE,
@@ -249,7 +250,7 @@ def test_units_are_not_doubted_where_the_interval_reaches_the_limit(
 
 
 @pytest.mark.parametrize(("turned", "names"), [(MOVING, ["frozen log"]), (RESTING, [])], ids=["moving", "resting"])
-@pytest.mark.parametrize("rounding", [0.0, 1e-16])
+@some_cases("rounding", [0.0, 1e-16])
 @pytest.mark.parametrize("loads", [(Load(name="tool"),), KNOWN], ids=["unknown", "stated"])
 def test_a_frozen_log_has_no_other_cause(
     turned: Rotation, names: list[str], rounding: float, loads: tuple[Load, ...]
@@ -332,6 +333,53 @@ def test_loads_stated_as_nothing_have_no_size() -> None:
     for noise in (0.0, 1.0):
         problem = problem_of(BIAS + noise * (_reading() - weight(GRAVITY) - BIAS), GRAVITY, loads=nothing)
         assert not _is_of_another_size(problem)
+
+
+@pytest.mark.parametrize(("stated", "sizes"), [(KNOWN[0], ["mass_kg", "moments are in N mm"]), (None, ["mass_kg"])])
+def test_moments_have_a_size_where_every_load_that_hangs_has_a_centre_of_mass(
+    stated: Load | None, sizes: list[str]
+) -> None:
+    """A bare sensor beside it needs none. Forces are twelve times as large, which no unit makes, moments in N mm."""
+    load = np.repeat([0, 1], COUNT // 2)
+    hanging = Load(name="tool", mass=MASS) if stated is None else stated
+    reading = np.where(load[:, None] == 0, BIAS, BIAS + (_reading() - BIAS) * np.repeat([12.0, 1000.0], 3))
+    problem = problem_of(reading, GRAVITY, loads=(Load(name="bare", mass=0.0), hanging), load=load)
+    named = [row.description for row in scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True)]
+    assert [words in text for words, text in zip(sizes, named, strict=True)] == [True] * len(sizes)
+
+
+@pytest.mark.parametrize(
+    ("name", "noise_N", "named"),
+    [
+        ("wrench in world axes", 0.9, True),
+        ("wrench in world axes", 1.6, False),
+        ("wrench turned twice", 0.1, True),
+        ("wrench turned twice", 0.4, False),
+    ],
+)
+def test_forces_alone_name_other_axes_where_they_leave_less_than_a_fifth(
+    name: str, noise_N: float, named: bool
+) -> None:
+    """Of what they leave as stated: all, or a third. By least squares of forces; moments are noise and say nothing."""
+    in_world, rng = name == "wrench in world axes", np.random.default_rng(4)
+    small = Rotation.from_rotvec(0.4 * np.random.default_rng(7).normal(size=(COUNT, 3))).as_matrix()
+    rotations = ROTATIONS if in_world else small
+    gravity = np.einsum("nji,j->ni", rotations, [0.0, 0.0, -9.80665])
+    own = weight(gravity)[:, :3] + noise_N * rng.normal(size=(COUNT, 3))
+    stated = np.einsum("nij,nj->ni" if in_world else "nji,nj->ni", rotations, own)
+    shares = []
+    for force in (own, stated):
+        columns = np.column_stack([gravity.ravel(), np.tile(np.eye(3), (COUNT, 1))])
+        (_, left, *_) = np.linalg.lstsq(columns, force.ravel())
+        shares.append(np.sqrt(left[0] / ((force - force.mean(axis=0)) ** 2).sum()))
+    assert (shares[1] > 0.9) == in_world
+    share = shares[0] / shares[1]
+    assert (share < 0.2) == named
+    problem = problem_of(np.hstack([stated, 2.0 * rng.normal(size=(COUNT, 3))]), gravity, orientation=rotations)
+    found = [row for row in hypotheses(fit(problem, drift=False), drift=False) if row.name == name]
+    assert len(found) == named
+    for row in found:
+        assert row.residual_share == pytest.approx(share, rel=0.02)
 
 
 def test_the_share_that_a_reversed_sense_leaves_is_that_of_what_the_stated_one_does() -> None:

@@ -6,16 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import cache
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-import pytest
 
 from forcetorque.base.arrays import FloatArray
 from forcetorque.base.wrench import MeasureDirection
 from forcetorque.payload.identification.estimation_problem import Load, LoadProblem
 from forcetorque.payload.identification.load_estimates import LoadSolution
 from forcetorque.payload.identification.loads_with_intervals import solve
+from tests.cases import some_cases
 from tests.payload.identification.payloads import CENTRE, MASS, SIZES, poses, problem_of, slow, weight
 
 ROUNDING = 1e-12
@@ -250,8 +251,12 @@ CHANGES: dict[str, tuple[Callable[[LoadProblem], LoadProblem], Callable[[str, Fl
 }
 
 
-@pytest.mark.parametrize("change", CHANGES)
-@pytest.mark.parametrize("problem", PROBLEMS)
+def _repeats(case: tuple[str, str]) -> bool:
+    """Whether a case repeats others: quick are every change of the fastest problem, and every problem once."""
+    return case[0] != "moving" and case[1] != "unit of force"
+
+
+@some_cases(("problem", "change"), sorted(product(PROBLEMS, CHANGES), key=_repeats), quick=7)
 def test_quantities_change_with_units_signs_and_axes(problem: str, change: str) -> None:
     """By the change of the quantity that its definition states, or not at all."""
     changed, expected = CHANGES[change]

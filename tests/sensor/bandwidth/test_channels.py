@@ -10,8 +10,9 @@ from scipy.signal import lfilter
 from forcetorque.base.arrays import FloatArray
 from forcetorque.sensor.bandwidth.driven_response import ChannelResponse, channel_responses
 from forcetorque.sensor.bandwidth.excited_records import EvenRecord, ExcitationKind, ExcitedRecord
+from tests.cases import some_cases
 
-RATE_HZ, SECONDS = 100.0, 30.0
+RATE_HZ = 100.0
 NATURAL_HZ, GAINS, DAMPING = (4.0, 6.0, 8.0, 10.0, 12.0, 14.0), (0.9, 0.95, 1.0, 1.05, 1.1, 1.2), 0.3
 LEVER_M = 0.1
 SEEDS = range(4100, 4120)
@@ -23,13 +24,14 @@ in none."""
 def _record(
     rng: np.random.Generator,
     *,
+    seconds: float = 15.0,
     lever: bool = False,
     swapped: bool = False,
     stays_at: float | None = None,
     reversed_channel: int | None = None,
 ) -> ExcitedRecord:
     """Six resonances driven by white forces; the moment tx by fz at a lever; fx and fy read each other's; fx stays."""
-    force = rng.normal(size=(round(RATE_HZ * SECONDS), 6))
+    force = rng.normal(size=(round(RATE_HZ * seconds), 6))
     if lever:
         force[:, 3] = LEVER_M * force[:, 2]
     reading = np.empty_like(force)
@@ -68,7 +70,7 @@ def test_intervals_of_every_channel_hold_the_truth() -> None:
     """Gain at the lowest frequency, within its interval; another channel's gain is not."""
     held, other = [], []
     for seed in SEEDS:
-        channels = _channels(_record(np.random.default_rng(seed)))
+        channels = _channels(_record(np.random.default_rng(seed), seconds=30.0))
         assert [row.channel for row in channels] == ["fx", "fy", "fz", "tx", "ty", "tz"]
         for k, row in enumerate(channels):
             assert row.moves_with is None
@@ -90,7 +92,7 @@ def test_a_channel_that_reads_another_force_has_no_gain() -> None:
     assert "simulated, fx: no transfer function" in channels[0].undetermined
 
 
-@pytest.mark.parametrize("stays_at", [0.0, 0.1])
+@some_cases("stays_at", [0.0, 0.1])
 def test_a_channel_that_does_not_move_says_so(stays_at: float) -> None:
     """A broken cable explains nothing, in numbers that JSON can hold; the other five channels are as before."""
     channels = _channels(_record(np.random.default_rng(4250), stays_at=stays_at))
@@ -104,7 +106,7 @@ def test_a_channel_that_does_not_move_says_so(stays_at: float) -> None:
 
 def test_a_reversed_channel_has_a_negative_gain() -> None:
     """All channels are judged at one low frequency, by gains with a sign."""
-    channels = _channels(_record(np.random.default_rng(4270), reversed_channel=1))
+    channels = _channels(_record(np.random.default_rng(4270), seconds=30.0, reversed_channel=1))
     assert [row.reversed for row in channels] == [False, True, False, False, False, False]
     for k, row in enumerate(channels):
         assert row.lowest_hz == channels[0].lowest_hz

@@ -20,6 +20,7 @@ from forcetorque.sensor.bandwidth.response import response
 from forcetorque.sensor.figures import response_figure
 from forcetorque.sensor.transfer.static_curves import FITTERS, channel_curve, static_curves
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.scenes.experiments import PARQUET, write_experiments
 
 QUICK = {name: FITTERS[name] for name in ("linear", "polynomial", "piecewise_linear", "spline")}
@@ -75,7 +76,7 @@ def test_sessions_keep_their_own_offsets(tmp_path: Path) -> None:
     assert curves[BENT].linear_rmse < 0.2 * 3000.0
 
 
-@pytest.mark.parametrize("noise", [0.0, 3.0])
+@some_cases("noise", [3.0, 0.0])
 def test_a_channel_that_the_load_does_not_move_gets_no_verdict(tmp_path: Path, run: Run, noise: float) -> None:
     """Whether it stands still or is noisy, and the answer says so."""
     rng = np.random.default_rng(3)

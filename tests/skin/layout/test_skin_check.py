@@ -25,6 +25,7 @@ from forcetorque.skin.layout.triangular_modules import (
     placed_pads,
 )
 from forcetorque.skin.surface import skin_surface
+from tests.cases import some_cases
 from tests.scenes.patches import collapsed, cylinder_patch
 
 
@@ -126,7 +127,7 @@ def _counts(answer: SkinCheck) -> dict[Defect, tuple[int, ...]]:
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize("name", PUBLISHED)
+@some_cases("name", PUBLISHED, quick=4)
 def test_published_layouts_have_these_findings(data_dir: Path, name: str) -> None:
     """Every one has some, none has others."""
     assert _counts(_checked(data_dir, name)) == PUBLISHED[name]
@@ -234,7 +235,7 @@ LEFT_OUT_DEG = {
 
 
 @pytest.mark.real_data
-@pytest.mark.parametrize("name", LEFT_OUT_DEG)
+@some_cases("name", LEFT_OUT_DEG, quick=2)
 def test_the_others_foretell_how_a_module_lies(data_dir: Path, name: str) -> None:
     """Each left out in its turn: on legs, whose neighbours are 14 to 18 degrees apart, within two; on an arm in ten."""
     patch = describe_patch(_positions(data_dir) / f"{name}.txt")

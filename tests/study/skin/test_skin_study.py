@@ -119,6 +119,7 @@ def test_stated_errors_are_found() -> None:
     assert sum(row.beyond_range for row in study.loads) == study.trials
 
 
+@pytest.mark.long
 def test_intervals_hold_the_mean_of_many_trials() -> None:
     """Of 100 studies of five trials, 95 % intervals of a mean error hold the true one as binomial counts do.
 
