@@ -86,8 +86,8 @@ web-check: $(VENV)/test.stamp
 web-types: $(VENV)/run.stamp
 	$(BIN)/python -m forcetorque.viewer.typescript web/src
 
-# uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed; bytecode is made once,
-# where the first commands, and every test process, would otherwise compile all they import
+# uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed. Bytecode is made once for
+# the first commands; the tests make that of what they import, in `compiled`
 $(BIN)/uv:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=...")'
 	$(PYTHON) -m venv $(VENV)
@@ -98,7 +98,7 @@ $(VENV)/run.stamp: $(BIN)/uv pyproject.toml uv.lock
 	touch $@
 
 $(VENV)/test.stamp: $(BIN)/uv pyproject.toml uv.lock
-	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra test
+	$(BIN)/uv sync --quiet --locked --inexact --extra test
 	touch $@ $(VENV)/run.stamp
 
 $(VENV)/test-long.stamp: $(BIN)/uv pyproject.toml uv.lock

@@ -96,7 +96,6 @@ def _fitted(means: list[WindowMeans], prior: FloatArray | None, *, drift: bool) 
     ("sessions", "drift", "prior"),
     [(5, False, PRIOR), (2, True, PRIOR), (1, False, PRIOR), (5, True, None)],
     ids=["a session each", "recordings share sessions that drift", "one session", "no prior"],
-    quick=2,
 )
 def test_cells_change_no_number(
     sessions: int, drift: bool, prior: FloatArray | None, monkeypatch: pytest.MonkeyPatch
@@ -108,7 +107,7 @@ def test_cells_change_no_number(
     _assert_same(_fitted(means, prior, drift=drift), together)
 
 
-@pytest.mark.parametrize("together", [5, 1], ids=["one cell", "cells"])
+@some_cases("together", [1, 5], ids=["cells", "one cell"])
 def test_blocks_change_no_number(together: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Columns of 9 means at a time, which divide recordings of 12, give what those of all give."""
     means = _recordings(5, 2)
@@ -180,7 +179,7 @@ def _with_pulls(means: list[WindowMeans], axes: str) -> list[WindowMeans]:
     return pulled
 
 
-@pytest.mark.parametrize("together", [5, 1], ids=["one cell", "cells"])
+@some_cases("together", [1, 5], ids=["cells", "one cell"])
 def test_terms_are_left_out_of_rows_that_they_do_not_act_on(together: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """That changes no number; a pull is found along its axis, and one that acts on no row keeps its tolerance."""
     monkeypatch.setattr(design, "MOST_TOGETHER", together)

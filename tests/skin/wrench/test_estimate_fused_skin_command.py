@@ -21,6 +21,7 @@ from forcetorque.experiment.offsets import corrections_of
 from forcetorque.skin.section import force_patches
 from forcetorque.skin.wrench.skin_wrench import PatchFrames
 from tests.app.outcome import Run
+from tests.cases import some_cases
 from tests.robot.mechanics.simulated import Simulation
 from tests.scenes.moving_leg import CURRENT, DRIVEN, FILE, FT, RATE_HZ, SKIN, Faults, changed, write_moving_leg
 
@@ -71,7 +72,7 @@ def test_all_sources_stand_beside_each_other_and_together(run: Run, sound: Leg) 
     assert np.ptp(truth.torque("hip_pitch")[rows]) > 10.0 * ERROR_NM
 
 
-@pytest.mark.parametrize(
+@some_cases(
     ("without", "names"),
     [
         ((CURRENT,), ("ft", "skin")),
