@@ -67,3 +67,11 @@ def test_rounded_numbers_have_few_digits() -> None:
     digits = [_digits(number) for number in few.ravel()]
     assert max(digits) == 9
     assert max(_digits(number) for number in values.ravel()) > 14
+
+
+def test_numbers_near_the_end_of_floating_point_are_rounded_too() -> None:
+    """None becomes what JSON does not have."""
+    values = np.array([5e-324, -1e-305, 1.2345e-291, -1.23456e300, 0.0])
+    with np.errstate(all="raise"):
+        few = rounded(values, 4)
+    np.testing.assert_allclose(few, [0.0, 0.0, 1.23e-291, -1.235e300, 0.0], rtol=1e-15, atol=0.0)

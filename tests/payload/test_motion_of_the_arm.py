@@ -48,8 +48,11 @@ frame = "wrist"
 """
 
 
-def _run(angle: np.ndarray, folder: Path, *, held: bool = False) -> SensorRun:
-    """Log of a sensor that turns about y, `ARM` away from the axis along its -z; of poses it is cut between them."""
+def _run(angle: np.ndarray, folder: Path, *, held: bool = False, noise: float = 0.0) -> SensorRun:
+    """Log of a sensor that turns about y, `ARM` away from the axis along its -z; of poses it is cut between them.
+
+    The noise is that of the logged gravity, m/s2.
+    """
     time = np.arange(len(angle)) / RATE_HZ
     speed = np.zeros_like(angle) if held else np.gradient(angle, time)
     turning = np.gradient(speed, time)
@@ -59,7 +62,8 @@ def _run(angle: np.ndarray, folder: Path, *, held: bool = False) -> SensorRun:
     force = MASS * (gravity - moved)
     wrench = np.hstack([force, np.cross(CENTRE, force)]) + [2.0, -1.0, 5.0, 0.1, 0.2, -0.1]
     wrench += np.random.default_rng(3).normal(size=wrench.shape) * NOISE
-    table = np.column_stack([time, wrench, gravity])
+    logged = gravity + noise * np.random.default_rng(9).normal(size=gravity.shape)
+    table = np.column_stack([time, wrench, logged])
     np.savetxt(folder / "log.csv", table, delimiter=",", comments="", header="t,fx,fy,fz,tx,ty,tz,gx,gy,gz", fmt="%.9g")
     path = folder / "wrist.toml"
     path.write_text(TEXT)
@@ -107,3 +111,12 @@ def test_held_poses_are_not_named(tmp_path: Path) -> None:
     angle = np.repeat(np.random.default_rng(5).uniform(-3.0, 3.0, 24), 33)
     weighed = weigh_load(_run(angle, tmp_path, held=True))
     assert "motion of the arm" not in [row.name for row in weighed.hypotheses]
+
+
+def test_noise_of_the_orientation_is_no_motion(tmp_path: Path) -> None:
+    """Gravity by an accelerometer scatters by some mrad at rest, which is fast from sample to sample."""
+    angle = np.repeat(np.random.default_rng(5).uniform(-3.0, 3.0, 24), 300)
+    for noise in (0.02, 0.05):
+        assert not weigh_load(_run(angle, tmp_path, held=True, noise=noise)).hypotheses
+    turning = weigh_load(_run(_turn(4.0), tmp_path, noise=0.02))
+    assert [row.name for row in turning.hypotheses] == ["motion of the arm"]

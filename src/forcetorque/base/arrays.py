@@ -327,9 +327,9 @@ def rounded(values: FloatArray, digits: int) -> FloatArray:
         digits: Number of digits.
 
     Returns:
-        The numbers; a symmetric matrix stays one.
+        The numbers; a symmetric matrix stays one. Those below 1e-290 lose digits, and become 0 in the end.
     """
-    size = np.where(values == 0.0, 1.0, np.abs(values))
+    size = np.maximum(np.abs(values), 1e-290)  # the scale of smaller ones is beyond floating point
     scale = 10.0 ** (digits - 1 - np.floor(np.log10(size)))
     return np.asarray(np.round(values * scale) / scale)
 

@@ -19,6 +19,12 @@ _FEW_VALUES = 20
 """Values by which full scales are ruled out first."""
 _OFF = 0.02
 """Mean distance from a whole number of steps that decimals of a log leave; without steps it is a quarter."""
+_DECIMALS_IN_STEP = 10
+"""Steps of the decimals of a log that a step of a board has at least: coarser decimals are steps themselves."""
+_MOST_DECIMALS = 6
+"""Decimals that a log is looked at for."""
+_NEXT = 0.75
+"""Part of the largest full scale that fits, above which others may fit values of few steps better."""
 _FEWEST_COMPONENTS = 4
 """Components that show steps, in a log of a board."""
 
@@ -44,7 +50,7 @@ def full_scales_of_steps(wrench: FloatArray) -> tuple[int | None, ...] | None:
 
     Returns:
         Full scale of every component, None where it hardly changes; N, N m. None where the wrenches are in no steps, as
-        of another device, or after a filter or another frame.
+        of another device, or after a filter or another frame, and where the decimals of the log are too few.
     """
     scales: list[int | None] = []
     for values in _seen(wrench).T:
@@ -52,21 +58,32 @@ def full_scales_of_steps(wrench: FloatArray) -> tuple[int | None, ...] | None:
         if len(distinct) < _FEWEST_VALUES:
             scales.append(None)
             continue
-        least = max(1, int(np.ceil(np.abs(distinct).max())))
-        scale = np.arange(LARGEST_FULL_SCALE, least - 1, -1)
+        least = max(1, int(np.ceil(max(np.abs(distinct).max(), _DECIMALS_IN_STEP * _decimal(distinct) * Q15_ONE))))
+        # as many different codes span as many steps: values within a step or two are in steps of any size
+        most = min(LARGEST_FULL_SCALE, int(np.ptp(distinct) * Q15_ONE / (_FEWEST_VALUES - 2)))
+        scale = np.arange(most, least - 1, -1)
         few = distinct[:: len(distinct) // _FEW_VALUES, None] / scale * Q15_ONE
         possible = scale[np.abs(few - np.round(few)).mean(axis=0) < _OFF]
-        # steps of a part of a full scale are whole numbers of its steps: the largest is meant
-        largest = next((int(one) for one in possible if _off(distinct, one) < _OFF), None)
-        if largest is None:
+        off = {int(one): _off(distinct, one) for one in possible}
+        fitting = [one for one in off if off[one] < _OFF]
+        if not fitting:
             return None
-        scales.append(largest)
+        # steps of a part of a full scale are whole numbers of its steps: the largest is meant, or one next to it
+        scales.append(min((one for one in fitting if one > _NEXT * max(fitting)), key=lambda one: off[one]))
     return tuple(scales) if len(scales) - scales.count(None) >= _FEWEST_COMPONENTS else None
 
 
 def _seen(wrench: FloatArray) -> FloatArray:
     rows = wrench[:: max(1, len(wrench) // _MOST_ROWS)]
     return rows[np.isfinite(rows).all(axis=1)]
+
+
+def _decimal(values: FloatArray) -> float:
+    """Last decimal that values have; 0 beyond `_MOST_DECIMALS`."""
+    for decimals in range(_MOST_DECIMALS):
+        if np.allclose(values, np.round(values, decimals), rtol=0.0, atol=1e-3 * 10.0**-_MOST_DECIMALS):
+            return float(10.0**-decimals)
+    return 0.0
 
 
 def _off(values: FloatArray, full_scale: float) -> float:

@@ -87,6 +87,8 @@ _TURNING_RAD_S = 0.05
 """Angular speed above which a sensor turns; rad/s (heuristic)."""
 _TURNING_SHARE = 0.25
 """Share of samples in which a sensor turns, from which on they decide on the load (heuristic)."""
+_ABOVE_NOISE = 4.0
+"""Squared turn over that of noise, which is larger in 2 % of windows at rest, were the noise known."""
 _STEP_S = 0.05
 """Length of a window in which a turn is differentiated; s."""
 _MOST_WINDOWS = 20000
@@ -140,7 +142,14 @@ def moving_without_acceleration(run: SensorRun, loads: Sequence[LoadEstimate]) -
 
 
 def _turning_speeds(turned: Stream, used: BoolArray, steps: int) -> FloatArray:
-    """How fast gravity turns in windows of so many steps, rad/s; a cut between two poses is one step, and no motion."""
+    """How fast gravity turns in windows of so many steps, rad/s.
+
+    A cut between two poses is one step, and no motion. Nor is a turn that noise of the orientation makes: of noise,
+    squared second differences are three times the squared turn from first to last.
+
+    Returns:
+        Speeds of the windows whose samples are all used; 0 where noise explains the turn.
+    """
     starts = np.arange(0, len(turned) - steps, max(1, len(turned) // _MOST_WINDOWS))
     rows = starts[:, None] + np.arange(steps + 1)
     rows = rows[used[rows].all(axis=1)]
@@ -150,6 +159,8 @@ def _turning_speeds(turned: Stream, used: BoolArray, steps: int) -> FloatArray:
     with np.errstate(divide="ignore", invalid="ignore"):
         single = np.median(np.linalg.norm(np.diff(down, axis=1), axis=2) / seconds, axis=1)
         speeds: FloatArray = np.minimum(single, np.linalg.norm(down[:, -1] - down[:, 0], axis=1) / seconds.sum(axis=1))
+    noise = (np.diff(down, n=2, axis=1) ** 2).sum(axis=2).mean(axis=1) / 3.0
+    speeds[((down[:, -1] - down[:, 0]) ** 2).sum(axis=1) < _ABOVE_NOISE * noise] = 0.0
     return speeds[np.isfinite(speeds)]
 
 

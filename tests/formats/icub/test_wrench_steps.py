@@ -51,3 +51,27 @@ def test_other_wrenches_are_in_no_steps(kind: str) -> None:
         wrench = np.stack([np.convolve(one, [0.2, 0.5, 0.3], "valid") for one in wrench.T], axis=1)
     assert full_scales_of_steps(wrench) is None
     assert not is_in_steps(wrench, np.array(SCALES, dtype=float))
+
+
+@pytest.mark.parametrize("decimals", [2, 3, 4])
+def test_few_decimals_show_no_steps_of_small_moments(decimals: int) -> None:
+    """Moments of some steps, as of a leg at rest, are then not in steps of their matrix, nor of a larger one."""
+    codes = np.round(np.random.default_rng(3).normal(0.0, 20.0, size=(2000, 6)))
+    assert full_scales_of_steps(codes * np.array(SCALES) / 2**15) == SCALES
+    wrench = np.round(codes * np.array(SCALES) / 2**15, decimals)
+    assert not is_in_steps(wrench, np.array(SCALES, dtype=float))
+    assert full_scales_of_steps(wrench) is None
+
+
+@pytest.mark.parametrize("kind", ["at rest", "tenths", "whole numbers"])
+def test_wrenches_of_another_device_show_no_full_scales(kind: str) -> None:
+    """Noise that is smaller than any step, and decimals that are steps themselves."""
+    rng = np.random.default_rng(4)
+    if kind == "at rest":
+        wrench = rng.normal(size=(900, 6)) * 1e-3
+        wrench[:, 2] = -9.81
+    elif kind == "tenths":
+        wrench = np.round(rng.normal(size=(900, 6)) * [20.0, 20.0, 20.0, 2.0, 2.0, 2.0], 1)
+    else:
+        wrench = rng.integers(-300, 300, size=(900, 6)).astype(float)
+    assert full_scales_of_steps(wrench) is None
