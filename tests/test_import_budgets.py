@@ -137,6 +137,7 @@ def test_an_evaluation_loads_one_log_format(
     assert sum(module.startswith("forcetorque.") for module in modules) <= MOST_MODULES
 
 
+@pytest.mark.long
 def test_a_schema_loads_all_log_formats(bytecode: dict[str, str]) -> None:
     """Negative control: what has the tables of all formats loads them."""
     _, modules = _run(_START, bytecode, "schema", "experiment")

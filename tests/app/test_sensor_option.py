@@ -24,6 +24,7 @@ def test_accept_takes_the_named_sensor(arm: Path, run: Run, tmp_path: Path) -> N
     assert (len(sensors[0]), sensors[1]) == (2, {"arm_ft"})
 
 
+@pytest.mark.long
 def test_report_is_about_the_named_sensor(arm: Path, run: Run, tmp_path: Path) -> None:
     """Of two sensors without a calibration one is assessed."""
     page = tmp_path / "one.html"

@@ -61,6 +61,7 @@ def test_a_file_twice_is_refused(days: Path, run: Run) -> None:
     assert "expected every experiment file once, it comes twice" in error
 
 
+@pytest.mark.long
 def test_memory_of_all_samples_is_stated(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where a fit holds them all and that is much; a fit of segments says nothing."""
     thesis = ("calibrate", CALIBRATION[0], "--lambda", "5", "-o", "a.json", "--force")

@@ -87,6 +87,7 @@ def test_pushes_are_noticed_on_their_link_or_before_it(result: JointCollisions) 
         assert abs(row.torque_Nm) > row.half_width_95_Nm
 
 
+@pytest.mark.long
 def test_a_higher_rate_of_alarms_has_lower_thresholds(arm: Path, result: JointCollisions) -> None:
     """Of every joint; with thousands an hour there are contacts beside the pushes, the negative control."""
     loose = _found(arm, 3600.0)

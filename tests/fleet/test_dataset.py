@@ -118,6 +118,7 @@ def test_evaluation_is_that_of_the_logs(added: Path, recorded: Path) -> None:
         assert use.errors[0].measured == pytest.approx(verdict.errors[0].measured, rel=1e-9)
 
 
+@pytest.mark.long
 def test_comparison_with_the_prior_is_that_of_the_logs(added: Path, recorded: Path) -> None:
     """A calibration that is made worse than its prior is found so by blocks as by samples."""
     dataset = Dataset.opened(added)

@@ -114,6 +114,7 @@ def test_a_bag_is_enough(tmp_path: Path, run: Run, form: str, left_out: tuple[st
     assert shown.splitlines()[:4] == run("payload", log).out.splitlines()[:4]
 
 
+@pytest.mark.long
 def test_a_bag_is_decoded_once(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every topic, though frame, description and experiment file each need some of it."""
     decoded: list[str] = []

@@ -244,6 +244,7 @@ def test_an_unknown_sensor_is_refused_with_the_known_ones(intact: Path) -> None:
         _view(intact / PARQUET, sensors=["arm_fz"])
 
 
+@pytest.mark.long
 def test_series_have_the_names_of_files_without_folders(intact: Path) -> None:
     """But for as many as tell them apart, from each other and from what is read otherwise."""
     experiment = load_experiment(intact / PARQUET)

@@ -334,6 +334,7 @@ def test_few_triangles_are_left_alone_and_many_are_reduced_together() -> None:
     assert simplified([]) == ()
 
 
+@pytest.mark.long
 def test_an_icub_has_all_its_meshes() -> None:
     """The installed package of models is found without being named; its triangles are reduced to what a page bears."""
     geometry, block = _geometry(icub("iCubGenova04"))

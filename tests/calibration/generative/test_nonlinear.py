@@ -97,6 +97,7 @@ def test_a_refused_correction_leaves_the_linear_calibration() -> None:
     assert asked.nonlinear.successes() == []
 
 
+@pytest.mark.long
 def test_the_matrix_is_that_of_the_linear_fit_and_offsets_go_with_the_terms() -> None:
     """Fitted recordings have no mean error by their own session's offset; without the terms they have one."""
     sensor = Specimen(2, CROSSTALK_COUNTS)

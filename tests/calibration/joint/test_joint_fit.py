@@ -181,6 +181,7 @@ def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
         fit_jointly([])
 
 
+@pytest.mark.long
 def test_equations_about_fits_that_are_near_to_each_other_leave_the_same() -> None:
     """To second order: what a fiftieth of the errors of the model does is the same by both but for a small part."""
     stretch = swaying(11, duration_s=2.0, **WRONG).stretch

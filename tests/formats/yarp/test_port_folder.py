@@ -145,6 +145,7 @@ def test_damaged_gzip_files_are_refused(tmp_path: Path, content: bytes, message:
         _read(folder)
 
 
+@pytest.mark.long
 def test_a_log_without_line_feeds_does_not_fill_the_memory(tmp_path: Path) -> None:
     """Of a small file that unpacks to 256 MB only the first blocks are unpacked."""
     folder = write_port(tmp_path, bytes(1 << 28), packed=True)

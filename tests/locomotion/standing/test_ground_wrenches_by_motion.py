@@ -219,6 +219,7 @@ def files(tmp_path: Path) -> Path:
     return tmp_path / "out" / "switching_day1.toml"
 
 
+@pytest.mark.long
 def test_files_of_simulate_have_soles(files: Path, run: Run) -> None:
     """`simulate switching` states both; balance reads them by sensors and by motion, and an offset is removed."""
     assert [entry.sole.frame for entry in load_experiment(files).section(SOLES)] == ["l_sole", "r_sole"]
