@@ -4,7 +4,6 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 WORKERS := -n auto --dist loadfile --no-loadscope-reorder
-ON_WINDOWS := --platform win32 --cache-dir .mypy_cache/win32
 SUITE := tests $(WORKERS) --data=$(DATA) -m "not long"
 
 .PHONY: demo test test-long test-matrix lint types types-windows compiled bench docs web web-test web-check web-types clean
@@ -31,13 +30,12 @@ lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
-# each platform has its own cache: one would make the other's useless; every file for Windows is of the long run
 types: $(VENV)/test.stamp
 	$(BIN)/mypy
-	$(BIN)/mypy $(ON_WINDOWS) $(shell grep -rlE 'sys\.platform|os\.name' src --include='*.py')
 
+# of the long run; each platform has its own cache, for one would make the other's useless
 types-windows: $(VENV)/test.stamp
-	$(BIN)/mypy $(ON_WINDOWS)
+	$(BIN)/mypy --platform win32 --cache-dir .mypy_cache/win32
 
 # what every worker of the tests would else compile for itself, functions and tests; the run shows errors of tests
 compiled: $(VENV)/test.stamp
